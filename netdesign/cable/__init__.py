@@ -1,0 +1,1 @@
+"""The net as an elastic cable between its foot and its head."""

@@ -1,0 +1,136 @@
+"""Equilibrium curve of an elastic cable under given nodal forces.
+
+The cable consists of quadratic elements, the very edges of the snow mesh, so that
+nodal forces pass from snow to net without interpolation. With two Gauss points in
+an element the tensions there follow from statics alone but for one vector, the
+pull at the foot, and that minimises a strictly convex function of two unknowns.
+Theory: cable/THEORY.md, eqs (C1) to (C5).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.numerics.newton import minimise_convex
+from netdesign.outcome import Outcome
+
+Floats = NDArray[np.float64]
+
+_GAUSS = 1.0 / np.sqrt(3.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Funicular:
+    """Equilibrium of the cable; usable only if converged.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Converged, or why there is no equilibrium.
+    curve : ndarray, shape (2, 2 n + 1)
+        Positions of the nodes, foot to head.
+    pull : ndarray, shape (2,)
+        Tension vector of the first element at its middle: start of a next solve.
+    tension : ndarray, shape (2, n)
+        Tension at the two Gauss points of each element.
+    foot_pull, head_pull : ndarray, shape (2,)
+        What the cable pulls with on foot and head.
+    """
+
+    outcome: Outcome
+    curve: Floats
+    pull: Floats
+    tension: Floats
+    foot_pull: Floats
+    head_pull: Floats
+
+
+def solve_funicular(
+    forces: Floats,
+    lengths: Floats,
+    stiffness: float,
+    head: Floats,
+    start: Floats,
+    *,
+    tolerance: float = 1e-12,
+) -> Funicular:
+    """Curve and tensions of a cable hung from the origin to ``head``.
+
+    Parameters
+    ----------
+    forces : ndarray, shape (2, 2 n + 1)
+        Nodal forces on the cable, foot to head, consistent with quadratic shape
+        functions. Those at the two ends go straight into the end pulls.
+    lengths : ndarray, shape (n,)
+        Unstressed lengths of the elements.
+    stiffness : float
+        ES, in the unit of the forces.
+    head : ndarray, shape (2,)
+        Upper end, in the unit of the lengths.
+    start : ndarray, shape (2,)
+        Guess of the tension vector near the foot.
+    tolerance : float
+        Gap at the head, over the total length, that counts as closed.
+
+    Returns
+    -------
+    Funicular
+        Outcome ``no_equilibrium`` if no pull at the foot closes the gap. Tensions
+        are sizes of vectors: no cable of this form can push.
+
+    Verified by
+    -----------
+    tests/verification/test_elastic_cable.py
+    """
+    bend = -0.75 * forces[:, 1::2]  # half the change of tension over an element
+    offset = _tension_offsets(forces, bend)
+    total = float(lengths.sum())
+    weights = lengths / (2.0 * total)
+
+    def gap_at_head(pull: Floats) -> tuple[Floats, Floats]:
+        """Gradient of the complementary energy (C4), and its Hessian."""
+        vector = pull[:, None, None] + offset
+        size = np.hypot(*vector)
+        direction = vector / size
+        stretch = 1.0 + size / stiffness
+        gradient = (weights * stretch * direction).sum(axis=(1, 2)) - head / total
+        along = np.einsum("iqe,jqe->ijqe", direction, direction)
+        across = np.eye(2)[:, :, None, None] - along
+        curvature = along / stiffness + across * stretch / size
+        return gradient, (weights * curvature).sum(axis=(2, 3))
+
+    minimum = minimise_convex(gap_at_head, start, tolerance=tolerance)
+    converged = minimum.outcome is Outcome.CONVERGED
+    vector = minimum.point[:, None, None] + offset
+    size = np.hypot(*vector)
+    middle = vector.mean(axis=1)
+    return Funicular(
+        outcome=Outcome.CONVERGED if converged else Outcome.NO_EQUILIBRIUM,
+        curve=_integrate_curve(vector * (1.0 / size + 1.0 / stiffness), lengths),
+        pull=minimum.point,
+        tension=size,
+        foot_pull=middle[:, 0] - 2.0 / 3.0 * bend[:, 0] + forces[:, 0],
+        head_pull=forces[:, -1] - middle[:, -1] - 2.0 / 3.0 * bend[:, -1],
+    )
+
+
+def _tension_offsets(forces: Floats, bend: Floats) -> Floats:
+    """Tension vectors at the Gauss points less the pull, shape (2, 2, n); (C3)."""
+    steps = 2.0 / 3.0 * (bend[:, :-1] + bend[:, 1:]) - forces[:, 2:-1:2]
+    middle = np.concatenate([np.zeros((2, 1)), np.cumsum(steps, axis=1)], axis=1)
+    return np.stack([middle - bend * _GAUSS, middle + bend * _GAUSS], axis=1)
+
+
+def _integrate_curve(slope: Floats, lengths: Floats) -> Floats:
+    """Node positions from dx/dS at the Gauss points, shape (2, 2, n)."""
+    mean = slope.mean(axis=1)
+    change = (slope[:, 1] - slope[:, 0]) / (2.0 * _GAUSS)
+    ends = np.cumsum(lengths * mean, axis=1)
+    starts = np.concatenate([np.zeros((2, 1)), ends[:, :-1]], axis=1)
+    curve = np.zeros((2, 2 * lengths.size + 1))
+    curve[:, 2::2] = ends
+    curve[:, 1::2] = starts + lengths / 2.0 * (mean - change / 2.0)
+    return curve

@@ -1,0 +1,183 @@
+"""Reads a profile folder into a frozen ``Standard``."""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from netdesign.checks.schema import (
+    DocumentFile,
+    Entry,
+    FactorsFile,
+    LimitsFile,
+    check_table,
+)
+from netdesign.errors import StandardError
+from netdesign.resources import find_resource
+from netdesign.units import radian_from_degree
+
+CONFIRM = "assumed: confirm in your copy of the standard"
+
+_FILES = ("document.toml", "limits.toml", "factors.toml")
+_HASHED_SUFFIXES = (".toml", ".md")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StandardValue:
+    """One value of a profile.
+
+    Attributes
+    ----------
+    id, clause, text, source : str
+        What it is and where it comes from; clause "-" where there is none.
+    value : float
+        As printed, in ``unit``.
+    unit : str
+        "deg" or "-".
+    status : str
+        "read" in the document, from a "secondary" source, "assumed", or "user".
+    """
+
+    id: str
+    clause: str
+    text: str
+    value: float
+    unit: str
+    status: str
+    source: str
+
+    @property
+    def value_si(self) -> float:
+        """The value in the program's units: radians, or a pure number [rad or -]."""
+        return radian_from_degree(self.value) if self.unit == "deg" else self.value
+
+    @property
+    def note(self) -> str:
+        """What a reader must still do about the value; "" if nothing."""
+        return CONFIRM if self.status == "assumed" else ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Standard:
+    """A limit profile: its identity, its values, and the hash of its files."""
+
+    id: str
+    title: str
+    edition: str
+    language: str
+    transcribed_by: str
+    checked_by: str
+    what_it_is: str
+    what_it_is_not: str
+    values: tuple[StandardValue, ...]
+    sha256: str
+
+    @property
+    def assumed(self) -> tuple[StandardValue, ...]:
+        """The values that the user must confirm in a copy of the standard."""
+        return tuple(value for value in self.values if value.status == "assumed")
+
+    def find(self, value_id: str) -> StandardValue | None:
+        """Value of that id, or None if the profile has none."""
+        return next((v for v in self.values if v.id == value_id), None)
+
+    def find_resistance_factor(self, mode: str, basis: str) -> StandardValue | None:
+        """Factor of a mode on that basis, else of the mode, else None."""
+        return self.find(f"resistance.{mode}.{basis}") or self.find(
+            f"resistance.{mode}"
+        )
+
+
+def list_standards() -> tuple[str, ...]:
+    """Ids of the profiles that come with the program, in alphabetical order."""
+    folder = find_resource("standards")
+    return tuple(sorted(path.parent.name for path in folder.glob("*/document.toml")))
+
+
+def load_standard(id_or_path: str | Path) -> Standard:
+    """Read and check one limit profile.
+
+    Parameters
+    ----------
+    id_or_path : str or Path
+        Id of a profile that comes with the program, or a profile's folder.
+
+    Returns
+    -------
+    Standard
+        Values as printed, each with its unit and source.
+
+    Raises
+    ------
+    StandardError
+        If there is no such profile, or its files are not as they must be.
+    """
+    if str(id_or_path) in list_standards():
+        return _load_folder(find_resource("standards") / id_or_path)
+    if Path(id_or_path).is_dir():
+        return _load_folder(Path(id_or_path))
+    raise StandardError(_explain_unknown(str(id_or_path)))
+
+
+def _explain_unknown(wanted: str) -> str:
+    known = list_standards()
+    near = difflib.get_close_matches(wanted.lower(), known, n=3, cutoff=0.5)
+    guess = f"did you mean {' or '.join(near)}? " if near else ""
+    return (
+        f"limit profile {wanted!r} is unknown: {guess}"
+        f"Accepted are {', '.join(known)}, or the path of a profile folder."
+    )
+
+
+def _load_folder(folder: Path) -> Standard:
+    contents = _read_files(folder)
+    document = check_table(DocumentFile, *_parse(contents, "document.toml", folder))
+    limits = check_table(LimitsFile, *_parse(contents, "limits.toml", folder))
+    factors = check_table(FactorsFile, *_parse(contents, "factors.toml", folder))
+    entries: list[Entry] = [*limits.limit, *factors.factor]
+    return Standard(
+        **document.model_dump(),
+        values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
+        sha256=_hash(contents),
+    )
+
+
+def _read_files(folder: Path) -> dict[str, bytes]:
+    """Files of the folder by name, with line ends as on Unix."""
+    missing = [name for name in _FILES if not (folder / name).is_file()]
+    if missing:
+        message = f"{folder}: lacks {', '.join(missing)}; needs {', '.join(_FILES)}"
+        raise StandardError(message)
+    try:
+        return {
+            path.name: path.read_bytes().replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+            for path in sorted(folder.iterdir())
+            if path.is_file() and path.suffix in _HASHED_SUFFIXES
+        }
+    except OSError as error:
+        message = f"{folder}: cannot be read: {error}"
+        raise StandardError(message) from error
+
+
+def _parse(
+    contents: dict[str, bytes], name: str, folder: Path
+) -> tuple[dict[str, object], str]:
+    """Table of one TOML file and its name for messages."""
+    label = str(folder / name)
+    try:
+        return tomllib.loads(contents[name].decode("utf-8-sig")), label
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        message = f"{label}: is not TOML in UTF-8: {error}"
+        raise StandardError(message) from error
+
+
+def _hash(contents: dict[str, bytes]) -> str:
+    """SHA-256 over names, sizes and contents, in the order of the names."""
+    digest = hashlib.sha256()
+    for name in sorted(contents):
+        digest.update(f"{name}\n{len(contents[name])}\n".encode())
+        digest.update(contents[name])
+    return digest.hexdigest()

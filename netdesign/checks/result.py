@@ -1,0 +1,109 @@
+"""What a check takes and what it gives."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+from netdesign.errors import ModelError
+from netdesign.outcome import Verdict
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Band:
+    """A size with the band in which it surely lies: 0 <= low <= value <= high."""
+
+    low: float
+    value: float
+    high: float
+
+    def __post_init__(self) -> None:
+        """Refuse disorder, negative sizes, NaN and infinity."""
+        if not (0.0 <= self.low <= self.value <= self.high < math.inf):
+            message = f"{self}: must be finite with 0 <= low <= value <= high"
+            raise ModelError(message)
+
+    def times(self, factor: float) -> Band:
+        """Multiply by a positive factor [-]."""
+        return Band(
+            low=self.low * factor, value=self.value * factor, high=self.high * factor
+        )
+
+    def over(self, divisor: float) -> Band:
+        """Divide by a positive number in the same unit."""
+        return Band(
+            low=self.low / divisor,
+            value=self.value / divisor,
+            high=self.high / divisor,
+        )
+
+
+class GivenResistance(Protocol):
+    """What a check reads of a resistance; ``site.model.Resistance`` is one."""
+
+    @property
+    def member(self) -> str:
+        """Member, as in "foot_anchor"."""
+
+    @property
+    def mode(self) -> str:
+        """What it fails by, as in "pull_out"."""
+
+    @property
+    def value(self) -> float | None:
+        """Characteristic resistance [N]; None where none is given."""
+
+    @property
+    def basis(self) -> str:
+        """How it was found: "tested", "computed", "declared", or ""."""
+
+    @property
+    def type_id(self) -> str:
+        """Id of the anchor, rope or post type, or ""."""
+
+    @property
+    def source(self) -> str:
+        """Cell where it stands or should stand."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckResult:
+    """One check. A number that does not exist is None, and never leads to a pass.
+
+    Attributes
+    ----------
+    id, clause, member, mode : str
+        Name of the check, clause of its limit ("-" if none), and its subject.
+    verdict : Verdict
+        From ``check.judge`` alone.
+    reason : str
+        Why, in one sentence.
+    action : Band or None
+        Characteristic force [N].
+    action_factor : float or None
+        Partial factor on the action [-].
+    demand : Band or None
+        Design force, action times factor [N].
+    resistance, resistance_factor, design_resistance : float or None
+        Characteristic [N], partial factor [-], and their quotient [N].
+    utilisation : Band or None
+        Demand over design resistance [-].
+    assumed : tuple of str
+        Ids of the profile's values in this check that are only assumed.
+    """
+
+    id: str
+    clause: str
+    member: str
+    mode: str
+    verdict: Verdict
+    reason: str
+    action: Band | None = None
+    action_factor: float | None = None
+    demand: Band | None = None
+    resistance: float | None = None
+    resistance_factor: float | None = None
+    design_resistance: float | None = None
+    utilisation: Band | None = None
+    assumed: tuple[str, ...] = ()

@@ -1,0 +1,1 @@
+"""Snow and net together: one scene, one solution."""

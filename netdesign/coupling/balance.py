@@ -1,0 +1,82 @@
+"""Tests that every coupled state must pass before it counts as a solution."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.funicular import Funicular
+from netdesign.coupling.interface import SupportForces
+from netdesign.coupling.solution import Balance
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.flow import FlowLaw
+from netdesign.snow.kernel import PlacedMesh
+
+Floats = NDArray[np.float64]
+
+
+def measure_balance(
+    law: FlowLaw,
+    mesh: PlacedMesh,
+    forces: SupportForces,
+    cable: Funicular,
+    force_scale: float,
+) -> Balance:
+    """Balance of a coupled state; forces are scaled by ``force_scale`` [N/m]."""
+    weight = mesh.area * np.array(law.gravity)
+    size = float(np.hypot(*weight))
+    missing = weight - forces.on_ground - cable.foot_pull - cable.head_pull
+    normal, tangential = _net_components(mesh, forces.on_net)
+    pressed = np.maximum(normal, 0.0)
+    excess = np.abs(tangential) - law.friction * pressed
+    return Balance(
+        weight_along_slope=float(weight[0]) * force_scale,
+        relative_residual=max(float(np.hypot(*missing)), forces.unbalanced) / size,
+        friction_excess=max(0.0, float(excess.max())) / size,
+        smallest_tension=float(cable.tension.min()) * force_scale,
+        suction_share=_negative_share(normal),
+        ground_tension_share=_negative_share(forces.ground_normal),
+    )
+
+
+def check_balance(balance: Balance, tolerance: float) -> None:
+    """Refuse a state that is not in balance.
+
+    Raises
+    ------
+    SolveError
+        With outcome ``balance_violated`` and the figure that was not met.
+    """
+    if not balance.relative_residual <= tolerance:
+        _refuse("force missing from the balance", balance.relative_residual, tolerance)
+    if not balance.friction_excess <= tolerance:
+        _refuse("shear beyond the friction limit", balance.friction_excess, tolerance)
+    if not balance.smallest_tension > 0.0:
+        raise SolveError(
+            Outcome.BALANCE_VIOLATED,
+            f"the net would have to push: tension {balance.smallest_tension:g} N/m",
+        )
+
+
+def _refuse(what: str, value: float, tolerance: float) -> None:
+    raise SolveError(
+        Outcome.BALANCE_VIOLATED,
+        f"{what}: {value:.1e} of the weight, accepted is {tolerance:.0e}",
+    )
+
+
+def _net_components(mesh: PlacedMesh, on_net: Floats) -> tuple[Floats, Floats]:
+    """Normal and tangential forces on the net above its foot."""
+    normal_x, normal_y = mesh.net_normal[:, 1:]
+    x, y = on_net[:, 1:]
+    return normal_x * x + normal_y * y, normal_x * y - normal_y * x
+
+
+def _negative_share(forces: Floats) -> float:
+    """Sum of negative entries over the sum of positive ones, as a positive number."""
+    positive = float(np.maximum(forces, 0.0).sum())
+    negative = float(np.maximum(-forces, 0.0).sum())
+    if negative == 0.0:
+        return 0.0
+    return negative / positive if positive > 0.0 else float("inf")

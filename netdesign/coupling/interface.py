@@ -1,0 +1,69 @@
+"""Forces that pass from the snow to the net and to the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.snow.flow import FlowLaw, FlowState, compute_residual, free_components
+from netdesign.snow.kernel import PlacedMesh
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SupportForces:
+    """Forces of the snow on what holds it, in the slope's axes [rho g d^2].
+
+    Attributes
+    ----------
+    on_net : ndarray, shape (2, n_net)
+        Nodal forces on the net, foot to head.
+    on_ground : ndarray, shape (2,)
+        Resultant on the ground.
+    ground_normal : ndarray, shape (n_ground - 1,)
+        Downward nodal forces on the ground, without the node at the foot.
+    unbalanced : float
+        Norm of the forces left on nodes that nothing holds.
+    """
+
+    on_net: Floats
+    on_ground: Floats
+    ground_normal: Floats
+    unbalanced: float
+
+
+def compute_support_forces(
+    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+) -> SupportForces:
+    """Forces on net and ground, the corner at the foot shared between them.
+
+    The corner node is held by both. Along a ground without reactions at nodes (free
+    or sliding) its X-force is all the net's; what else the net takes there follows
+    from the next node: a quarter of a midpoint's force, as under uniform traction.
+    The share is one corner element wide; coupling/THEORY.md, section 3.
+    """
+    residual = compute_residual(law, mesh, state)
+    supports = -mesh.to_slope_axes(residual)
+    template = mesh.template
+    on_net = supports[:, template.net]
+    corner = on_net[:, 0].copy()
+    on_net[:, 0] = on_net[:, 1] / 4.0
+    if law.ground != "no-slip":
+        on_net[0, 0] = corner[0]
+    ground = supports[:, template.ground[1:]]
+    on_ground = ground.sum(axis=1) + corner - on_net[:, 0]
+    if law.ground != "no-slip":
+        on_ground[0] = 0.0
+    if state.base_shear is not None:
+        on_ground[0] = float((mesh.base.weights * state.base_shear).sum())
+    held = ~free_components(law, mesh)
+    held[2 * template.net + 1] = True  # friction, tested on its own
+    return SupportForces(
+        on_net=on_net,
+        on_ground=on_ground,
+        ground_normal=-ground[1],
+        unbalanced=float(np.linalg.norm(residual[~held])),
+    )

@@ -1,0 +1,340 @@
+"""The steady state: snow that flows along a net at rest, and the net it shapes.
+
+Rounds of snow flow against a given curve and net equilibrium under the forces
+found, accelerated, on meshes refined until the end forces are accurate enough.
+Theory: coupling/THEORY.md. Dimensionless inside: lengths in snow thicknesses d,
+forces per metre of width in rho g d^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.closed_form import compute_parabola_sag
+from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.interface import SupportForces, compute_support_forces
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import Cost, EndPull, FailedSolution, Solution
+from netdesign.errors import SolveError
+from netdesign.numerics.fixed_point import mix_anderson
+from netdesign.outcome import Outcome
+from netdesign.snow.flow import FlowLaw, FlowState, solve_flow
+from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
+from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template, place_nodes
+
+Floats = NDArray[np.float64]
+
+# Smallest relative error that is ever claimed: what two meshes cannot see.
+ERROR_FLOOR = 5e-4
+# The flow of a round is solved this much more tightly than the net still moves.
+_INNER_SHARE = 1e-2
+_LOOSEST_INNER = 1e-3
+_CONTACT_ROUNDS = 30
+_SURFACE_TOLERANCE = 1e-11
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Problem:
+    """One scene on one mesh, dimensionless."""
+
+    law: FlowLaw
+    template: MeshTemplate
+    head: Floats
+    length: float  # unstressed, of the whole net
+    slack: float
+    stiffness: float
+
+    @property
+    def has_freeboard(self) -> bool:
+        """The head stands above the snow: the net's top segment hangs free."""
+        return bool(self.head[1] > 1.0 + 1e-9)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Hanging:
+    """The net under given forces, and how much of it lies in the snow."""
+
+    cable: Funicular
+    contact_length: float  # unstressed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Coupled:
+    """Snow and net at rest with each other on one mesh, dimensionless."""
+
+    problem: _Problem
+    mesh: PlacedMesh
+    state: FlowState
+    hanging: _Hanging
+    forces: SupportForces
+    linear_solves: int
+    rounds: int
+
+
+def solve_steady(
+    scene: Scene,
+    settings: SolverSettings | None = None,
+    *,
+    on_failure: Literal["return", "raise"] = "return",
+) -> Solution | FailedSolution:
+    """Steady state of a scene, refined until its end forces are accurate.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : SolverSettings, optional
+        Accuracy and tolerances.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` a SolveError.
+
+    Returns
+    -------
+    Solution or FailedSolution
+        The error of each end pull is its difference from the next coarser mesh
+        plus ``ERROR_FLOOR`` of it. If the finest mesh does not reach the accuracy
+        asked for, the error says so.
+
+    Verified by
+    -----------
+    tests/coupling/test_steady.py, tests/verification/test_reference_scene.py
+    """
+    try:
+        return _refine(scene, settings or SolverSettings())
+    except SolveError as failure:
+        if on_failure == "raise":
+            raise
+        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+
+
+def _refine(scene: Scene, settings: SolverSettings) -> Solution:
+    coarse = _couple(_build_problem(scene, settings.levels[0]), settings, None)
+    solves, rounds = coarse.linear_solves, coarse.rounds
+    for level in settings.levels[1:]:
+        fine = _couple(_build_problem(scene, level), settings, coarse)
+        solves, rounds = solves + fine.linear_solves, rounds + fine.rounds
+        pulls = _estimate_pulls(fine, coarse, scene.force_scale)
+        if all(pull.error <= settings.accuracy * pull.size for pull in pulls):
+            break
+        coarse = fine
+    cost = Cost(
+        linear_solves=solves,
+        rounds=rounds,
+        elements=fine.problem.template.triangles.shape[1],
+        degrees_of_freedom=fine.mesh.n_dofs,
+    )
+    solution = _build_solution(scene, fine, pulls, cost)
+    check_balance(solution.balance, settings.balance_tolerance)
+    return solution
+
+
+def _estimate_pulls(
+    fine: _Coupled, coarse: _Coupled, scale: float
+) -> tuple[EndPull, EndPull]:
+    """End pulls of the finer mesh, with what the coarser one tells of their error."""
+    fine_cable, coarse_cable = fine.hanging.cable, coarse.hanging.cable
+    ends = (
+        (fine_cable.foot_pull, coarse_cable.foot_pull),
+        (fine_cable.head_pull, coarse_cable.head_pull),
+    )
+    foot, head = (
+        EndPull(
+            x=float(better[0]) * scale,
+            y=float(better[1]) * scale,
+            error=float(
+                np.hypot(*(better - worse)) + ERROR_FLOOR * np.hypot(*better)
+            )
+            * scale,
+        )
+        for better, worse in ends
+    )
+    return foot, head
+
+
+def _build_problem(scene: Scene, size: MeshSize) -> _Problem:
+    thickness = scene.snowpack.thickness
+    return _Problem(
+        law=scene.flow_law,
+        template=build_template(scene.snowpack.upslope_length / thickness, size),
+        head=scene.net.head / thickness,
+        length=scene.net.unstressed_length / thickness,
+        slack=scene.net.slack,
+        stiffness=scene.net.stiffness_per_m / scene.force_scale,
+    )
+
+
+def _couple(
+    problem: _Problem, settings: SolverSettings, guess: _Coupled | None
+) -> _Coupled:
+    """Rounds of flow and net until neither moves the other."""
+    hanging = guess.hanging if guess is not None else _start_hanging(problem)
+    curve = _start_curve(problem, hanging, guess)
+    state, moved, solves = None, 1.0, 0
+    curves: list[Floats] = []
+    images: list[Floats] = []
+    for round_number in range(1, settings.max_rounds + 1):
+        mesh = _place(problem, curve)
+        wanted = max(settings.stress_tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
+        flow = solve_flow(
+            problem.law,
+            mesh,
+            state,
+            tolerance=wanted,
+            max_iterations=settings.max_iterations,
+        )
+        solves += flow.linear_solves
+        if flow.outcome is not Outcome.CONVERGED:
+            raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+        state = flow.state
+        forces = compute_support_forces(problem.law, mesh, state)
+        hanging = _hang(
+            problem, forces.on_net, hanging.cable.pull, hanging.contact_length
+        )
+        image = _contact_curve(problem, hanging)
+        moved = float(np.abs(image - curve).max())
+        if moved < settings.shape_tolerance and flow.change < settings.stress_tolerance:
+            return _Coupled(
+                problem=problem,
+                mesh=mesh,
+                state=state,
+                hanging=hanging,
+                forces=forces,
+                linear_solves=solves,
+                rounds=round_number,
+            )
+        curves.append(curve.ravel())
+        images.append(image.ravel())
+        curve = mix_anderson(curves, images).reshape(curve.shape)
+    raise SolveError(
+        Outcome.MAX_ITERATIONS,
+        f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
+        f"after {settings.max_rounds} rounds",
+    )
+
+
+def _place(problem: _Problem, curve: Floats) -> PlacedMesh:
+    if curve[1, 1:].min() <= 0.0:
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            "the net would touch the ground: less slack or less inclination is needed",
+        )
+    mesh = build_placed_mesh(problem.template, place_nodes(problem.template, curve))
+    if not mesh.is_valid:
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            "the net bulges so far that the snow's mesh folds over",
+        )
+    return mesh
+
+
+def _start_hanging(problem: _Problem) -> _Hanging:
+    """The net under a uniform pressure of about the right size."""
+    chord = float(np.hypot(*problem.head))
+    along = problem.head / chord
+    outward = np.array([along[1], -along[0]])
+    pressure = _guess_pressure(problem)
+    sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
+    pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
+    contact = problem.length / float(problem.head[1])
+    lengths = np.diff(problem.template.net_fractions[::2]) * contact
+    shares = np.zeros(2 * lengths.size + 1)
+    shares[1::2] = 4.0 / 6.0 * lengths
+    shares[:-1:2] += lengths / 6.0
+    shares[2::2] += lengths / 6.0
+    return _hang(problem, pressure * np.outer(outward, shares), pull, contact)
+
+
+def _guess_pressure(problem: _Problem) -> float:
+    """Mean pressure on the net: the snow that its base does not hold."""
+    aspect = problem.template.aspect
+    reach = {
+        "free": aspect,
+        "no-slip": 1.0,
+        "sliding": 1.0 + 2.0 * float(np.sqrt(problem.law.slip_ratio)),
+    }[problem.law.ground]
+    return max(0.05, problem.law.gravity[0]) * min(aspect, reach)
+
+
+def _hang(
+    problem: _Problem, forces: Floats, pull: Floats, contact_length: float
+) -> _Hanging:
+    """Net under nodal forces; its contact with the snow ends at the snow's surface."""
+    if not problem.has_freeboard:
+        lengths = np.diff(problem.template.net_fractions[::2]) * problem.length
+        cable = _solve_cable(problem, forces, lengths, pull)
+        return _Hanging(cable=cable, contact_length=problem.length)
+    loose = np.concatenate([forces, np.zeros((2, 2))], axis=1)
+    for _ in range(_CONTACT_ROUNDS):
+        free_length = problem.length - contact_length
+        lengths = np.diff(problem.template.net_fractions[::2]) * contact_length
+        cable = _solve_cable(problem, loose, np.append(lengths, free_length), pull)
+        pull = cable.pull
+        too_high = float(cable.curve[1, -3]) - 1.0
+        if abs(too_high) < _SURFACE_TOLERANCE:
+            return _Hanging(cable=cable, contact_length=contact_length)
+        rise = float(cable.curve[1, -1] - cable.curve[1, -3]) / free_length
+        contact_length -= too_high / rise
+        if not 0.0 < contact_length < problem.length:
+            break
+    raise SolveError(
+        Outcome.NO_EQUILIBRIUM, "the net's contact with the snow surface was not found"
+    )
+
+
+def _solve_cable(
+    problem: _Problem, forces: Floats, lengths: Floats, pull: Floats
+) -> Funicular:
+    cable = solve_funicular(forces, lengths, problem.stiffness, problem.head, pull)
+    if cable.outcome is not Outcome.CONVERGED:
+        raise SolveError(cable.outcome)
+    return cable
+
+
+def _contact_curve(problem: _Problem, hanging: _Hanging) -> Floats:
+    """Net nodes that lie in the snow, shape (2, n_net)."""
+    return hanging.cable.curve[:, : problem.template.net.size]
+
+
+def _start_curve(
+    problem: _Problem, hanging: _Hanging, guess: _Coupled | None
+) -> Floats:
+    if guess is None:
+        return _contact_curve(problem, hanging)
+    known = guess.problem.template.net_fractions
+    curve = _contact_curve(guess.problem, hanging)
+    wanted = problem.template.net_fractions
+    return np.array([np.interp(wanted, known, axis) for axis in curve])
+
+
+def _build_solution(
+    scene: Scene, end: _Coupled, pulls: tuple[EndPull, EndPull], cost: Cost
+) -> Solution:
+    thickness, scale = scene.snowpack.thickness, scene.force_scale
+    cable, mesh = end.hanging.cable, end.mesh
+    foot, head = pulls
+    along = end.problem.head / np.hypot(*end.problem.head)
+    offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
+    sizes = [*(cable.tension.ravel() * scale), foot.size, head.size]
+    return Solution(
+        scene=scene,
+        method="steady",
+        foot=foot,
+        head=head,
+        tension_min=min(sizes),
+        tension_max=max(sizes),
+        sag=float(offsets.max()) * thickness,
+        net_curve=cable.curve * thickness,
+        net_forces=end.forces.on_net * scale,
+        net_slides=np.concatenate([[False], end.state.contact.sign != 0]),
+        mesh_nodes=mesh.nodes * thickness,
+        mesh_edges=mesh.template.edges,
+        balance=measure_balance(
+            end.problem.law, mesh, end.forces, cable, scale
+        ),
+        cost=cost,
+    )

@@ -1,0 +1,1 @@
+"""The worst case over the uncertain quantities of a net row."""

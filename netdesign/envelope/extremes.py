@@ -1,0 +1,67 @@
+"""Largest member forces over all cases, with their governing case."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from netdesign.checks.result import Band
+from netdesign.envelope.run import CaseResult
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Extreme:
+    """Largest force of one member.
+
+    Attributes
+    ----------
+    member : str
+        As in ``AnchorForces.member_forces``.
+    force : Band
+        Its largest value, and the largest lower and upper ends of all bands [N].
+    governing : CaseResult
+        The case of the largest value; carries the coincident forces.
+    """
+
+    member: str
+    force: Band
+    governing: CaseResult
+
+
+def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
+    """Extreme of every member over the converged cases; empty if there is none.
+
+    Converged means by outcome, never by arithmetic on missing numbers.
+    """
+    converged = [result for result in results if result.is_converged]
+    if not converged:
+        return {}
+    return {
+        member: _find_extreme(member, converged)
+        for member in converged[0].member_forces
+    }
+
+
+def describe_gap(results: Sequence[CaseResult]) -> str:
+    """Why the extremes do not cover every case; "" if they do."""
+    failed = [result for result in results if not result.is_converged]
+    if not results:
+        return "no case was given"
+    if not failed:
+        return ""
+    reasons = sorted({result.reason for result in failed})
+    return f"{len(failed)} of {len(results)} cases failed ({'; '.join(reasons)})"
+
+
+def _find_extreme(member: str, converged: Sequence[CaseResult]) -> Extreme:
+    bands = [result.member_forces[member] for result in converged]
+    governing = max(converged, key=lambda result: result.member_forces[member].value)
+    return Extreme(
+        member=member,
+        force=Band(
+            low=max(band.low for band in bands),
+            value=governing.member_forces[member].value,
+            high=max(band.high for band in bands),
+        ),
+        governing=governing,
+    )

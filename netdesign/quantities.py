@@ -1,0 +1,86 @@
+"""One row per reported quantity: the only place for its unit and decimals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """How one quantity is named and written in every output.
+
+    Attributes
+    ----------
+    key : str
+        Name of the field in the JSON documents, unit included.
+    symbol : str
+        As in the theory pages.
+    label : str
+        A few words for a table heading.
+    unit : str
+        As printed; "" for a pure number.
+    decimals : int or None
+        Digits after the point. None: as given, for values that somebody chose
+        (a density of 366.8 kg/m3 is not rounded away).
+    scientific : bool
+        Written with an exponent.
+    """
+
+    key: str
+    symbol: str
+    label: str
+    unit: str
+    decimals: int | None
+    scientific: bool = False
+
+
+def _row(
+    key: str,
+    symbol: str,
+    label: str,
+    unit: str,
+    decimals: int | None,
+) -> Quantity:
+    return Quantity(key=key, symbol=symbol, label=label, unit=unit, decimals=decimals)
+
+
+_ROWS = (
+    # the ranges
+    _row("density_kg_m3", "ρ", "Density", "kg/m³", None),
+    _row("friction_deg", "φ", "Friction angle", "°", None),
+    _row("inclination_deg", "θ", "Inclination", "°", None),
+    # geometry
+    _row("slope_deg", "ψ", "Slope angle", "°", 1),
+    _row("snow_thickness_m", "d", "Snow thickness", "m", 2),
+    _row("sag_m", "f", "Sag", "m", 3),
+    # net, per metre of width
+    _row("foot_size_kN_per_m", "T₁", "Tension at the foot", "kN/m", 2),
+    _row("head_size_kN_per_m", "T₂", "Tension at the head", "kN/m", 2),
+    _row("tension_max_kN_per_m", "T", "Largest tension", "kN/m", 2),
+    # members, per anchor, characteristic
+    _row("foot_anchor_kN", "F", "Foot anchor", "kN", 1),
+    _row("uphill_guy_kN", "F", "Uphill guy", "kN", 1),
+    _row("downhill_guy_kN", "F", "Downhill guy", "kN", 1),
+    _row("post_kN", "F", "Post", "kN", 1),
+    _row("max_kN", "F", "Maximum", "kN", 1),
+    # checks
+    _row("action_kN", "E_k", "Characteristic action", "kN", 1),
+    _row("action_factor", "γ_E", "Factor of the action", "", 2),
+    _row("demand_kN", "E_d", "Demand", "kN", 1),
+    _row("resistance_characteristic_kN", "R_k", "Characteristic resistance", "kN", 1),
+    _row("resistance_factor", "γ_R", "Factor of the resistance", "", 2),
+    _row("resistance_kN", "R_d", "Design resistance", "kN", 1),
+    _row("utilisation", "μ", "Utilisation", "", 3),
+    # quality of a solution
+    _row("error_percent", "", "Estimated error", "%", 2),
+    Quantity(
+        key="balance_residual",
+        symbol="",
+        label="Balance residual",
+        unit="",
+        decimals=1,
+        scientific=True,
+    ),
+)
+
+QUANTITIES: dict[str, Quantity] = {row.key: row for row in _ROWS}

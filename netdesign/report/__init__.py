@@ -1,0 +1,1 @@
+"""Outputs: a study as page, workbook, drawings and terminal summary."""

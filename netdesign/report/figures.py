@@ -1,0 +1,70 @@
+"""Common style of the drawings, and matplotlib figure -> SVG text.
+
+Text stays text: it is laid out with the font that matplotlib brings along, so
+that bytes do not depend on the machine, and the page sets it in its own font.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+INK = "#1b1e22"
+GREY = "#7d838b"
+PALE = "#d3d7dc"
+SNOW = "#f3f5f7"
+ACCENT = "#b23a1e"  # forces and what governs; nothing else
+WIDTH_IN = 6.9  # of the print area of A4
+TEXT_PT = 7.5
+
+_STYLE: dict[Any, Any] = {
+    "svg.fonttype": "none",
+    "font.family": "DejaVu Sans",
+    "font.size": TEXT_PT,
+    "axes.linewidth": 0.5,
+    "axes.edgecolor": GREY,
+    "axes.labelcolor": INK,
+    "text.color": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+}
+_NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
+
+
+def use_style(name: str) -> AbstractContextManager[None]:
+    """Set matplotlib up for the drawing ``name``, for the time of a ``with``."""
+    import matplotlib
+
+    return matplotlib.rc_context({**_STYLE, "svg.hashsalt": name})
+
+
+def write_svg(figure: Figure, name: str, title: str) -> str:
+    """SVG element of a figure, the same bytes each time.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The drawing.
+    name : str
+        Of our making (``row-1-section``); keeps ids apart on one page.
+    title : str
+        What a screen reader says.
+    """
+    buffer = io.StringIO()
+    with use_style(name):
+        figure.savefig(buffer, format="svg", metadata=_NO_METADATA, transparent=True)
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<style[^>]*>.*?</style>", "", text, flags=re.DOTALL)
+    text = re.sub(r' (id|xlink:href)="(#?)', rf' \1="\2{name}-', text)
+    text = text.replace("url(#", f"url(#{name}-")
+    return text.replace("<svg ", f'<svg role="img" aria-label="{title}" ', 1)

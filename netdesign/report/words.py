@@ -1,0 +1,156 @@
+"""Numbers, verdicts and names as the words that every output shows.
+
+Nothing else in the package rounds a number or names a verdict.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.outcome import Verdict
+from netdesign.quantities import QUANTITIES
+from netdesign.study import CasePoint, CheckRecord
+
+MISSING = "-"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictWords:
+    """One verdict: word, sign that survives a photocopy, meaning, exit code."""
+
+    word: str
+    symbol: str
+    style: str  # class of the style sheet
+    meaning: str
+    exit_code: int
+
+
+VERDICTS = {
+    Verdict.PASS: VerdictWords(
+        word="PASS",
+        symbol="✓",
+        style="pass",
+        meaning="Every check is met over the whole band of its utilisation.",
+        exit_code=0,
+    ),
+    Verdict.FAIL: VerdictWords(
+        word="FAIL",
+        symbol="✗",
+        style="fail",
+        meaning="At least one check is not met, even at the low end of its band.",
+        exit_code=1,
+    ),
+    Verdict.NOT_PROVEN: VerdictWords(
+        word="NOT PROVEN",
+        symbol="?",
+        style="not-proven",
+        meaning="No check surely fails, but at least one is not shown to be met.",
+        exit_code=4,
+    ),
+}
+
+_MODES = {"pull_out": "pull-out"}
+
+
+def show_text(text: str) -> str:
+    """Text on one line without control characters; "-" if nothing is left."""
+    line = "".join(sign if sign.isprintable() else " " for sign in text)
+    return " ".join(line.split()) or MISSING
+
+
+def show_number(key: str, value: float | None) -> str:
+    """Value of the quantity ``key`` with its decimals, without unit.
+
+    Examples
+    --------
+    >>> show_number("demand_kN", 126.26), show_number("demand_kN", None)
+    ('126.3', '-')
+    >>> show_number("utilisation", 1.0004)  # never rounded down to a pass
+    '>1.000'
+    """
+    if value is None or not math.isfinite(value):
+        return MISSING
+    quantity = QUANTITIES[key]
+    if quantity.decimals is None:
+        return show_given(value)
+    kind = "e" if quantity.scientific else "f"
+    shown = f"{value:.{quantity.decimals}{kind}}"
+    if key == "utilisation" and value > 1 and float(shown) <= 1:
+        return f">{shown}"
+    return shown
+
+
+def show_given(value: float) -> str:
+    """Value that somebody typed: up to six significant digits, none added.
+
+    Examples
+    --------
+    >>> show_given(30.000000000000004), show_given(366.8)
+    ('30', '366.8')
+    """
+    return f"{value:.6g}"
+
+
+def show_with_unit(key: str, value: float | None) -> str:
+    """Write number and unit; the sign of a missing number has no unit."""
+    shown = show_number(key, value)
+    unit = QUANTITIES[key].unit
+    if shown == MISSING or not unit:
+        return shown
+    return f"{shown}{unit}" if unit == "°" else f"{shown} {unit}"
+
+
+def show_band(key: str, low: float | None, high: float | None) -> str:
+    """Band of a number: ``0.842 to 0.871``."""
+    if low is None or high is None:
+        return MISSING
+    return f"{show_number(key, low)} to {show_number(key, high)}"
+
+
+def name_case(case: CasePoint | None) -> str:
+    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``."""
+    if case is None:
+        return MISSING
+    return (
+        f"{show_with_unit('density_kg_m3', case.density_kg_m3)}, "
+        f"φ {show_with_unit('friction_deg', case.friction_deg)}, "
+        f"θ {show_with_unit('inclination_deg', case.inclination_deg)}"
+    )
+
+
+def name_case_short(case: CasePoint | None) -> str:
+    """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
+    if case is None:
+        return MISSING
+    numbers = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
+    return " / ".join(show_given(number) for number in numbers)
+
+
+def name_member(member: str) -> str:
+    """``foot_anchor`` as ``Foot anchor``."""
+    return show_text(member.replace("_", " ")).capitalize()
+
+
+def name_check(check: CheckRecord) -> str:
+    """Member and mode of a check: ``Foot anchor, pull-out``."""
+    mode = _MODES.get(check.mode, check.mode.replace("_", " ")).strip()
+    member = name_member(check.member)
+    return f"{member}, {show_text(mode)}" if mode else member
+
+
+def name_heading(key: str, *, symbol: bool = False) -> str:
+    """Heading of a column: label, symbol if asked for, unit in brackets."""
+    quantity = QUANTITIES[key]
+    sign = f" {quantity.symbol}" if symbol and quantity.symbol else ""
+    unit = f" [{quantity.unit}]" if quantity.unit else ""
+    return f"{quantity.label}{sign}{unit}"
+
+
+def number_format(key: str) -> str:
+    """Give the number format of a workbook cell for the quantity ``key``."""
+    quantity = QUANTITIES[key]
+    if quantity.decimals is None:
+        return "General"
+    places = "0." + "0" * quantity.decimals if quantity.decimals else "0"
+    return f"{places}E+00" if quantity.scientific else places

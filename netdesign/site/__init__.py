@@ -1,0 +1,1 @@
+"""What the engineer gives: the site workbook and its model."""

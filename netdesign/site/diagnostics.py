@@ -1,0 +1,90 @@
+"""What is wrong in a site workbook, and where: collected, never thrown one by one."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+Severity = Literal["error", "note"]
+
+_LONGEST_QUOTE = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why something was not taken, before its place is known.
+
+    Attributes
+    ----------
+    rule : str
+        What is wrong; reads after the text in question: ``is not a number``.
+    accepted : str
+        What is accepted or what to do; may be empty.
+    """
+
+    rule: str
+    accepted: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """One fault (or remark) with its place in the workbook.
+
+    Attributes
+    ----------
+    file, sheet, cell : str
+        Place; ``sheet`` and ``cell`` are empty where the fault has none.
+    field : str
+        Heading of the quantity, with its unit; may be empty.
+    text : str
+        Exactly what the cell holds; empty for an empty cell.
+    rule, accepted : str
+        As in `Refusal`.
+    severity : str
+        ``error`` refuses the workbook, ``note`` only ends up in the report.
+    """
+
+    file: str
+    sheet: str = ""
+    cell: str = ""
+    field: str = ""
+    text: str = ""
+    rule: str
+    accepted: str = ""
+    severity: Severity = "error"
+
+    def __str__(self) -> str:
+        """``site.xlsx › Nets › C14: "0,45O" is not a number (...); accepted: ...``."""
+        place = " › ".join(part for part in (self.file, self.sheet, self.cell) if part)
+        quantity = f" ({self.field})" if self.field else ""
+        accepted = f"; accepted: {self.accepted}" if self.accepted else ""
+        return f"{place}: {self._subject()} {self.rule}{quantity}{accepted}"
+
+    def _subject(self) -> str:
+        if self.text:
+            return quote(self.text)
+        if self.cell:
+            return "the cell"
+        return "the sheet" if self.sheet else "the file"
+
+
+def quote(text: str) -> str:
+    """Quote a cell's text on one line, shortened when it is long."""
+    line = " ".join(text.split())
+    if len(line) > _LONGEST_QUOTE:
+        line = line[: _LONGEST_QUOTE - 3] + "..."
+    return f'"{line}"'
+
+
+def add_nearest(accepted: str, word: str, known: Iterable[str]) -> str:
+    """Add near matches of a word to what is accepted.
+
+    >>> add_nearest("an id of sheet Ropes", "G81", ["G18", "H22"])
+    'an id of sheet Ropes (nearest: "G18")'
+    """
+    near = difflib.get_close_matches(word, list(known), n=3)
+    if not near:
+        return accepted
+    return f"{accepted} (nearest: {', '.join(quote(match) for match in near)})"

@@ -1,0 +1,102 @@
+"""A site as the program understands it: SI values, each with its source cell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from netdesign.envelope.grid import Ranges
+from netdesign.guards import require_positive, require_within
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+
+# What a member can fail by; the keys under which resistances are given.
+MEMBER_MODES: tuple[tuple[str, str], ...] = (
+    ("foot_anchor", "tendon"),
+    ("foot_anchor", "pull_out"),
+    ("uphill_guy", "rope"),
+    ("uphill_anchor", "tendon"),
+    ("uphill_anchor", "pull_out"),
+    ("downhill_guy", "rope"),
+    ("downhill_anchor", "tendon"),
+    ("downhill_anchor", "pull_out"),
+    ("post", "compression"),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resistance:
+    """Characteristic resistance of one member in one mode.
+
+    ``value`` [N] is None where the workbook gives none; ``source`` is its cell.
+    """
+
+    member: str
+    mode: str
+    value: float | None
+    basis: str  # "tested", "computed", "declared" or "" where nothing is given
+    type_id: str  # id of the anchor, rope or post type; "" where none is named
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputEcho:
+    """One input as typed and as understood; for the report."""
+
+    label: str
+    unit: str
+    text: str  # as typed, "" for a default
+    value: float | str  # as understood, in the unit above
+    cell: str  # "Nets!C5", or "default"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NetRow:
+    """One row of nets. SI units; angles in radians."""
+
+    id: str
+    slope_angle: float
+    snow_thickness: float  # normal to the slope
+    upslope_length: float
+    ground: GroundLaw
+    net_height: float  # normal to the slope
+    net_stiffness_per_m: float
+    slack: float
+    layout: SupportLayout
+    resistances: tuple[Resistance, ...]
+    inputs: tuple[InputEcho, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuse values that no scene can have."""
+        require_within("slope angle", self.slope_angle, 0.0, 1.4, "rad")
+        require_positive("snow thickness", self.snow_thickness, "m")
+        require_positive("upslope length", self.upslope_length, "m")
+        require_positive("net height", self.net_height, "m")
+        require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
+        require_within("slack", self.slack, 0.0, 0.5)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Project:
+    """Identification printed on every output."""
+
+    name: str = ""
+    number: str = ""
+    author: str = ""
+    checker: str = ""
+    revision: str = ""
+    standard: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Site:
+    """Everything read from one workbook."""
+
+    project: Project
+    ranges: Ranges
+    rows: tuple[NetRow, ...]
+    file_name: str
+    sha256: str
+    notes: tuple[str, ...] = ()  # e.g. columns that were not understood
+    range_inputs: tuple[InputEcho, ...] = ()
+    project_cells: Mapping[str, str] = field(default_factory=dict)

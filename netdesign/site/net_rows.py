@@ -1,0 +1,248 @@
+"""From lines of sheet Nets to net rows: the rules between several cells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from netdesign.errors import ModelError
+from netdesign.site.diagnostics import Finding, Refusal, add_nearest
+from netdesign.site.model import MEMBER_MODES, InputEcho, NetRow, Resistance
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import Table, read_rows
+from netdesign.snow.ground import (
+    GROUND_KINDS,
+    GroundLaw,
+    build_ground_from_glide_factor,
+)
+from netdesign.structure.layout import (
+    DEFAULT_DOWNHILL_RATIO,
+    DEFAULT_UPHILL_RATIO,
+    SupportLayout,
+)
+
+Types = Mapping[str, Row]  # the lines of one type sheet, by id
+TypeSheets = Mapping[str, Types]  # by name of the sheet
+
+_MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
+
+
+def build_net_rows(
+    table: Table, type_sheets: TypeSheets, findings: list[Finding]
+) -> tuple[NetRow, ...]:
+    """Build every net row without a fault; the faults go to ``findings``.
+
+    Parameters
+    ----------
+    table : Table
+        Sheet Nets.
+    type_sheets : mapping of str to mapping of str to Row
+        Types of anchors, ropes and posts by sheet name and id.
+    findings : list of Finding
+        Appended to.
+
+    Returns
+    -------
+    tuple of NetRow
+        In the order of the sheet.
+    """
+    rows = list(read_rows(table, findings))
+    if not rows:
+        refusal = Refusal("has no net row", "one line for each net row")
+        findings.append(table.sheet.finding(refusal))
+    index_by_id(rows, findings)  # for its findings: ids used twice
+    built = [_build_net_row(row, type_sheets, findings) for row in rows]
+    return tuple(net_row for net_row in built if net_row is not None)
+
+
+def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
+    """Lines by their id; an id used again is a finding that names the first."""
+    by_id: dict[str, Row] = {}
+    for row in rows:
+        reading = row["id"]
+        if not reading.word:
+            continue
+        if reading.word in by_id:
+            first = by_id[reading.word]["id"].place
+            refuse(
+                reading, f"is used twice: also in {first}", "ids used once", findings
+            )
+        else:
+            by_id[reading.word] = row
+    return by_id
+
+
+def _build_net_row(
+    row: Row, type_sheets: TypeSheets, findings: list[Finding]
+) -> NetRow | None:
+    count_before = len(findings)
+    row = _fill_in_distances(row)
+    thickness = _understand_thickness(row, findings)
+    ground = _understand_ground(row, thickness, findings)
+    _check_types(row, type_sheets, findings)
+    is_faulty = any(reading.state == "faulty" for reading in row.values())
+    if is_faulty or thickness is None or ground is None or len(findings) > count_before:
+        return None
+    return NetRow(
+        id=row["id"].word,
+        slope_angle=row["slope_angle"].si,
+        snow_thickness=thickness,
+        upslope_length=row["upslope_length"].si,
+        ground=ground,
+        net_height=row["net_height"].si,
+        net_stiffness_per_m=row["net_stiffness"].si,
+        slack=row["slack"].si,
+        layout=_build_layout(row),
+        resistances=tuple(
+            _find_resistance(row[member], mode, member, type_sheets)
+            for member, mode in MEMBER_MODES
+        ),
+        inputs=_echo_inputs(row, thickness, ground),
+    )
+
+
+def _fill_in_distances(row: Row) -> Row:
+    """Give anchor distances that were left empty their share of the net height."""
+    height = row["net_height"].value
+    if not isinstance(height, float):
+        return row
+    ratios = {
+        "uphill_anchor_distance": DEFAULT_UPHILL_RATIO,
+        "downhill_anchor_distance": DEFAULT_DOWNHILL_RATIO,
+    }
+    filled = {
+        key: replace(row[key], state="default", value=ratio * height)
+        for key, ratio in ratios.items()
+        if row[key].state == "blank"
+    }
+    return {**row, **filled}
+
+
+def _understand_thickness(row: Row, findings: list[Finding]) -> float | None:
+    """Snow thickness normal to the slope [m], from exactly one of two columns."""
+    thickness, height = row["snow_thickness"], row["snow_height"]
+    slope_angle = row["slope_angle"]
+    if "faulty" in (thickness.state, height.state):
+        return None
+    if thickness.state == height.state == "given":
+        rule = f"is given beside the snow thickness in {thickness.place}"
+        refuse(height, rule, "one of the two, the other empty", findings)
+        return None
+    if thickness.state == "given":
+        return thickness.si
+    if height.state == "blank":
+        empty = thickness if thickness.cell is not None else height
+        rule = "is empty: neither snow thickness nor vertical height is given"
+        refuse(empty, rule, empty.field.accepted, findings)
+        return None
+    if slope_angle.state == "faulty":
+        return None
+    return height.si * math.cos(slope_angle.si)
+
+
+def _understand_ground(
+    row: Row, thickness: float | None, findings: list[Finding]
+) -> GroundLaw | None:
+    law, slip, glide = row["ground_law"], row["slip_length"], row["glide_factor"]
+    if "faulty" in (law.state, slip.state, glide.state):
+        return None
+    given = [reading for reading in (slip, glide) if reading.state == "given"]
+    if law.word != "sliding":
+        for reading in given:
+            rule = f'does not go with the ground law "{law.word}" in {law.place}'
+            refuse(reading, rule, "an empty cell, or the law sliding", findings)
+        kind = next(kind for kind in GROUND_KINDS if kind == law.word)
+        return None if given else GroundLaw(kind=kind)
+    if len(given) != 1:
+        count = "both" if given else "neither"
+        rule = f"needs a slip length or a glide factor: {count} given"
+        refuse(law, rule, "exactly one of the two", findings)
+        return None
+    if slip.state == "given":
+        return GroundLaw(kind="sliding", slip_length=slip.si)
+    return _build_sliding_ground(glide, thickness, findings)
+
+
+def _build_sliding_ground(
+    glide: Reading, thickness: float | None, findings: list[Finding]
+) -> GroundLaw | None:
+    if thickness is None:
+        return None
+    try:
+        return build_ground_from_glide_factor(glide.number, thickness)
+    except ModelError as error:  # between 1 and the least factor above it
+        refuse(glide, "has no slip length", str(error), findings)
+        return None
+
+
+def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> None:
+    for member in _MEMBERS:
+        reading = row[member]
+        sheet = reading.field.refers_to
+        types = type_sheets[sheet]
+        if reading.word and reading.word not in types:
+            accepted = f"an id defined in sheet {sheet}, or an empty cell"
+            accepted = add_nearest(accepted, reading.word, types)
+            refuse(reading, f"is no id of sheet {sheet}", accepted, findings)
+
+
+def _build_layout(row: Row) -> SupportLayout:
+    return SupportLayout(
+        post_spacing=row["post_spacing"].si,
+        post_tilt=row["post_tilt"].si,
+        uphill_anchor_distance=row["uphill_anchor_distance"].si,
+        downhill_anchor_distance=row["downhill_anchor_distance"].si,
+    )
+
+
+def _find_resistance(
+    reading: Reading, mode: str, member: str, type_sheets: TypeSheets
+) -> Resistance:
+    """Resistance of a member in one mode; no type or no value gives None."""
+    if not reading.word:
+        return Resistance(
+            member=member,
+            mode=mode,
+            value=None,
+            basis="",
+            type_id="",
+            source=reading.place or "Nets",
+        )
+    kind = type_sheets[reading.field.refers_to][reading.word]
+    resistance = kind[mode]
+    is_given = resistance.state == "given"
+    # A pull-out resistance says how it is known; the others are makers' values.
+    basis = kind["basis"].word if mode == "pull_out" else "declared"
+    return Resistance(
+        member=member,
+        mode=mode,
+        value=resistance.si if is_given else None,
+        basis=basis if is_given else "",
+        type_id=reading.word,
+        source=resistance.place or reading.field.refers_to,
+    )
+
+
+def _echo_inputs(
+    row: Row, thickness: float, ground: GroundLaw
+) -> tuple[InputEcho, ...]:
+    """Every input of the row; what was derived from one stands behind it."""
+    echoes: list[InputEcho] = []
+    for key, reading in row.items():
+        echoes.append(reading.echo())
+        if key == "snow_height" and reading.state == "given":
+            echoes.append(_echo_derived("snow thickness", thickness, reading))
+        if key == "glide_factor" and reading.state == "given":
+            echoes.append(_echo_derived("slip length", ground.slip_length, reading))
+    return tuple(echoes)
+
+
+def _echo_derived(label: str, value: float, reading: Reading) -> InputEcho:
+    return InputEcho(
+        label=f"{label}, from the {reading.field.label}",
+        unit="m",
+        text=reading.text,
+        value=value,
+        cell=reading.place,
+    )

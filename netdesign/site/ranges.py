@@ -1,0 +1,181 @@
+"""From the lines of sheet Ranges to the ranges of the uncertain quantities."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from netdesign.site.columns import (
+    DEFAULT_INCLINATION_DEG,
+    DEFAULT_SAMPLES,
+    RANGE_QUANTITIES,
+)
+from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
+from netdesign.site.fields import Field, normalise_unit, split_heading
+from netdesign.site.model import InputEcho, Interval, Ranges
+from netdesign.site.readings import Reading, read_cell, refuse
+from netdesign.site.tables import Table, read_field
+
+_Line = tuple[Reading, Reading, Reading]  # low, high, samples
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Range:
+    interval: Interval
+    inputs: tuple[InputEcho, ...]
+
+
+def build_ranges(
+    table: Table, findings: list[Finding]
+) -> tuple[Ranges, tuple[InputEcho, ...]] | None:
+    """Build the three ranges, or None where a fault went to ``findings``.
+
+    Parameters
+    ----------
+    table : Table
+        Sheet Ranges, one quantity a line.
+    findings : list of Finding
+        Appended to.
+
+    Returns
+    -------
+    tuple of Ranges and tuple of InputEcho, or None
+        SI units in the ranges, units of the edge in the inputs.
+    """
+    found: dict[str, _Range | None] = {}
+    for row in table.rows:
+        _read_line(table, row, found, findings)
+    for field in RANGE_QUANTITIES:
+        if field.key in found:
+            continue
+        if field.required:
+            rule = f"lacks the quantity {quote(field.heading)}"
+            findings.append(table.sheet.finding(Refusal(rule, field.accepted)))
+        else:
+            found[field.key] = _default_inclination(field)
+    complete = {key: value for key, value in found.items() if value is not None}
+    if len(complete) < len(RANGE_QUANTITIES):
+        return None
+    ranges = Ranges(**{key: value.interval for key, value in complete.items()})
+    inputs = [complete[field.key].inputs for field in RANGE_QUANTITIES]
+    return ranges, tuple(echo for echoes in inputs for echo in echoes)
+
+
+def _read_line(
+    table: Table, row: int, found: dict[str, _Range | None], findings: list[Finding]
+) -> None:
+    name = read_field(table, "quantity", row, findings)
+    unit = read_field(table, "unit", row, findings)
+    samples = read_field(table, "samples", row, findings)
+    if name.state != "given":
+        return
+    field = _match_quantity(name)
+    if field is None:
+        labels = [quantity.heading for quantity in RANGE_QUANTITIES]
+        accepted = add_nearest(", ".join(labels), name.word, labels)
+        refuse(name, "is no known quantity", accepted, findings)
+    elif field.key in found:
+        refuse(name, "is given twice", "one line for each quantity", findings)
+    else:
+        found[field.key] = None
+        if _has_right_unit(name, unit, field, findings):
+            found[field.key] = _read_range(table, row, field, samples, findings)
+
+
+def _match_quantity(name: Reading) -> Field | None:
+    quantity, _ = split_heading(name.word)
+    return next((field for field in RANGE_QUANTITIES if quantity in field.names), None)
+
+
+def _has_right_unit(
+    name: Reading, unit: Reading, field: Field, findings: list[Finding]
+) -> bool:
+    """Whether a line gives its unit, in brackets or in a column, and only once."""
+    _, in_brackets = split_heading(name.word)
+    in_column = normalise_unit(unit.word.strip(" []()"))
+    given, place = (in_column, unit) if in_column else (in_brackets, name)
+    if in_column and in_brackets and in_column != in_brackets:
+        rule = f"is another unit than that of {quote(name.word)}"
+        refuse(unit, rule, "one unit", findings)
+    elif not given:
+        refuse(name, "has no unit", f"{quote(field.heading)}", findings)
+    elif given not in field.units:
+        refuse(place, "has an unknown unit", field.unit, findings)
+    else:
+        return True
+    return False
+
+
+def _read_range(
+    table: Table, row: int, field: Field, samples: Reading, findings: list[Finding]
+) -> _Range | None:
+    low, high = (_read_end(table, row, key, field, findings) for key in ("low", "high"))
+    if (
+        low is None
+        or high is None
+        or "faulty" in (low.state, high.state, samples.state)
+    ):
+        return None
+    if low.state == high.state == "blank":
+        return _default_inclination(field)
+    for reading, other in ((low, high), (high, low)):
+        if reading.state == "blank":
+            rule = f"is empty beside {other.place}"
+            refuse(reading, rule, "both ends of the range, or none", findings)
+            return None
+    samples = _settle_samples(low, high, samples, findings)
+    if samples.state == "faulty":
+        return None
+    return _build_range(field, (low, high, samples))
+
+
+def _read_end(
+    table: Table, row: int, key: str, field: Field, findings: list[Finding]
+) -> Reading | None:
+    cell = table.cell(row, key)
+    if cell is None:  # the missing heading is a finding already
+        return None
+    end = replace(field, label=f"{field.label}, {key}")
+    return read_cell(cell, end, field.unit, findings)
+
+
+def _settle_samples(
+    low: Reading, high: Reading, samples: Reading, findings: list[Finding]
+) -> Reading:
+    """Check order and count of a range; an empty count gets its default."""
+    is_single = low.number == high.number
+    if low.number > high.number:
+        refuse(high, f"is below the low end in {low.place}", "low to high", findings)
+    elif samples.state == "blank":
+        count = 1.0 if is_single else float(DEFAULT_SAMPLES)
+        return replace(samples, state="default", value=count)
+    elif is_single and samples.number != 1:
+        refuse(samples, "is too many for a single value", "1", findings)
+    elif samples.number == 1 and not is_single:
+        refuse(samples, "is too few for a range", "2 or more", findings)
+    else:
+        return samples
+    return replace(samples, state="faulty")
+
+
+def _default_inclination(field: Field) -> _Range:
+    low, high = (
+        Reading(
+            field=replace(field, label=f"{field.label}, {key}"),
+            state="default",
+            value=value,
+        )
+        for key, value in zip(("low", "high"), DEFAULT_INCLINATION_DEG, strict=True)
+    )
+    count = float(DEFAULT_SAMPLES)
+    samples_field = Field(key="samples", label="samples", kind="count")
+    samples = Reading(field=samples_field, state="default", value=count)
+    return _build_range(field, (low, high, samples))
+
+
+def _build_range(field: Field, line: _Line) -> _Range:
+    low, high, samples = line
+    interval = Interval(low=low.si, high=high.si, count=int(samples.number))
+    labelled = replace(
+        samples, field=replace(samples.field, label=f"{field.label}, samples")
+    )
+    return _Range(interval=interval, inputs=(low.echo(), high.echo(), labelled.echo()))

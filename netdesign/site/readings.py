@@ -1,0 +1,212 @@
+"""From a cell to a value: one cell, read as one field."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from netdesign.errors import ModelError
+from netdesign.site.cells import Cell
+from netdesign.site.diagnostics import Finding, Refusal, Severity, add_nearest
+from netdesign.site.fields import Field, normalise, to_first_unit, to_si
+from netdesign.site.model import InputEcho
+from netdesign.site.numbers import parse_number
+
+State = Literal["given", "blank", "default", "faulty"]
+
+_LONGEST_TEXT = 200
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """One input as typed and as understood.
+
+    Attributes
+    ----------
+    field : Field
+        What it is.
+    state : str
+        ``given``, ``blank`` (nothing typed), ``default`` or ``faulty`` (a finding
+        tells why).
+    value : float, str or None
+        As understood, in the field's first unit; None where there is none.
+    text : str
+        As typed, with the unit where that of the column is another.
+    cell : Cell or None
+        None where the sheet has no such column.
+    """
+
+    field: Field
+    state: State
+    value: float | str | None = None
+    text: str = ""
+    cell: Cell | None = None
+
+    @property
+    def place(self) -> str:
+        """Cell such as ``Nets!C5``; empty where the sheet has no such column."""
+        return self.cell.place if self.cell else ""
+
+    @property
+    def number(self) -> float:
+        """The value in the field's first unit; an error unless it is a number."""
+        if not isinstance(self.value, float):
+            raise ModelError(f"{self.field.label}: no number was read")
+        return self.value
+
+    @property
+    def si(self) -> float:
+        """The value in SI units; an error unless it is a number."""
+        return to_si(self.number, self.field.unit)
+
+    @property
+    def word(self) -> str:
+        """The value of a word, id or text; empty where nothing is given."""
+        return self.value if isinstance(self.value, str) else ""
+
+    def echo(self) -> InputEcho:
+        """Give the input as the report shows it."""
+        return InputEcho(
+            label=self.field.label,
+            unit=self.field.unit,
+            text=self.text,
+            value="" if self.value is None else self.value,
+            cell="default" if self.state == "default" else self.place,
+        )
+
+
+Row = Mapping[str, Reading]  # the readings of one line, by field key
+
+
+def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> Reading:
+    """Read one cell as one field; a fault goes to ``findings``.
+
+    Parameters
+    ----------
+    cell : Cell
+        The cell, blank or not.
+    field : Field
+        What it should hold.
+    unit : str
+        Unit of the column; one of ``field.units``, or empty for words.
+    findings : list of Finding
+        Appended to.
+
+    Returns
+    -------
+    Reading
+        Its value in the field's first unit.
+    """
+    understood = _understand(cell, field, unit)
+    if isinstance(understood, Refusal):
+        findings.append(cell.finding(understood, field.heading_in(unit)))
+        return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+    if understood is None:
+        return read_nothing(field, cell)
+    is_converted = unit != field.unit
+    return Reading(
+        field=field,
+        state="given",
+        value=understood,
+        text=f"{cell.text} {unit}" if is_converted else cell.text,
+        cell=cell,
+    )
+
+
+def read_nothing(field: Field, cell: Cell | None) -> Reading:
+    """Read an optional field where nothing is typed, or no column exists."""
+    if field.default is None:
+        return Reading(field=field, state="blank", cell=cell)
+    return Reading(field=field, state="default", value=field.default, cell=cell)
+
+
+def refuse(
+    reading: Reading,
+    rule: str,
+    accepted: str,
+    findings: list[Finding],
+    *,
+    severity: Severity = "error",
+) -> None:
+    """Add a finding about a reading.
+
+    A reading without a cell stands for a missing heading, which has its own.
+    """
+    if reading.cell is not None:
+        finding = reading.cell.finding(
+            Refusal(rule, accepted), reading.field.heading, severity=severity
+        )
+        findings.append(finding)
+
+
+def refuse_stored(cell: Cell) -> Refusal | None:
+    """Reason why what the file stores in a cell is of no use, if there is one."""
+    if cell.is_error:
+        return Refusal("is an error value", "a value, or a formula without error")
+    if cell.formula and cell.value is None:
+        return Refusal(
+            "is a formula without a stored result",
+            "a value; or open and save the file in a spreadsheet program",
+        )
+    return None
+
+
+def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:
+    if refusal := refuse_stored(cell):
+        return refusal
+    if cell.is_blank:
+        return Refusal("is empty", field.accepted) if field.required else None
+    if field.kind in ("number", "count"):
+        return _understand_number(cell, field, unit)
+    if field.kind == "word":
+        return _understand_word(cell, field)
+    return _understand_text(cell, field)
+
+
+def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
+    if cell.is_percent and unit != "-":
+        # The sheet shows 70 %, the file holds 0.7: which one was meant?
+        return Refusal(
+            "is shown as a percentage by its cell format",
+            "a plain number in the unit of the heading",
+        )
+    number = parse_number(cell.value)
+    if isinstance(number, Refusal):
+        return number
+    value = to_first_unit(number, unit)
+    low, high = field.bounds
+    if not low <= value <= high:
+        is_other = bool(cell.formula) or unit != field.unit
+        gives = f"gives {value:g} {field.unit}, which " if is_other else ""
+        return Refusal(f"{gives}is out of range", field.accepted)
+    if field.kind == "count" and not value.is_integer():
+        return Refusal("is not a whole number", field.accepted)
+    return value
+
+
+def _understand_word(cell: Cell, field: Field) -> str | Refusal:
+    spellings = {
+        normalise(spelling): word
+        for word, aliases in field.words.items()
+        for spelling in (word, *aliases)
+    }
+    word = spellings.get(normalise(str(cell.value)))
+    if word is None:
+        accepted = add_nearest(field.accepted, str(cell.value), field.words)
+        return Refusal("is not a known word", accepted)
+    return word
+
+
+def _understand_text(cell: Cell, field: Field) -> str | Refusal:
+    value = cell.value
+    if field.kind == "id" and (
+        isinstance(value, bool) or not isinstance(value, str | int | float)
+    ):
+        return Refusal("is not a name", "text or a number; no date or truth value")
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)  # a program may store the name 7 as 7.0
+    text = str(value).strip().removesuffix(" 00:00:00")  # a date is no time of day
+    if len(text) > _LONGEST_TEXT:
+        return Refusal("is too long", f"at most {_LONGEST_TEXT} characters")
+    return text

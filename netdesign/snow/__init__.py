@@ -1,0 +1,1 @@
+"""The creeping snowpack: material law, region, mesh, flow."""

@@ -1,0 +1,202 @@
+"""Mesh of the snowpack: a reference triangulation, placed against a net's curve.
+
+The reference region is the rectangle of a straight net normal to the slope, in
+units of the snow thickness: xi is the distance upslope of the net, eta the height
+above the ground. Around the net's two ends, where the pressure is singular, rings
+of triangles shrink geometrically. Every case of one aspect ratio shares the
+reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import skfem
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from netdesign.guards import require_positive, require_within
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_RING_RATIO = 0.4  # aimed ratio of the radii of neighbouring rings
+_RING_REACH = 2.2  # outermost ring, in units of the net spacing
+_CLEARANCE = 1.3  # points of the background keep this many ring reaches away
+_UPSLOPE_GROWTH = 1.35  # of neighbouring columns
+_NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshSize:
+    """Resolution of a mesh, lengths in units of the snow thickness.
+
+    Attributes
+    ----------
+    net_spacing : float
+        Size of triangles along the middle of the net.
+    corner : float
+        Size of the smallest triangles, at the net's two ends.
+    sectors : int
+        Number of sectors of each ring around an end.
+    upslope_spacing : float
+        Largest size, far upslope.
+    """
+
+    net_spacing: float
+    corner: float
+    sectors: int
+    upslope_spacing: float
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that give no mesh."""
+        require_within("net spacing", self.net_spacing, 1e-3, 0.34)
+        require_positive("corner size", self.corner)
+        require_within("corner size", self.corner, 1e-9, self.net_spacing)
+        require_within("sectors", self.sectors, 1, 64)
+        require_within("upslope spacing", self.upslope_spacing, 1e-2, 10.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MeshTemplate:
+    """Reference mesh of six-node triangles; shared by all cases of one shape.
+
+    Attributes
+    ----------
+    nodes : ndarray, shape (2, n_nodes)
+        Reference coordinates (xi, eta); vertices first, then edge midpoints.
+    triangles : ndarray, shape (6, n_triangles)
+        Nodes of each triangle in the order of scikit-fem's ``ElementTriP2``.
+    edges : ndarray, shape (2, n_edges)
+        Vertices of the edges, in the order of the midpoints.
+    net, ground : ndarray, shape (2 n + 1,)
+        Nodes on the net from foot to head, and on the ground going upslope from
+        the foot: vertices and midpoints alternate.
+    orientation : ndarray, shape (n_triangles,)
+        Sign of the area that the order of its nodes gives a placed triangle.
+    aspect : float
+        Upslope length over thickness.
+    """
+
+    nodes: Floats
+    triangles: Ints
+    orientation: Floats
+    edges: Ints
+    net: Ints
+    ground: Ints
+    aspect: float
+
+    @property
+    def net_fractions(self) -> Floats:
+        """Height of the net nodes over the thickness, shape (n_net,); 0 to 1."""
+        return self.nodes[1, self.net]
+
+
+@lru_cache(maxsize=32)
+def build_template(aspect: float, size: MeshSize) -> MeshTemplate:
+    """Reference mesh for a snowpack of ``aspect`` = length / thickness [-]."""
+    require_within("upslope length over thickness", aspect, 0.25, 200.0)
+    points = np.vstack([_ring_points(size), _background_points(aspect, size)])
+    # a short snowpack: the rings must not reach beyond its upslope end
+    points = points[points[:, 0] <= aspect]
+    points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
+    points = np.unique(points.round(12), axis=0)
+    mesh = skfem.MeshTri(points.T.copy(), _triangulate(points).T.copy())
+    basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
+    nodes = np.array(basis.doflocs)
+    # placing maps xi to -X and so turns every triangle over
+    orientation = -np.sign(_twice_area(mesh.p.T[mesh.t.T]))
+    net = np.flatnonzero(nodes[0] == 0.0)
+    ground = np.flatnonzero(nodes[1] == 0.0)
+    return MeshTemplate(
+        nodes=_frozen(nodes),
+        triangles=_frozen(np.array(basis.element_dofs, dtype=np.int64)),
+        orientation=_frozen(orientation),
+        edges=_frozen(np.array(mesh.facets, dtype=np.int64)),
+        net=_frozen(net[np.argsort(nodes[1, net])]),
+        ground=_frozen(ground[np.argsort(nodes[0, ground])]),
+        aspect=aspect,
+    )
+
+
+def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
+    """Node positions of the snowpack whose downslope face is the net's curve.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    net_curve : ndarray, shape (2, n_net)
+        Positions of the net nodes, foot to head, in units of the thickness.
+
+    Returns
+    -------
+    ndarray, shape (2, n_nodes)
+        Positions in the slope's axes, in units of the thickness. Edges on the net
+        are parabolas through their three nodes, all others are straight.
+    """
+    distance, height = template.nodes
+    follow = np.maximum(0.0, 1.0 - distance / min(_NET_REACH, template.aspect))
+    fractions = template.net_fractions
+    x_net = np.interp(height, fractions, net_curve[0])
+    y_net = np.interp(height, fractions, net_curve[1])
+    placed = np.array([follow * x_net - distance, height + follow * (y_net - height)])
+    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
+    placed[:, n_vertices:] = placed[:, template.edges].mean(axis=1)
+    placed[:, template.net] = net_curve
+    return placed
+
+
+def _ring_points(size: MeshSize) -> Floats:
+    reach = min(_RING_REACH * size.net_spacing, 0.45)
+    n_rings = max(1, round(np.log(size.corner / reach) / np.log(_RING_RATIO)))
+    radii = np.geomspace(reach, size.corner, n_rings + 1)
+    angles = np.linspace(0.0, np.pi / 2, size.sectors + 1)
+    x = np.outer(radii, np.cos(angles))
+    y = np.outer(radii, np.sin(angles))
+    x[:, -1] = 0.0  # exactly on the net
+    y[:, 0] = 0.0  # exactly on the ground
+    foot = np.column_stack([x.ravel(), y.ravel()])
+    head = np.column_stack([x.ravel(), 1.0 - y.ravel()])
+    return np.vstack([[(0.0, 0.0), (0.0, 1.0)], foot, head])
+
+
+def _background_points(aspect: float, size: MeshSize) -> Floats:
+    columns = [0.0]
+    step = size.net_spacing
+    while columns[-1] < aspect:
+        columns.append(columns[-1] + step)
+        step = min(step * _UPSLOPE_GROWTH, size.upslope_spacing)
+    places = np.array(columns) * (aspect / columns[-1])
+    spacing = np.append(np.diff(places), places[-1] - places[-2])
+    points = []
+    for place, step in zip(places, spacing, strict=True):
+        rows = max(2, round(1.0 / max(step, size.net_spacing)))
+        heights = np.linspace(0.0, 1.0, rows + 1)
+        points.append(np.column_stack([np.full_like(heights, place), heights]))
+    cloud = np.vstack(points)
+    clear = _CLEARANCE * min(_RING_REACH * size.net_spacing, 0.45)
+    to_foot = np.hypot(cloud[:, 0], cloud[:, 1])
+    to_head = np.hypot(cloud[:, 0], 1.0 - cloud[:, 1])
+    return np.asarray(cloud[np.minimum(to_foot, to_head) > clear])
+
+
+def _triangulate(points: Floats) -> Ints:
+    triangles = Delaunay(points).simplices
+    # collinear boundary points may leave triangles without area
+    solid = np.abs(_twice_area(points[triangles])) > 1e-12
+    return np.asarray(triangles[solid], dtype=np.int64)
+
+
+def _twice_area(corners: Floats) -> Floats:
+    """Signed double areas, shape (n,), of triangles of shape (n, 3, 2)."""
+    (x0, y0), (x1, y1), (x2, y2) = (corners[:, k].T for k in range(3))
+    return np.asarray((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0))
+
+
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+    array.setflags(write=False)
+    return array

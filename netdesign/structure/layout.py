@@ -1,0 +1,72 @@
+"""Geometry of one support: net foot, post, guys, anchors in the slope's plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.guards import require_positive, require_within
+
+# Defaults of this program, chosen for a sensible geometry; from no standard.
+DEFAULT_POST_TILT = math.radians(15.0)
+DEFAULT_UPHILL_RATIO = 1.0  # uphill anchor above the net foot / net height
+DEFAULT_DOWNHILL_RATIO = 1.0  # downhill anchor below the post base / net height
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SupportLayout:
+    """What an engineer chooses of one support.
+
+    Attributes
+    ----------
+    post_spacing : float
+        Distance of the posts along the row, the tributary width [m].
+    post_tilt : float
+        Angle of the post from the slope normal, head downslope positive [rad].
+    uphill_anchor_distance : float
+        Uphill anchor upslope of the net's foot, along the slope [m].
+    downhill_anchor_distance : float
+        Downhill anchor downslope of the post's base, along the slope [m].
+    """
+
+    post_spacing: float
+    post_tilt: float = DEFAULT_POST_TILT
+    uphill_anchor_distance: float
+    downhill_anchor_distance: float
+
+    def __post_init__(self) -> None:
+        """Refuse impossible geometry."""
+        require_positive("post spacing", self.post_spacing, "m")
+        require_within("post tilt", self.post_tilt, math.radians(-30), math.radians(45))
+        require_within(
+            "uphill anchor distance", self.uphill_anchor_distance, 0.0, 100.0, "m"
+        )
+        require_within(
+            "downhill anchor distance", self.downhill_anchor_distance, 0.0, 100.0, "m"
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SupportPoints:
+    """Points of one support in the slope's axes [m]: X downslope, Y normal."""
+
+    net_foot: Point
+    head: Point
+    post_base: Point
+    uphill_anchor: Point
+    downhill_anchor: Point
+
+
+def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
+    """Points of a support whose net hangs from ``head`` [m], foot at the origin."""
+    x_head, y_head = head
+    x_base = x_head - y_head * math.tan(layout.post_tilt)
+    return SupportPoints(
+        net_foot=(0.0, 0.0),
+        head=head,
+        post_base=(x_base, 0.0),
+        uphill_anchor=(-layout.uphill_anchor_distance, 0.0),
+        downhill_anchor=(x_base + layout.downhill_anchor_distance, 0.0),
+    )

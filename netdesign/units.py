@@ -1,0 +1,68 @@
+"""The only unit conversions: engineer's units at the edge, SI inside.
+
+Every function takes and returns plain numbers (or arrays of them); names say
+from what to what. Inside the package everything is SI and radians.
+"""
+
+from __future__ import annotations
+
+import math
+
+SECONDS_PER_DAY = 86_400.0
+SECONDS_PER_YEAR = 365.25 * SECONDS_PER_DAY
+KELVIN_AT_0_C = 273.15
+
+
+def newton_from_kilonewton(value: float) -> float:
+    """KN to N (per metre or not)."""
+    return value * 1e3
+
+
+def kilonewton_from_newton(value: float) -> float:
+    """N to kN (per metre or not)."""
+    return value / 1e3
+
+
+def radian_from_degree(value: float) -> float:
+    """Degrees to radians."""
+    return math.radians(value)
+
+
+def degree_from_radian(value: float) -> float:
+    """Radians to degrees."""
+    return math.degrees(value)
+
+
+def radian_from_percent(value: float) -> float:
+    """Slope in per cent (100 tan psi) to radians."""
+    return math.atan(value / 100.0)
+
+
+def second_from_day(value: float) -> float:
+    """Days to seconds."""
+    return value * SECONDS_PER_DAY
+
+
+def day_from_second(value: float) -> float:
+    """Seconds to days."""
+    return value / SECONDS_PER_DAY
+
+
+def fluidity_from_mpa_year(value: float, creep_exponent: float) -> float:
+    """Fluidity in MPa^-n a^-1 to Pa^-n s^-1."""
+    return float(value * 1e-6**creep_exponent / SECONDS_PER_YEAR)
+
+
+def fluidity_to_mpa_year(value: float, creep_exponent: float) -> float:
+    """Fluidity in Pa^-n s^-1 to MPa^-n a^-1."""
+    return float(value * SECONDS_PER_YEAR / 1e-6**creep_exponent)
+
+
+def celsius_from_kelvin(value: float) -> float:
+    """K to degrees Celsius."""
+    return value - KELVIN_AT_0_C
+
+
+def kelvin_from_celsius(value: float) -> float:
+    """Degrees Celsius to K."""
+    return value + KELVIN_AT_0_C

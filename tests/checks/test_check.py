@@ -1,0 +1,328 @@
+"""The verdict rules, at their bounds, and with everything that can be missing."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import (
+    Band,
+    Standard,
+    StandardValue,
+    check_inclination,
+    check_member,
+    judge,
+    load_standard,
+)
+from netdesign.errors import ModelError
+from netdesign.outcome import Verdict
+from netdesign.site.model import Resistance
+
+KN = 1e3
+ABOVE_1 = math.nextafter(1.0, 2.0)
+BELOW_1 = math.nextafter(1.0, 0.0)
+
+
+def a_value(value_id: str, value: float, unit: str = "-") -> StandardValue:
+    return StandardValue(
+        id=value_id,
+        clause="4.2",
+        text="A value.",
+        value=value,
+        unit=unit,
+        status="user",
+        source="test",
+    )
+
+
+def a_standard(*values: StandardValue) -> Standard:
+    return replace(load_standard("nf-p-95-304-style"), values=values)
+
+
+def plain_standard() -> Standard:
+    """Factors of 1 on both sides, inclination from 25 to 35 degrees."""
+    return a_standard(
+        a_value("action.snow", 1.0),
+        a_value("resistance.tendon", 1.0),
+        a_value("geometry.inclination.min", 25.0, "deg"),
+        a_value("geometry.inclination.max", 35.0, "deg"),
+    )
+
+
+def a_resistance(value: float | None = 1.0, **changes: str) -> Resistance:
+    words = {
+        "member": "foot_anchor",
+        "mode": "tendon",
+        "basis": "declared",
+        "type_id": "GEWI 25",
+        "source": "Anchors!B4",
+    }
+    return Resistance(value=value, **(words | changes))
+
+
+def a_band(value: float, low: float | None = None, high: float | None = None) -> Band:
+    return Band(
+        low=value if low is None else low,
+        value=value,
+        high=value if high is None else high,
+    )
+
+
+def verdict_of(action, resistance=None, standard=None, gap="") -> Verdict:
+    return check_member(
+        action, resistance or a_resistance(), standard or plain_standard(), gap=gap
+    ).verdict
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [
+        (0.0, 0.0, Verdict.PASS),
+        (0.5, BELOW_1, Verdict.PASS),
+        (0.5, 1.0, Verdict.PASS),
+        (1.0, 1.0, Verdict.PASS),
+        (0.5, ABOVE_1, Verdict.NOT_PROVEN),
+        (1.0, ABOVE_1, Verdict.NOT_PROVEN),
+        (BELOW_1, 2.0, Verdict.NOT_PROVEN),
+        (ABOVE_1, ABOVE_1, Verdict.FAIL),
+        (ABOVE_1, 2.0, Verdict.FAIL),
+    ],
+)
+def test_verdict_at_a_utilisation_of_one(low, high, verdict):
+    assert judge(low, high, least=0.0, most=1.0) is verdict
+    assert verdict_of(a_band(high, low=low)) is verdict
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_what_is_no_number_never_passes_nor_fails(bad):
+    for low, high in ((bad, 0.5), (0.5, bad), (bad, bad), (bad, 2.0), (2.0, bad)):
+        assert judge(low, high, least=0.0, most=1.0) is Verdict.NOT_PROVEN
+
+
+def test_limit_that_is_no_number_never_passes():
+    assert judge(0.5, 0.6, least=0.0, most=math.nan) is Verdict.NOT_PROVEN
+    assert judge(0.5, 0.6, least=math.nan, most=1.0) is Verdict.NOT_PROVEN
+
+
+def test_reversed_band_proves_nothing():
+    assert judge(0.9, 0.1, least=0.0, most=1.0) is Verdict.NOT_PROVEN
+    assert judge(3.0, 2.0, least=0.0, most=1.0) is Verdict.NOT_PROVEN
+
+
+def test_incomplete_band_can_fail_and_cannot_pass():
+    def incomplete(low: float, high: float) -> Verdict:
+        return judge(low, high, least=0.0, most=1.0, is_complete=False)
+
+    assert incomplete(0.1, 0.2) is Verdict.NOT_PROVEN
+    assert incomplete(1.0, 1.0) is Verdict.NOT_PROVEN
+    assert incomplete(ABOVE_1, 2.0) is Verdict.FAIL
+
+
+@pytest.mark.parametrize(
+    ("low", "value", "high"),
+    [
+        (2.0, 1.0, 3.0),
+        (1.0, 3.0, 2.0),
+        (-1.0, 1.0, 2.0),
+        (math.nan, 1.0, 2.0),
+        (1.0, math.nan, 2.0),
+        (1.0, 1.0, math.nan),
+        (1.0, 1.0, math.inf),
+    ],
+)
+def test_band_refuses_disorder_and_what_is_no_number(low, value, high):
+    with pytest.raises(ModelError, match="0 <= low <= value <= high"):
+        Band(low=low, value=value, high=high)
+
+
+def test_numbers_of_a_check_are_action_times_and_resistance_over_factor():
+    standard = a_standard(
+        a_value("action.snow", 1.5), a_value("resistance.tendon", 1.25)
+    )
+    action = Band(low=90 * KN, value=100 * KN, high=120 * KN)
+    result = check_member(action, a_resistance(500 * KN), standard, gap="")
+    assert (result.id, result.clause) == ("foot_anchor.tendon", "4.2")
+    assert (result.member, result.mode) == ("foot_anchor", "tendon")
+    assert result.action == action
+    assert (result.action_factor, result.resistance_factor) == (1.5, 1.25)
+    assert result.demand == Band(low=135 * KN, value=150 * KN, high=180 * KN)
+    assert (result.resistance, result.design_resistance) == (500 * KN, 400 * KN)
+    assert result.utilisation == Band(low=0.3375, value=0.375, high=0.45)
+    assert result.verdict is Verdict.PASS
+
+
+def test_each_factor_alone_can_turn_a_pass_into_a_fail():
+    def with_factors(on_action: float, on_resistance: float) -> Verdict:
+        standard = a_standard(
+            a_value("action.snow", on_action),
+            a_value("resistance.tendon", on_resistance),
+        )
+        return verdict_of(a_band(80 * KN), a_resistance(100 * KN), standard)
+
+    assert with_factors(1.25, 1.0) is Verdict.PASS
+    assert with_factors(1.26, 1.0) is Verdict.FAIL
+    assert with_factors(1.0, 1.25) is Verdict.PASS
+    assert with_factors(1.0, 1.26) is Verdict.FAIL
+
+
+def test_no_solved_case_is_not_proven():
+    result = check_member(None, a_resistance(), plain_standard(), gap="")
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "no case was solved" in result.reason
+    assert (result.action, result.demand, result.utilisation) == (None, None, None)
+
+
+def test_failed_cases_keep_a_check_from_passing_and_are_named():
+    result = check_member(
+        a_band(0.2), a_resistance(), plain_standard(), gap="3 of 40 cases failed"
+    )
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "3 of 40 cases failed" in result.reason
+
+
+def test_failed_cases_do_not_hide_a_sure_failure_and_are_named():
+    result = check_member(
+        a_band(2.0), a_resistance(), plain_standard(), gap="3 of 40 cases failed"
+    )
+    assert result.verdict is Verdict.FAIL
+    assert "3 of 40 cases failed" in result.reason
+
+
+def test_band_across_the_resistance_says_so():
+    result = check_member(
+        Band(low=0.9, value=0.95, high=1.1), a_resistance(), plain_standard(), gap=""
+    )
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "band of the demand spans the resistance" in result.reason
+
+
+def test_missing_resistance_names_member_type_and_cell():
+    result = check_member(a_band(0.2), a_resistance(None), plain_standard(), gap="")
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert (result.utilisation, result.design_resistance) == (None, None)
+    for word in ("foot_anchor", "tendon", "GEWI 25", "Anchors!B4"):
+        assert word in result.reason
+
+
+def test_missing_resistance_without_a_type_names_the_cell():
+    resistance = a_resistance(None, type_id="", source="Nets!K5")
+    result = check_member(a_band(0.2), resistance, plain_standard(), gap="")
+    assert "cell Nets!K5" in result.reason
+    assert "of type" not in result.reason
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf])
+def test_resistance_that_is_no_positive_number_proves_nothing(bad):
+    result = check_member(a_band(0.2), a_resistance(bad), plain_standard(), gap="")
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert result.utilisation is None
+    assert "Anchors!B4" in result.reason
+
+
+@pytest.mark.parametrize("left_out", ["action.snow", "resistance.tendon"])
+def test_missing_factor_is_not_proven_and_named(left_out):
+    values = [v for v in plain_standard().values if v.id != left_out]
+    result = check_member(a_band(9.0), a_resistance(), a_standard(*values), gap="")
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert f"the profile has no factor {left_out}" in result.reason
+
+
+def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
+    resistance = a_resistance(1e9, mode="pull_out", basis="declared")
+    standard = load_standard("nf-p-95-304-style")
+    result = check_member(a_band(1.0), resistance, standard, gap="")
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "resistance.pull_out with basis 'declared'" in result.reason
+
+
+def test_tested_and_computed_pull_out_have_their_own_factors():
+    standard = load_standard("nf-p-95-304-style")
+    factors = [
+        check_member(
+            a_band(1.0), a_resistance(mode="pull_out", basis=basis), standard, gap=""
+        ).resistance_factor
+        for basis in ("tested", "computed")
+    ]
+    assert factors == [1.35, 1.89]
+
+
+def test_all_that_is_missing_is_told_at_once():
+    result = check_member(None, a_resistance(None), a_standard(), gap="worker ended")
+    assert result.verdict is Verdict.NOT_PROVEN
+    for part in ("worker ended", "Anchors!B4", "action.snow", "resistance.tendon"):
+        assert part in result.reason
+
+
+def test_slack_member_needs_no_resistance_and_no_factor():
+    result = check_member(a_band(0.0), a_resistance(None), a_standard(), gap="")
+    assert result.verdict is Verdict.PASS
+    assert result.utilisation == Band(low=0.0, value=0.0, high=0.0)
+    assert "slack in every case" in result.reason
+
+
+def test_slack_member_with_failed_cases_is_not_proven():
+    for value in (None, 1.0):
+        result = check_member(
+            a_band(0.0), a_resistance(value), plain_standard(), gap="1 case failed"
+        )
+        assert result.verdict is Verdict.NOT_PROVEN
+        assert "1 case failed" in result.reason
+
+
+def test_member_that_may_be_tight_needs_its_resistance():
+    action = Band(low=0.0, value=0.0, high=5e-324)
+    assert verdict_of(action, a_resistance(None)) is Verdict.NOT_PROVEN
+
+
+def test_assumed_values_are_listed_with_the_check():
+    resistance = a_resistance(1e9, mode="rope", member="uphill_guy")
+    standard = load_standard("nf-p-95-304-style")
+    result = check_member(a_band(1.0), resistance, standard, gap="")
+    assert result.verdict is Verdict.PASS
+    assert result.assumed == ("action.snow", "resistance.rope")
+    own = check_member(a_band(0.2), a_resistance(), plain_standard(), gap="")
+    assert own.assumed == ()
+
+
+def just_below(degrees: float) -> float:
+    return math.nextafter(math.radians(degrees), 0.0)
+
+
+def just_above(degrees: float) -> float:
+    return math.nextafter(math.radians(degrees), 2.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [
+        (math.radians(25), math.radians(35), Verdict.PASS),
+        (math.radians(30), math.radians(30), Verdict.PASS),
+        (just_below(25), math.radians(30), Verdict.NOT_PROVEN),
+        (math.radians(30), just_above(35), Verdict.NOT_PROVEN),
+        (math.radians(10), math.radians(25), Verdict.NOT_PROVEN),
+        (math.radians(10), just_below(25), Verdict.FAIL),
+        (just_above(35), math.radians(40), Verdict.FAIL),
+        (25.0, 35.0, Verdict.FAIL),  # degrees taken for radians
+        (math.nan, math.radians(30), Verdict.NOT_PROVEN),
+        (math.radians(30), math.inf, Verdict.NOT_PROVEN),
+    ],
+)
+def test_inclination_against_the_range_of_the_profile(low, high, verdict):
+    result = check_inclination(low, high, plain_standard())
+    assert result.verdict is verdict
+    assert result.id == "geometry.inclination"
+    assert result.clause == "4.2"
+
+
+def test_inclination_tells_both_ranges_in_degrees():
+    result = check_inclination(math.radians(20), math.radians(30), plain_standard())
+    expected = (
+        "The net inclination 20 to 30 degrees is not all inside 25 to 35 degrees."
+    )
+    assert result.reason == expected
+
+
+def test_inclination_without_limits_is_not_proven():
+    result = check_inclination(math.radians(26), math.radians(34), a_standard())
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert "no limits of the net inclination" in result.reason

@@ -1,0 +1,165 @@
+"""Profiles from the program and from a folder; their hash; what is refused."""
+
+import dataclasses
+import math
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from netdesign.checks.loader import CONFIRM, list_standards, load_standard
+from netdesign.errors import StandardError
+from netdesign.resources import find_resource
+
+NF_STYLE = "nf-p-95-304-style"
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    """A copy of the profile that comes with the program."""
+    source = find_resource("standards") / NF_STYLE
+    return Path(shutil.copytree(source, tmp_path / "mine"))
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    text = path.read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), "utf-8")
+
+
+def test_every_profile_of_the_program_loads_under_its_own_id():
+    names = list_standards()
+    assert NF_STYLE in names
+    assert [load_standard(name).id for name in names] == list(names)
+
+
+def test_nf_style_profile_claims_no_more_than_is_known():
+    standard = load_standard(NF_STYLE)
+    assert len(standard.values) == 8
+    assert {v.status for v in standard.values if v.unit == "deg"} == {"secondary"}
+    assert {v.status for v in standard.values if v.unit == "-"} == {"assumed"}
+    assert {v.clause for v in standard.values} == {"-"}
+    assert "Not the text of NF P 95-304" in standard.what_it_is_not
+
+
+def test_nf_style_profile_has_the_values_of_its_notes():
+    values = {v.id: v.value for v in load_standard(NF_STYLE).values}
+    assert values == {
+        "geometry.inclination.min": 25.0,
+        "geometry.inclination.max": 35.0,
+        "action.snow": 1.5,
+        "resistance.tendon": pytest.approx(1.15 * 1.3, rel=1e-15),
+        "resistance.pull_out.tested": 1.35,
+        "resistance.pull_out.computed": pytest.approx(1.35 * 1.40, rel=1e-15),
+        "resistance.rope": 1.5,
+        "resistance.compression": 1.05,
+    }
+
+
+def test_values_are_kept_as_printed_and_in_si():
+    standard = load_standard(NF_STYLE)
+    inclination = standard.find("geometry.inclination.max")
+    assert (inclination.value, inclination.unit) == (35.0, "deg")
+    assert inclination.value_si == math.radians(35.0)
+    assert standard.find("action.snow").value_si == 1.5
+
+
+def test_assumed_values_ask_to_be_confirmed():
+    standard = load_standard(NF_STYLE)
+    assert {v.note for v in standard.assumed} == {CONFIRM}
+    assert len(standard.assumed) == 6
+    assert standard.find("geometry.inclination.min").note == ""
+
+
+def test_factor_of_the_basis_is_used_and_else_that_of_the_mode():
+    standard = load_standard(NF_STYLE)
+
+    def found(mode: str, basis: str) -> str | None:
+        value = standard.find_resistance_factor(mode, basis)
+        return value.id if value else None
+
+    assert found("pull_out", "tested") == "resistance.pull_out.tested"
+    assert found("pull_out", "computed") == "resistance.pull_out.computed"
+    assert found("pull_out", "declared") is None
+    assert found("pull_out", "") is None
+    assert found("rope", "declared") == "resistance.rope"
+    assert found("rope", "") == "resistance.rope"
+    assert found("bending", "tested") is None
+
+
+def test_standard_is_frozen():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        load_standard(NF_STYLE).id = "other"  # type: ignore[misc]
+
+
+def test_folder_gives_the_same_profile_as_the_id(folder):
+    assert load_standard(folder) == load_standard(NF_STYLE)
+    assert load_standard(str(folder)) == load_standard(NF_STYLE)
+
+
+@pytest.mark.parametrize("end", [b"\r\n", b"\r"])
+def test_hash_does_not_depend_on_line_ends(folder, end):
+    before = load_standard(folder).sha256
+    for path in folder.iterdir():
+        path.write_bytes(path.read_bytes().replace(b"\n", end))
+    assert re.fullmatch("[0-9a-f]{64}", before)
+    assert load_standard(folder).sha256 == before
+
+
+@pytest.mark.parametrize(
+    "name", ["document.toml", "limits.toml", "factors.toml", "NOTES.md"]
+)
+def test_hash_depends_on_every_file(folder, name):
+    before = load_standard(folder).sha256
+    with (folder / name).open("a") as file:
+        file.write("\n# one more remark\n")
+    assert load_standard(folder).sha256 != before
+
+
+def test_hash_depends_on_names_and_not_on_foreign_files(folder):
+    before = load_standard(folder).sha256
+    (folder / ".DS_Store").write_bytes(b"x")
+    (folder / "sub").mkdir()
+    assert load_standard(folder).sha256 == before
+    (folder / "NOTES.md").rename(folder / "REMARKS.md")
+    assert load_standard(folder).sha256 != before
+
+
+def test_byte_order_mark_is_allowed(folder):
+    path = folder / "factors.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert len(load_standard(folder).values) == 8
+
+
+def test_unknown_id_names_the_nearest():
+    with pytest.raises(StandardError, match=f"'NF P 95-304'.*did you mean {NF_STYLE}"):
+        load_standard("NF P 95-304")
+
+
+def test_unknown_id_far_from_all_names_what_is_accepted():
+    with pytest.raises(StandardError) as caught:
+        load_standard("zzz")
+    assert "did you mean" not in str(caught.value)
+    assert f"Accepted are {NF_STYLE}" in str(caught.value)
+    assert "path of a profile folder" in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["document.toml", "limits.toml", "factors.toml"])
+def test_missing_file_is_named(folder, name):
+    (folder / name).unlink()
+    with pytest.raises(StandardError, match=f"lacks {name}"):
+        load_standard(folder)
+
+
+def test_wrong_value_is_refused_with_file_and_key(folder):
+    edit(folder / "factors.toml", "value = 1.5\n", "value = nan\n")
+    with pytest.raises(StandardError, match=r"factors\.toml: 'factor' entry 1 'value'"):
+        load_standard(folder)
+
+
+@pytest.mark.parametrize("rest", [b"value = = 1", b"\xff\xfe"])
+def test_file_that_is_not_toml_is_named(folder, rest):
+    (folder / "limits.toml").write_bytes(rest)
+    with pytest.raises(StandardError, match=r"limits\.toml: is not TOML in UTF-8"):
+        load_standard(folder)

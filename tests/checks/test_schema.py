@@ -1,0 +1,168 @@
+"""What the files of a profile may hold, and how the rest is refused."""
+
+import math
+
+import pytest
+
+from netdesign.checks.schema import (
+    FACTOR_IDS,
+    DocumentFile,
+    FactorsFile,
+    LimitsFile,
+    check_table,
+)
+from netdesign.errors import StandardError
+from netdesign.site.model import MEMBER_MODES
+
+
+def an_entry(**changes: object) -> dict[str, object]:
+    entry = {
+        "id": "action.snow",
+        "clause": "-",
+        "text": "Factor on snow.",
+        "value": 1.5,
+        "unit": "-",
+        "status": "assumed",
+        "source": "nowhere",
+    }
+    return entry | changes
+
+
+def some_limits(low: float = 25.0, high: float = 35.0) -> list[dict[str, object]]:
+    return [
+        an_entry(id="geometry.inclination.min", value=low, unit="deg"),
+        an_entry(id="geometry.inclination.max", value=high, unit="deg"),
+    ]
+
+
+def a_document(**changes: object) -> dict[str, object]:
+    keys = (
+        "title",
+        "edition",
+        "language",
+        "transcribed_by",
+        "checked_by",
+        "what_it_is",
+        "what_it_is_not",
+    )
+    return {"id": "my-profile"} | dict.fromkeys(keys, "something") | changes
+
+
+def refusal(shape, table) -> str:
+    with pytest.raises(StandardError) as caught:
+        check_table(shape, table, "my.toml")
+    return str(caught.value)
+
+
+def test_good_files_are_read():
+    factors = check_table(FactorsFile, {"factor": [an_entry(value=2)]}, "f")
+    assert factors.factor[0].value == 2.0
+    limits = check_table(LimitsFile, {"limit": some_limits()}, "l")
+    assert [entry.value for entry in limits.limit] == [25.0, 35.0]
+    assert check_table(DocumentFile, a_document(), "d").id == "my-profile"
+
+
+def test_profile_may_have_no_values_if_it_says_so():
+    assert check_table(FactorsFile, {"factor": []}, "f").factor == []
+    assert check_table(LimitsFile, {"limit": []}, "l").limit == []
+    assert "'factor': is missing" in refusal(FactorsFile, {})
+
+
+def test_every_mode_of_a_site_may_have_a_factor():
+    assert {f"resistance.{mode}" for _, mode in MEMBER_MODES} <= set(FACTOR_IDS)
+
+
+def test_unknown_key_is_refused_with_the_accepted_ones():
+    message = refusal(FactorsFile, {"factor": [an_entry(), an_entry(valeu=1.5)]})
+    assert "my.toml: 'factor' entry 2 'valeu': unknown key" in message
+    assert "accepted are id, clause, text, value, unit, status, source" in message
+    assert "'factors': unknown key; accepted are factor" in refusal(
+        FactorsFile, {"factor": [], "factors": []}
+    )
+
+
+@pytest.mark.parametrize("key", list(an_entry()))
+def test_every_key_of_an_entry_is_needed(key):
+    entry = an_entry()
+    del entry[key]
+    message = refusal(FactorsFile, {"factor": [entry]})
+    assert f"my.toml: 'factor' entry 1 '{key}': is missing" in message
+
+
+@pytest.mark.parametrize("key", ["clause", "text", "source"])
+@pytest.mark.parametrize("blank", ["", "   "])
+def test_blank_text_is_refused(key, blank):
+    message = refusal(FactorsFile, {"factor": [an_entry(**{key: blank})]})
+    assert f"'{key}' = {blank!r}: " in message
+
+
+@pytest.mark.parametrize(
+    "value", [0.0, -0.0, -1.5, math.nan, math.inf, -math.inf, "1.5", True, None]
+)
+def test_value_must_be_a_positive_finite_number(value):
+    message = refusal(FactorsFile, {"factor": [an_entry(value=value)]})
+    assert f"my.toml: 'factor' entry 1 'value' = {value!r}: " in message
+
+
+def test_smallest_positive_value_is_accepted():
+    table = {"factor": [an_entry(value=5e-324)]}
+    assert check_table(FactorsFile, table, "f").factor[0].value == 5e-324
+
+
+@pytest.mark.parametrize("status", ["read", "secondary", "assumed", "user"])
+def test_known_statuses_are_accepted(status):
+    table = {"factor": [an_entry(status=status)]}
+    assert check_table(FactorsFile, table, "f").factor[0].status == status
+
+
+@pytest.mark.parametrize("status", ["placeholder", "Read", ""])
+def test_unknown_status_is_refused_with_the_accepted_ones(status):
+    message = refusal(FactorsFile, {"factor": [an_entry(status=status)]})
+    assert f"'status' = {status!r}" in message
+    assert "'read', 'secondary', 'assumed' or 'user'" in message
+
+
+@pytest.mark.parametrize("wrong", ["action.wind", "resistance.pullout", "resistance."])
+def test_unknown_id_is_refused_with_the_accepted_ones(wrong):
+    message = refusal(FactorsFile, {"factor": [an_entry(id=wrong)]})
+    assert f"'id' = {wrong!r}: must be one of action.snow, " in message
+
+
+def test_id_of_a_factor_is_none_of_a_limit():
+    limits = [an_entry(unit="deg"), *some_limits()]
+    assert "'id' = 'action.snow'" in refusal(LimitsFile, {"limit": limits})
+
+
+def test_unit_must_be_that_of_the_value():
+    assert "'unit' = 'deg'" in refusal(FactorsFile, {"factor": [an_entry(unit="deg")]})
+    limits = [some_limits()[0] | {"unit": "rad"}, some_limits()[1]]
+    assert "'unit' = 'rad'" in refusal(LimitsFile, {"limit": limits})
+
+
+def test_same_id_twice_is_refused():
+    message = refusal(FactorsFile, {"factor": [an_entry(), an_entry(value=1.0)]})
+    assert "twice or more: action.snow" in message
+    message = refusal(LimitsFile, {"limit": [*some_limits(), *some_limits()]})
+    assert "twice or more: geometry.inclination.max" in message
+
+
+def test_one_end_of_a_range_alone_is_refused():
+    assert "only accepted together" in refusal(LimitsFile, {"limit": some_limits()[:1]})
+
+
+@pytest.mark.parametrize(("low", "high"), [(35.0, 25.0), (30.0, 30.0)])
+def test_reversed_or_empty_range_is_refused(low, high):
+    message = refusal(LimitsFile, {"limit": some_limits(low, high)})
+    assert "geometry.inclination.min must be less than" in message
+
+
+@pytest.mark.parametrize("name", ["", "My profile", "../x", "-a"])
+def test_id_of_a_document_is_a_plain_name(name):
+    assert f"'id' = {name!r}" in refusal(DocumentFile, a_document(id=name))
+
+
+def test_all_faults_of_a_file_are_told_at_once():
+    entries = [an_entry(value=-1.0), an_entry(status="guess"), {"id": "action.snow"}]
+    lines = refusal(FactorsFile, {"factor": entries}).splitlines()
+    assert len(lines) == 2 + 6
+    assert all(line.startswith("my.toml: 'factor' entry ") for line in lines)

@@ -1,0 +1,341 @@
+"""A realistic study by hand: one row that passes, one that fails, one unproven.
+
+No solver is involved: forces follow a made-up smooth law, so that every test
+can state what it expects. Some texts attack the outputs.
+"""
+
+import math
+from itertools import pairwise, product
+
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import InputEcho, Project
+from netdesign.study import (
+    SCHEMA,
+    Arrow,
+    CasePoint,
+    CaseRecord,
+    CheckRecord,
+    Drawing,
+    ExtremeRecord,
+    ProfileRecord,
+    ProfileValue,
+    Provenance,
+    RowStudy,
+    Study,
+)
+
+FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
+MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+ACTION_FACTOR, RESISTANCE_FACTOR = 1.5, 1.35
+ERROR = 0.004  # of every force
+
+
+def build_study(*, samples: int = 3, rows: int = 3) -> Study:
+    """Study of ``rows`` net rows with ``samples`` values of each quantity."""
+    built = [
+        build_row("Couloir 1", samples, scale=0.6),
+        build_row(FORMULA, samples, scale=0.72, failed_case=True),
+        build_row(f"Ridge {SCRIPT}", samples, scale=0.62, missing_resistance=True),
+    ][:rows]
+    verdicts = {row.verdict for row in built}
+    overall = next(v for v in (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)
+                   if v in verdicts)  # fmt: skip
+    return Study(
+        schema=SCHEMA,
+        verdict=overall,
+        project=Project(
+            name=f"Combe du Lac & cirque, lot 3 {MENTION}",
+            number="2026-114",
+            author="A. Moreau",
+            checker="",
+            revision="B",
+            standard="nf-p-95-304",
+        ),
+        profile=build_profile(),
+        rows=built,
+        range_inputs=[
+            _echo("Density, low", "kg/m3", "250", 250.0, "Ranges!B2"),
+            _echo("Density, high", "kg/m3", "450", 450.0, "Ranges!C2"),
+            _echo("Friction angle, low", "°", "", 15.0, "default"),
+        ],
+        notes=[f"Sheet Nets: column {SCRIPT} was not understood.", MENTION],
+        provenance=Provenance(
+            version="0.1.0",
+            command="netdesign check combe.xlsx --standard nf-p-95-304",
+            started="2026-11-21T08:15:00+00:00",
+            site_file="combe.xlsx",
+            site_sha256="9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+            settings={"accuracy": "0.01", "method": "steady", "jobs": "2"},
+            libraries={"numpy": "2.4.0", "scipy": "1.17.0"},
+        ),
+    )
+
+
+def build_profile() -> ProfileRecord:
+    """Limit profile with confirmed and assumed values."""
+    rows = [
+        ("factor.action", "5.2", "Partial factor of snow pressure", 1.5, "assumed"),
+        ("factor.tendon", "6.1", "Partial factor of a tendon", 1.35, "assumed"),
+        ("factor.pull_out", "6.3", "Partial factor of a tested anchor", 1.4, "user"),
+        ("inclination.low", "4.4", "Smallest inclination of the net", 25.0, "read"),
+        ("inclination.high", "4.4", "Largest inclination of the net", 35.0, "read"),
+    ]
+    return ProfileRecord(
+        id="nf-p-95-304",
+        title="NF P 95-304 style profile",
+        edition="1992",
+        sha256="b1946ac92492d2347c6235b4d2611184d5b6b5e8b0e2a5a3a2b0a6f0a3d5c1e2",
+        values=[
+            ProfileValue(
+                id=key,
+                clause=clause,
+                text=text,
+                value=value,
+                unit="°" if key.startswith("inclination") else "",
+                status=status,
+                source="secondary literature, see NOTES.md",
+            )
+            for key, clause, text, value, status in rows
+        ],
+    )
+
+
+def build_row(
+    name: str,
+    samples: int,
+    *,
+    scale: float,
+    failed_case: bool = False,
+    missing_resistance: bool = False,
+) -> RowStudy:
+    """One net row; ``scale`` moves its forces against fixed resistances."""
+    points = [
+        CasePoint(density_kg_m3=d, friction_deg=f, inclination_deg=i)
+        for d, f, i in product(
+            spread(250, 450, samples), spread(15, 45, samples), spread(25, 35, samples)
+        )
+    ]
+    cases = [build_case(point, scale) for point in points]
+    if failed_case:
+        cases[len(cases) // 2] = build_failed_case(points[len(points) // 2])
+    extremes = [build_extreme(member, cases) for member in MEMBERS]
+    checks = [
+        build_check("foot_anchor", "tendon", extremes[0], 520.0),
+        build_check("foot_anchor", "pull_out", extremes[0], 480.0),
+        build_check("uphill_guy", "rope", extremes[1], 300.0),
+        build_check(
+            "downhill_anchor",
+            "pull_out",
+            extremes[2],
+            None if missing_resistance else 150.0,
+        ),
+        build_check("post", "compression", extremes[3], 420.0),
+        build_geometry_check(),
+    ]
+    verdicts = [check.verdict for check in checks]
+    verdict = next(v for v in (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)
+                   if v in verdicts)  # fmt: skip
+    reasons = ["1 of the cases has no result."] if failed_case else []
+    if missing_resistance:
+        reasons.append("Downhill anchor, pull-out: no resistance is given.")
+    return RowStudy(
+        id=name,
+        verdict=verdict,
+        checks=checks,
+        extremes=extremes,
+        cases=cases,
+        inputs=[
+            _echo("Slope angle", "°", "40", 40.0, "Nets!B5"),
+            _echo("Snow height", "m", "5,22 ", 5.22, "Nets!C5"),
+            _echo("Ground", "", "rough", "no-slip", "Nets!D5"),
+            _echo("Remark", "", f"{SCRIPT} {FORMULA}", FORMULA, "Nets!H5"),
+            _echo("Slack", "%", "", 2.0, "default"),
+        ],
+        drawing=build_drawing(extremes[0]),
+        reasons=reasons,
+    )
+
+
+def spread(low: float, high: float, count: int) -> list[float]:
+    """``count`` evenly spaced values."""
+    return [low + (high - low) * step / (count - 1) for step in range(count)]
+
+
+def force(member: str, point: CasePoint, scale: float) -> float:
+    """Made-up force law [kN], rising with density, dented by friction."""
+    share = {"foot_anchor": 1.0, "uphill_guy": 0.55, "downhill_guy": 0.12, "post": 0.7}
+    lean = math.radians(point.inclination_deg)
+    dent = 1 + 0.04 * math.cos(4 * math.radians(point.friction_deg))
+    weight = (point.density_kg_m3 / 450) ** 1.4
+    return 300 * scale * share[member] * weight * dent * (1 + 0.3 * math.sin(lean))
+
+
+def build_case(point: CasePoint, scale: float) -> CaseRecord:
+    """Case with a result."""
+    return CaseRecord(
+        case=point,
+        outcome=Outcome.CONVERGED,
+        reason="",
+        **{f"{member}_kN": force(member, point, scale) for member in MEMBERS},
+        error_percent=100 * ERROR * point.density_kg_m3 / 450,
+        balance_residual=3.1e-10 * point.friction_deg,
+    )
+
+
+def build_failed_case(point: CasePoint) -> CaseRecord:
+    """Case without a result."""
+    return CaseRecord(
+        case=point,
+        outcome=Outcome.MAX_ITERATIONS,
+        reason="60 iterations, residual 2e-3.",
+        **{f"{member}_kN": None for member in MEMBERS},
+        error_percent=None,
+        balance_residual=None,
+    )
+
+
+def build_extreme(member: str, cases: list[CaseRecord]) -> ExtremeRecord:
+    """Largest force of ``member`` over the cases that have a result."""
+    solved = [case for case in cases if case.outcome is Outcome.CONVERGED]
+    worst = max(solved, key=lambda case: getattr(case, f"{member}_kN"))
+    largest = getattr(worst, f"{member}_kN")
+    return ExtremeRecord(
+        quantity=member,
+        max_kN=largest,
+        low_kN=largest * (1 - ERROR),
+        high_kN=largest * (1 + ERROR),
+        case=worst.case,
+        coincident_kN={
+            other: getattr(worst, f"{other}_kN") for other in MEMBERS if other != member
+        },
+    )
+
+
+def build_check(
+    member: str, mode: str, extreme: ExtremeRecord, characteristic: float | None
+) -> CheckRecord:
+    """Force check; without ``characteristic`` resistance it is not proven."""
+    demand, low, high = (
+        ACTION_FACTOR * value
+        for value in (extreme.max_kN, extreme.low_kN, extreme.high_kN)
+    )
+    resistance = None if characteristic is None else characteristic / RESISTANCE_FACTOR
+    if resistance is None:
+        verdict, reason = Verdict.NOT_PROVEN, "No resistance is given in Anchors!E7."
+    elif high / resistance <= 1:
+        verdict, reason = Verdict.PASS, "The demand stays within the resistance."
+    elif low / resistance > 1:
+        verdict, reason = Verdict.FAIL, "The demand exceeds the resistance."
+    else:
+        verdict, reason = Verdict.NOT_PROVEN, "The band crosses the resistance."
+    return CheckRecord(
+        id=f"{member}.{mode}",
+        clause="6.3 (2)",
+        member=member,
+        mode=mode,
+        demand_kN=demand,
+        demand_low_kN=low,
+        demand_high_kN=high,
+        resistance_kN=resistance,
+        utilisation=None if resistance is None else demand / resistance,
+        verdict=verdict,
+        case=extreme.case,
+        reason=reason,
+        action_kN=extreme.max_kN,
+        action_factor=ACTION_FACTOR,
+        resistance_characteristic_kN=characteristic,
+        resistance_factor=None if resistance is None else RESISTANCE_FACTOR,
+        resistance_basis="" if resistance is None else "tested",
+        resistance_type="GEWI 28" if member != "post" else "HEA 160",
+        resistance_cell="Anchors!E7",
+    )
+
+
+def build_geometry_check() -> CheckRecord:
+    """Check without forces."""
+    return CheckRecord(
+        id="geometry.inclination",
+        clause="4.4",
+        member="net",
+        mode="inclination",
+        demand_kN=None,
+        demand_low_kN=None,
+        demand_high_kN=None,
+        resistance_kN=None,
+        utilisation=None,
+        verdict=Verdict.PASS,
+        case=None,
+        reason="25° to 35° lies within 25° to 35°.",
+    )
+
+
+def build_drawing(
+    extreme: ExtremeRecord, *, slope: float = 40.0, tilt: float = 15.0
+) -> Drawing:
+    """Section with a parabolic net under load."""
+    lean = math.radians(extreme.case.inclination_deg)
+    thickness, sag, length = 4.0, 0.35, 20.0
+    head = (thickness * math.tan(lean), thickness)
+    net = [
+        (
+            head[0] * s + 4 * sag * s * (1 - s) * math.cos(lean),
+            head[1] * s - 4 * sag * s * (1 - s) * math.sin(lean),
+        )
+        for s in spread(0, 1, 25)
+    ]
+    base = head[0] - thickness * math.tan(math.radians(tilt))
+    forces = {"foot_anchor": extreme.max_kN, **extreme.coincident_kN}
+    uphill, downhill = -thickness, base + thickness
+    return Drawing(
+        case=extreme.case,
+        slope_deg=slope,
+        snow_thickness_m=thickness,
+        net_m=net,
+        sticks=[step < 15 for step in range(25)],
+        mesh_edges_m=_mesh(net, length),
+        head_m=head,
+        post_base_m=(base, 0.0),
+        uphill_anchor_m=(uphill, 0.0),
+        downhill_anchor_m=(downhill, 0.0),
+        arrows=[
+            _arrow("foot_anchor", (0, 0), net[2], forces["foot_anchor"]),
+            _arrow("uphill_anchor", (uphill, 0), head, forces["uphill_guy"]),
+            _arrow("post", (base, 0), head, -forces["post"]),
+            _arrow("downhill_anchor", (downhill, 0), head, forces["downhill_guy"]),
+        ],
+    )
+
+
+def _arrow(
+    member: str, at: tuple[float, float], toward: tuple[float, float], size: float
+) -> Arrow:
+    along = (toward[0] - at[0], toward[1] - at[1])
+    factor = size / math.hypot(*along)
+    return Arrow(
+        member=member,
+        x_m=at[0],
+        y_m=at[1],
+        force_x_kN=along[0] * factor,
+        force_y_kN=along[1] * factor,
+    )
+
+
+def _mesh(
+    net: list[tuple[float, float]], length: float
+) -> list[tuple[float, float, float, float]]:
+    """Edges of a structured triangle mesh between the top end and the net."""
+    rows = net[::4]
+    grid = [
+        [(-length + (x + length) * (1 - (1 - s) ** 2), y) for s in spread(0, 1, 16)]
+        for x, y in rows
+    ]
+    edges = []
+    for lower, upper in pairwise(grid):
+        for i in range(len(lower) - 1):
+            edges += [(*lower[i], *lower[i + 1]), (*lower[i], *upper[i])]
+            edges += [(*lower[i], *upper[i + 1])]
+    return edges
+
+
+def _echo(label: str, unit: str, text: str, value: float | str, cell: str) -> InputEcho:
+    return InputEcho(label=label, unit=unit, text=text, value=value, cell=cell)

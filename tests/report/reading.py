@@ -1,0 +1,113 @@
+"""Readers for the tests: what a stranger's program finds in the outputs."""
+
+import io
+import re
+import shutil
+import subprocess
+import warnings
+import zipfile
+from html.parser import HTMLParser
+from pathlib import Path
+
+import openpyxl
+from openpyxl.worksheet.worksheet import Worksheet
+
+
+class PageReader(HTMLParser):
+    """Tags, tables by section and text of a page."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.ids: list[str] = []
+        self.tables: dict[str, list[list[list[str]]]] = {}
+        self.text: list[str] = []
+        self._section = ""
+        self._cell: list[str] | None = None
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        known = dict(attrs)
+        if "id" in known:
+            self.ids.append(known["id"])
+        if tag == "section":
+            self._section = known["id"]
+        tables = self.tables.setdefault(self._section, [])
+        if tag == "table":
+            tables.append([])
+        elif tag == "tr":
+            tables[-1].append([])
+        elif tag in ("td", "th"):
+            self._cell = []
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            cell = " ".join(" ".join(self._cell).split())
+            self.tables[self._section][-1][-1].append(cell)
+            self._cell = None
+
+    def handle_data(self, data):
+        self.text.append(data)
+        if self._cell is not None:
+            self._cell.append(data)
+
+
+def read_workbook(content: bytes, *, formulas: bool = False) -> openpyxl.Workbook:
+    """Workbook with cached values, or with formulas."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # openpyxl does not know data bars of 2010
+        return openpyxl.load_workbook(io.BytesIO(content), data_only=not formulas)
+
+
+def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
+    """Rows below the line whose first cell is ``head``, by heading."""
+    lines = [list(line) for line in sheet.iter_rows(values_only=True)]
+    start = next(i for i, line in enumerate(lines) if line[0] == head)
+    rows = []
+    for line in lines[start + 1 :]:
+        if line[0] is None:
+            break
+        rows.append(dict(zip(lines[start], line, strict=True)))
+    return rows
+
+
+def recalculate(content: bytes, folder: Path) -> bytes | None:
+    """Workbook after LibreOffice filled in every formula; None without it."""
+    soffice = shutil.which("soffice")
+    if soffice is None:
+        return None
+    source = folder / "in" / "book.xlsx"
+    source.parent.mkdir()
+    source.write_bytes(_strip_cached(content))
+    subprocess.run(
+        [
+            soffice,
+            f"-env:UserInstallation=file://{folder}/profile",
+            "--headless",
+            "--convert-to",
+            "xlsx",
+            "--outdir",
+            str(folder / "out"),
+            str(source),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=180,
+    )
+    return (folder / "out" / "book.xlsx").read_bytes()
+
+
+def _strip_cached(content: bytes) -> bytes:
+    """The same workbook without the stored results of its formulas."""
+    buffer = io.BytesIO()
+    with (
+        zipfile.ZipFile(io.BytesIO(content)) as source,
+        zipfile.ZipFile(buffer, "w") as target,
+    ):
+        for name in source.namelist():
+            text = source.read(name)
+            if name.startswith("xl/worksheets/sheet"):
+                text = re.sub(rb"</f><v>[^<]*</v>", b"</f>", text)
+            target.writestr(name, text)
+    return buffer.getvalue()

@@ -1,0 +1,181 @@
+import io
+from dataclasses import replace
+
+import pytest
+from build_study import FORMULA, SCRIPT, build_study
+from reading import read_rows, read_workbook, recalculate
+
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.check_view import find_utilisation_band
+from netdesign.report.excel import SHEETS, render_workbook
+from netdesign.report.words import VERDICTS
+
+LIMIT = 1e-12  # relative: one rounding of a product, with room
+
+
+def hold_back(study):
+    """The same study with a passing check held back for failed cases."""
+    row = study.rows[0]
+    check = replace(row.checks[0], verdict=Verdict.NOT_PROVEN, reason="Failed cases.")
+    held = replace(row, checks=[check, *row.checks[1:]], verdict=Verdict.NOT_PROVEN)
+    return replace(study, rows=[held, *study.rows[1:]])
+
+
+STUDY = hold_back(build_study())
+
+
+@pytest.fixture(scope="module")
+def content():
+    return render_workbook(STUDY)
+
+
+def expected_checks(study):
+    return [check for row in study.rows for check in row.checks]
+
+
+def assert_equals_study(content, study):
+    book = read_workbook(content)
+    rows = read_rows(book["Checks"], "No.")
+    for line, check in zip(rows, expected_checks(study), strict=True):
+        low, high = find_utilisation_band(check)
+        expected = {
+            "E_k [kN]": check.action_kN,
+            "E_d low [kN]": check.demand_low_kN,
+            "E_d [kN]": check.demand_kN,
+            "E_d high [kN]": check.demand_high_kN,
+            "R_d [kN]": check.resistance_kN,
+            "μ low": low,
+            "μ": check.utilisation,
+            "μ high": high,
+        }
+        for heading, value in expected.items():
+            shown = "-" if value is None else pytest.approx(value, rel=LIMIT)
+            assert line[heading] == shown, heading
+        assert line["Verdict"] == VERDICTS[check.verdict].word
+    summary = read_rows(book["Summary"], "No.")
+    words = [line["Verdict"] for line in summary]
+    assert words == [VERDICTS[row.verdict].word for row in study.rows]
+    assert book["Summary"]["C3"].value == VERDICTS[study.verdict].word
+
+
+def test_cached_values_equal_the_study(content):
+    assert_equals_study(content, STUDY)
+
+
+def test_recalculation_equals_the_study(content, tmp_path):
+    fresh = recalculate_or_skip(content, tmp_path)
+    assert_equals_study(fresh, STUDY)
+    cached, live = (
+        read_rows(read_workbook(book)["Summary"], "No.") for book in (content, fresh)
+    )
+    for one, other in zip(cached, live, strict=True):
+        for heading, value in one.items():
+            is_ratio = isinstance(value, float)
+            expected = pytest.approx(value, rel=LIMIT) if is_ratio else value
+            assert other[heading] == expected, heading
+
+
+def test_verdicts_follow_an_edited_cell(content, tmp_path):
+    book = read_workbook(content, formulas=True)
+    sheet = book["Checks"]
+    assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
+    sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
+    sheet["L20"], sheet["M20"] = 1e4, 1.35  # third: the missing resistance is given
+    buffer = io.BytesIO()
+    book.save(buffer)
+    fresh = read_workbook(recalculate_or_skip(buffer.getvalue(), tmp_path))
+    assert fresh["Checks"]["S6"].value == "FAIL"
+    assert fresh["Checks"]["S20"].value == "PASS"
+    verdicts = [line["Verdict"] for line in read_rows(fresh["Summary"], "No.")]
+    assert verdicts == ["FAIL", "FAIL", "PASS"]
+
+
+def recalculate_or_skip(content, folder):
+    fresh = recalculate(content, folder)
+    if fresh is None:
+        pytest.skip("soffice is not installed: formulas were not recalculated")
+    return fresh
+
+
+def test_derived_numbers_and_verdicts_are_formulas(content):
+    sheet = read_workbook(content, formulas=True)["Checks"]
+    lines = read_rows(sheet, "No.")
+    for line, check in zip(lines, expected_checks(STUDY), strict=True):
+        derived = ["Verdict", "μ low", "μ", "μ high"]
+        if check.demand_kN is not None:
+            derived += ["E_d low [kN]", "E_d [kN]", "E_d high [kN]", "R_d [kN]"]
+        for heading in derived:
+            assert str(line[heading]).startswith("="), heading
+    summary = read_workbook(content, formulas=True)["Summary"]
+    assert str(summary["C3"].value).startswith("=IF(COUNTIF(")
+    assert str(summary["C6"].value).startswith("=IF(D6>0")
+
+
+def test_only_our_formulas_exist(content):
+    book = read_workbook(content, formulas=True)
+    for sheet in book:
+        for line in sheet.iter_rows():
+            for cell in line:
+                assert cell.hyperlink is None
+                if cell.data_type == "f":
+                    assert sheet.title in ("Checks", "Summary")
+                    assert cell.value != FORMULA
+    names = {cell.value for cell in book["Checks"]["B"]}
+    assert FORMULA in {cell.value for cell in book["Inputs"]["D"]}
+    assert {f"Ridge {SCRIPT}", FORMULA} <= names
+
+
+def test_sheets_are_ready_to_read_and_print(content):
+    book = read_workbook(content)
+    assert tuple(book.sheetnames) == SHEETS
+    for sheet in book:
+        assert sheet.freeze_panes
+        assert sheet.page_setup.orientation == "landscape"
+        assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
+        assert sheet.print_title_rows
+    assert book["Checks"].auto_filter.ref == "A4:X22"
+    assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
+        book.defined_names
+    )
+
+
+def test_numbers_are_numbers_with_a_format(content):
+    cases = read_workbook(content)["Cases"]
+    lines = read_rows(cases, "Net row")
+    records = [case for row in STUDY.rows for case in row.cases]
+    assert len(lines) == len(records) == 81
+    for line, record in zip(lines, records, strict=True):
+        force = record.post_kN
+        shown = "-" if force is None else pytest.approx(force, rel=LIMIT)
+        assert line["Post [kN]"] == shown
+    assert cases["E5"].number_format == "0.0"
+
+
+@pytest.mark.parametrize("rows", [0, 1])
+def test_small_studies_have_a_workbook(rows):
+    study = build_study(rows=1)
+    parts = study.rows[:rows]
+    verdict = merge_verdicts(row.verdict for row in parts)
+    content = render_workbook(replace(study, rows=parts, verdict=verdict))
+    book = read_workbook(content)
+    assert book["Summary"]["C3"].value == VERDICTS[verdict].word
+
+
+def test_bare_row_has_a_workbook():
+    study = build_study(rows=1)
+    bare = replace(
+        study.rows[0],
+        checks=[],
+        extremes=[],
+        cases=[],
+        drawing=None,
+        verdict=Verdict.NOT_PROVEN,
+    )
+    study = replace(study, rows=[bare], notes=[], verdict=Verdict.NOT_PROVEN)
+    book = read_workbook(render_workbook(study))
+    assert book["Checks"]["A5"].value == "none: no check was made"
+    assert book["Cases"]["A4"].value.startswith("none")
+
+
+def test_workbook_repeats_byte_for_byte(content):
+    assert content == render_workbook(STUDY)

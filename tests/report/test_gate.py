@@ -1,0 +1,54 @@
+from dataclasses import replace
+
+import pytest
+from build_study import build_study
+
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Verdict
+from netdesign.report.gate import require_consistent, require_sections
+
+
+def spoil(row_number, check_number, **changes):
+    """Study with one check changed and the verdicts above it left alone."""
+    study = build_study()
+    rows = list(study.rows)
+    checks = list(rows[row_number].checks)
+    checks[check_number] = replace(checks[check_number], **changes)
+    rows[row_number] = replace(rows[row_number], checks=checks)
+    return replace(study, rows=rows)
+
+
+def test_the_sound_study_passes():
+    require_consistent(build_study())
+
+
+@pytest.mark.parametrize(
+    ("study", "message"),
+    [
+        (spoil(0, 0, utilisation=0.5), "utilisation is 0.5, but its parts give"),
+        (spoil(0, 0, demand_kN=1.0), "demand is 1.0, but its parts give"),
+        (spoil(0, 0, resistance_factor=1.0), "resistance is .* but its parts give"),
+        (spoil(0, 0, demand_high_kN=1e4), "high end of its utilisation is"),
+        (spoil(0, 0, demand_high_kN=None), "high end of its utilisation is None"),
+        (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
+        (spoil(0, 0, verdict=Verdict.FAIL), "says pass, but its parts give fail"),
+        (replace(build_study(), verdict=Verdict.PASS), "says pass, but its parts"),
+        (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give fail"),
+    ],
+)
+def test_a_contradiction_is_refused(study, message):
+    with pytest.raises(NetDesignError, match=message):
+        require_consistent(study)
+
+
+def test_a_pass_may_be_held_back():
+    study = build_study(rows=1)
+    row = replace(study.rows[0], verdict=Verdict.NOT_PROVEN, reasons=["A reason."])
+    require_consistent(replace(study, rows=[row], verdict=Verdict.NOT_PROVEN))
+
+
+def test_a_section_needs_more_than_its_heading():
+    page = '<section id="a"><h2>Head</h2><p>none</p></section><section id="b">'
+    require_sections(page + "<h2>Head</h2></section>", ["a"])
+    with pytest.raises(NetDesignError, match="nothing in section b, c"):
+        require_sections(page + "<h2>Head</h2></section>", ["a", "b", "c"])

@@ -1,0 +1,35 @@
+import io
+
+from build_study import SCRIPT, build_study
+from rich.console import Console
+
+from netdesign.report.terminal import print_summary
+
+
+def printed(study, **options):
+    stream = io.StringIO()
+    print_summary(study, Console(file=stream, width=160, **options))
+    return stream.getvalue()
+
+
+def test_one_line_for_each_net_row_then_reasons_and_assumed_values():
+    lines = printed(build_study()).splitlines()
+    assert [line.split("  ")[0] for line in lines[1:4]] == [
+        "Couloir 1",
+        "=1+1",
+        f"Ridge {SCRIPT}",
+    ]
+    assert "=1+1: 1 of the cases has no result." in lines
+    assert any(line.endswith("factor.action, factor.tendon") for line in lines)
+    assert lines[-1].startswith("Verdict: FAIL - ")
+
+
+def test_no_colour_where_the_console_has_none():
+    assert "\x1b" not in printed(build_study())
+    assert "\x1b" in printed(build_study(), force_terminal=True, no_color=False)
+
+
+def test_texts_of_the_site_are_not_markup():
+    study = build_study(rows=1)
+    object.__setattr__(study.rows[0], "id", "[red]A[/red]\x1b[31m")
+    assert "[red]A[/red] [31m" in printed(study)

@@ -1,0 +1,59 @@
+import math
+
+import pytest
+from build_study import build_check, build_extreme, build_row
+
+from netdesign.errors import SolveError
+from netdesign.outcome import Verdict
+from netdesign.quantities import QUANTITIES
+from netdesign.report import words
+
+
+def test_every_verdict_has_its_own_word_sign_and_exit_code():
+    shown = list(words.VERDICTS.values())
+    assert set(words.VERDICTS) == set(Verdict)
+    for read in ("word", "symbol", "style", "meaning", "exit_code"):
+        assert len({getattr(verdict, read) for verdict in shown}) == len(shown)
+
+
+def test_exit_codes_are_those_of_the_interface():
+    codes = {v: shown.exit_code for v, shown in words.VERDICTS.items()}
+    assert codes == {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
+    assert codes[Verdict.NOT_PROVEN] == SolveError.exit_code
+
+
+@pytest.mark.parametrize("value", [None, math.nan, math.inf])
+def test_a_missing_number_is_never_zero_or_empty(value):
+    assert words.show_number("demand_kN", value) == "-"
+    assert words.show_with_unit("demand_kN", value) == "-"
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [(0.99999, "1.000"), (1.0, "1.000"), (1.0000001, ">1.000"), (1.001, "1.001")],
+)
+def test_a_ratio_above_one_never_reads_as_one(value, expected):
+    assert words.show_number("utilisation", value) == expected
+
+
+def test_text_loses_control_characters_and_line_breaks():
+    assert words.show_text("a\x1b[31m\nb\x00") == "a [31m b"
+    assert words.show_text(" \n ") == "-"
+
+
+@pytest.mark.parametrize("key", QUANTITIES)
+def test_number_format_writes_as_many_decimals_as_the_text(key):
+    quantity, code = QUANTITIES[key], words.number_format(key)
+    if quantity.decimals is None:
+        assert code == "General"
+    else:
+        assert code.split("E")[0].partition(".")[2] == "0" * quantity.decimals
+
+
+def test_names_of_checks_and_cases():
+    row = build_row("A", 2, scale=0.6)
+    check = build_check("foot_anchor", "pull_out", row.extremes[0], 480.0)
+    assert words.name_check(check) == "Foot anchor, pull-out"
+    worst = build_extreme("post", row.cases).case
+    assert words.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
+    assert words.name_case_short(worst) == "450 / 15 / 35"

@@ -1,0 +1,91 @@
+import datetime
+from decimal import Decimal
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from netdesign.site.diagnostics import Refusal
+from netdesign.site.numbers import parse_number
+
+
+@pytest.mark.parametrize(
+    ("value", "number"),
+    [
+        (45, 45.0),
+        (0.05, 0.05),
+        (1.234, 1.234),
+        ("2.5", 2.5),
+        ("2,5", 2.5),
+        ("  2,5 ", 2.5),
+        ("-12,75", -12.75),
+        ("+3", 3.0),
+        ("0,450", 0.45),
+        ("1234,567", 1234.567),
+        ("1,2345", 1.2345),
+    ],
+)
+def test_numbers_and_clear_text_are_taken(value, number):
+    assert parse_number(value) == number
+
+
+@pytest.mark.parametrize(
+    ("text", "readings"),
+    [
+        ("1,234", "1.234 or 1234"),
+        ("1.234", "1.234 or 1234"),
+        ("-12,500", "-12.500 or -12500"),
+    ],
+)
+def test_a_thousand_or_a_fraction_is_refused_with_both_readings(text, readings):
+    refusal = parse_number(text)
+    assert isinstance(refusal, Refusal)
+    assert refusal.rule == f"is ambiguous: {readings}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("0,45O", "3 m", "1 234", "1.234,5", "1,234.5", ".5", "5.", "1e3", "--1"),
+        *("", "nan", "inf", "−3", "٣", "2,5;", "=1", "0x10", "1_000", "9" * 40),
+    ],
+)
+def test_other_text_is_refused(text):
+    refusal = parse_number(text)
+    assert isinstance(refusal, Refusal)
+    assert refusal.rule == "is not a number"
+
+
+@pytest.mark.parametrize(
+    ("value", "rule"),
+    [
+        (True, "is a truth value, not a number"),
+        (datetime.datetime(2026, 5, 2), "is a date or time, not a number"),
+        (datetime.timedelta(days=1), "is a date or time, not a number"),
+        (float("nan"), "is not a usable number"),
+        (float("inf"), "is not a usable number"),
+        (10**400, "is not a usable number"),
+    ],
+)
+def test_values_that_are_no_numbers_are_refused(value, rule):
+    refusal = parse_number(value)
+    assert isinstance(refusal, Refusal)
+    assert refusal.rule == rule
+
+
+@settings(derandomize=True, max_examples=200, deadline=None)
+@given(
+    st.decimals(min_value=-99999, max_value=99999, places=2),
+    st.sampled_from([".", ","]),
+)
+def test_what_is_typed_with_two_decimals_is_what_is_read(number, separator):
+    typed = f"{number:.2f}".replace(".", separator)
+    assert parse_number(typed) == float(number)
+
+
+@settings(derandomize=True, max_examples=300, deadline=None)
+@given(st.text(alphabet="0123456789.,+- eEO m", max_size=9))
+def test_text_is_read_as_its_one_meaning_or_refused(text):
+    number = parse_number(text)
+    if not isinstance(number, Refusal):
+        assert number == float(Decimal(text.strip().replace(",", ".")))

@@ -1,0 +1,548 @@
+import datetime
+import hashlib
+import math
+
+import pytest
+import xlsxwriter
+
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.structure.layout import DEFAULT_POST_TILT
+
+HEADINGS = 0
+FIRST, SECOND = 1, 2
+
+
+def column(sheets, heading, sheet="Nets"):
+    """Index of the column whose heading starts so."""
+    return next(
+        index
+        for index, text in enumerate(sheets[sheet][HEADINGS])
+        if str(text).startswith(heading)
+    )
+
+
+def put(sheets, heading, value, line=FIRST, sheet="Nets"):
+    sheets[sheet][line][column(sheets, heading, sheet)] = value
+
+
+def places_and_rules(findings):
+    return [(f"{f.sheet}!{f.cell}", f.rule) for f in findings]
+
+
+def echoes(net_row):
+    return {echo.label: echo for echo in net_row.inputs}
+
+
+# What a sound workbook gives
+
+
+def test_values_arrive_in_si_units(sheets, save):
+    row = read_site(save(sheets)).rows[0]
+    assert row.id == "R1"
+    assert row.slope_angle == math.radians(40)
+    assert row.snow_thickness == 3.0
+    assert row.upslope_length == 20.0
+    assert row.ground == GroundLaw(kind="free")
+    assert row.net_height == 3.5
+    assert row.net_stiffness_per_m == 9e6
+    assert row.layout.post_spacing == 3.5
+
+
+def test_the_file_is_named_and_hashed(sheets, save):
+    path = save(sheets)
+    site = read_site(path)
+    assert site.file_name == "site.xlsx"
+    assert site.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+    assert site.notes == ()
+
+
+def test_ranges_are_read_and_inclination_has_a_default(sheets, save):
+    site = read_site(save(sheets))
+    density, friction = site.ranges.density, site.ranges.friction_angle
+    assert (density.low, density.high, density.count) == (270.0, 400.0, 3)
+    assert (friction.low, friction.high) == (math.radians(15), math.radians(45))
+    assert friction.count == 4
+    inclination = site.ranges.inclination
+    assert (inclination.low, inclination.high) == (math.radians(25), math.radians(35))
+    assert inclination.count == 3
+    shown = {echo.label: echo for echo in site.range_inputs}
+    assert shown["density, low"].cell == "Ranges!B2"
+    assert shown["density, low"].unit == "kg/m3"
+    assert shown["net inclination, high"].cell == "default"
+    assert shown["net inclination, high"].value == 35.0
+
+
+def test_every_input_is_echoed_as_typed_and_as_understood(sheets, save):
+    put(sheets, "snow thickness", "2,75")
+    shown = echoes(read_site(save(sheets)).rows[0])
+    thickness = shown["snow thickness"]
+    assert (thickness.text, thickness.value) == ("2,75", 2.75)
+    assert (thickness.unit, thickness.cell) == ("m", "Nets!C2")
+    assert set(shown) >= {"id", "slope angle", "ground law", "foot anchor", "post"}
+
+
+def test_defaults_are_marked_as_such(sheets, save):
+    row = read_site(save(sheets)).rows[0]
+    shown = echoes(row)
+    assert row.slack == 0.02
+    assert row.layout.post_tilt == DEFAULT_POST_TILT
+    assert row.layout.uphill_anchor_distance == row.net_height
+    assert row.layout.downhill_anchor_distance == row.net_height
+    for label in ("slack", "post tilt", "uphill anchor distance"):
+        assert (shown[label].text, shown[label].cell) == ("", "default")
+    assert shown["uphill anchor distance"].value == 3.5
+
+
+def test_vertical_height_becomes_thickness_normal_to_the_slope(sheets, save):
+    put(sheets, "snow thickness", None)
+    put(sheets, "snow height", 4.0)
+    row = read_site(save(sheets)).rows[0]
+    assert row.snow_thickness == pytest.approx(4.0 * math.cos(math.radians(40)))
+    derived = echoes(row)["snow thickness, from the snow height vertical"]
+    assert (derived.value, derived.cell) == (row.snow_thickness, "Nets!D2")
+
+
+def test_a_slope_in_per_cent_is_converted_and_both_are_echoed(sheets, save):
+    sheets["Nets"][HEADINGS][1] = "Pente (%)"
+    put(sheets, "Pente", 100)
+    put(sheets, "Pente", 70, SECOND)
+    row = read_site(save(sheets)).rows[0]
+    assert row.slope_angle == pytest.approx(math.radians(45))
+    assert echoes(row)["slope angle"].text == "100 %"
+    assert echoes(row)["slope angle"].value == pytest.approx(45)
+    assert echoes(row)["slope angle"].unit == "deg"
+
+
+def test_glide_factor_and_slip_length_give_sliding_ground(sheets, save):
+    put(sheets, "ground law", "sliding")
+    put(sheets, "glide factor", "1,8")
+    put(sheets, "ground law", "Sliding", SECOND)
+    put(sheets, "slip length", 2.5, SECOND)
+    first, second = read_site(save(sheets)).rows
+    assert first.ground == build_ground_from_glide_factor(1.8, 3.0)
+    assert second.ground == GroundLaw(kind="sliding", slip_length=2.5)
+    derived = echoes(first)["slip length, from the glide factor"]
+    assert derived.value == first.ground.slip_length
+
+
+def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
+    row = read_site(save(sheets)).rows[0]
+    found = {(r.member, r.mode): r for r in row.resistances}
+    assert tuple(found) == MEMBER_MODES
+    pull_out = found["foot_anchor", "pull_out"]
+    assert (pull_out.value, pull_out.basis) == (300e3, "tested")
+    assert (pull_out.type_id, pull_out.source) == ("A1", "Anchors!C2")
+    assert found["foot_anchor", "tendon"].basis == "declared"
+    assert found["uphill_guy", "rope"].value == 250e3
+    assert found["post", "compression"].value == 380e3
+
+
+def test_a_resistance_left_empty_or_a_member_without_type_has_none(sheets, save):
+    row = read_site(save(sheets)).rows[1]
+    found = {(r.member, r.mode): r for r in row.resistances}
+    pull_out = found["foot_anchor", "pull_out"]
+    assert (pull_out.value, pull_out.basis) == (None, "")
+    assert (pull_out.type_id, pull_out.source) == ("A2", "Anchors!C3")
+    guy = found["uphill_guy", "rope"]
+    assert (guy.value, guy.type_id, guy.source) == (None, "", "Nets!M3")
+    assert found["downhill_guy", "rope"].source == "Nets"  # no such column
+
+
+def test_the_project_is_read_with_its_cells(sheets, save):
+    sheets["Project"] = [
+        ["name", "value"],
+        ["name", "Combe"],
+        ["Numéro", 1234],
+        ["revision", datetime.datetime(2026, 3, 1)],
+        ["author", None],
+    ]
+    site = read_site(save(sheets))
+    assert (site.project.name, site.project.number) == ("Combe", "1234")
+    assert (site.project.revision, site.project.author) == ("2026-03-01", "")
+    assert site.project_cells["number"] == "Project!B3"
+
+
+def test_french_and_german_headings_and_sheets_are_read(sheets, save):
+    sheets["Filets"] = sheets.pop("Nets")
+    sheets["Filets"][HEADINGS][:3] = [
+        "RANGÉE",
+        "Hangneigung [°]",
+        "epaisseur de neige (m)",
+    ]
+    put(sheets, "ground law", "libre", sheet="Filets")
+    row = read_site(save(sheets)).rows[0]
+    assert (row.id, row.snow_thickness, row.ground.kind) == ("R1", 3.0, "free")
+    assert echoes(row)["slope angle"].cell == "Filets!B2"
+
+
+def test_headings_may_stand_below_a_title_and_above_their_units(sheets, save):
+    units = [
+        *(None, "[deg]", "[m]", "m", "m", None, "m", "-", "m", "kN/m", "m"),
+    ]
+    headings = [str(text).split(" [")[0] for text in sheets["Nets"][HEADINGS]]
+    title = [["Site of an id"], [None]]
+    sheets["Nets"] = [*title, headings, units, *sheets["Nets"][1:]]
+    row = read_site(save(sheets)).rows[0]
+    assert row.net_stiffness_per_m == 9e6
+    assert echoes(row)["slope angle"].cell == "Nets!B5"
+
+
+def test_a_formula_counts_by_its_stored_result(sheets, tmp_path):
+    path = tmp_path / "site.xlsx"
+    with xlsxwriter.Workbook(path) as workbook:
+        for name, rows in sheets.items():
+            sheet = workbook.add_worksheet(name)
+            for number, row in enumerate(rows):
+                sheet.write_row(number, 0, row)
+        workbook.get_worksheet_by_name("Nets").write_formula("C2", "=6/2", value=3)
+    row = read_site(path).rows[0]
+    assert row.snow_thickness == 3.0
+    assert echoes(row)["snow thickness"].text == "=6/2"
+
+
+def test_trailing_empty_rows_and_spaces_are_ignored(sheets, save):
+    sheets["Nets"] += [["  "], [None], [" ", None]]
+    assert len(read_site(save(sheets)).rows) == 2
+
+
+# What is noted, never dropped silently
+
+
+def test_unknown_columns_sheets_and_hidden_rows_are_noted(sheets, save):
+    sheets["Nets"][HEADINGS] += ["remark", None]
+    sheets["Nets"][FIRST] += ["steep", 7]
+    sheets["Letters"] = [["Dear"]]
+
+    def hide(workbook):
+        workbook["Nets"].row_dimensions[3].hidden = True
+        workbook["Ropes"].sheet_state = "hidden"
+
+    notes = "\n".join(read_site(save(sheets, hide)).notes)
+    assert 'Nets › O1: "remark" is no known heading' in notes
+    assert 'Nets › P2: "7" stands below no heading' in notes
+    assert "Letters: the sheet has no part in the check" in notes
+    assert 'Nets › A3: "R2" is in a hidden row' in notes
+    assert "Ropes: the sheet is hidden" in notes
+
+
+def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
+    sheets["Nets"][HEADINGS][1] = "slope angel [deg]"
+    unknown, missing = refused(save(sheets))
+    assert unknown.severity == "note"
+    assert '(nearest: "slope angle [deg]"' in unknown.accepted
+    assert missing.rule == 'lacks the heading "slope angle [deg]"'
+
+
+def test_an_unknown_project_item_is_noted(sheets, save):
+    sheets["Project"] = [["name", "value"], ["colour", "red"]]
+    (note,) = read_site(save(sheets)).notes
+    assert 'Project › A2: "colour" is no known item' in note
+
+
+# What is refused: one fault, one finding
+
+
+@pytest.mark.parametrize(
+    ("heading", "value", "rule"),
+    [
+        ("slope angle", "0,45O", "is not a number"),
+        ("slope angle", "40 deg", "is not a number"),
+        ("slope angle", "1,234", "is ambiguous: 1.234 or 1234"),
+        ("slope angle", True, "is a truth value, not a number"),
+        ("slope angle", 9.9, "is out of range"),
+        ("slope angle", 75.1, "is out of range"),
+        ("slope angle", None, "is empty"),
+        ("slope angle", "   ", "is empty"),
+        ("slope angle", "#REF!", "is an error value"),
+        ("slope angle", "=30+10", "is a formula without a stored result"),
+        ("upslope length", "#N/A", "is an error value"),
+        ("id", None, "is empty"),
+        ("id", datetime.datetime(2026, 1, 2), "is not a name"),
+        ("id", "x" * 201, "is too long"),
+        ("ground law", "slippery", "is not a known word"),
+        ("ground law", None, "is empty"),
+    ],
+)
+def test_a_bad_cell_is_refused_at_its_address(
+    sheets, save, refused, heading, value, rule
+):
+    put(sheets, heading, value)
+    (finding,) = refused(save(sheets))
+    assert finding.rule == rule
+    assert finding.cell == f"{'ABCDEFGHIJKLMN'[column(sheets, heading)]}2"
+    assert finding.accepted
+
+
+@pytest.mark.parametrize("slope", [10.0, 75.0])
+def test_the_bounds_themselves_are_accepted(sheets, save, slope):
+    put(sheets, "slope angle", slope)
+    assert read_site(save(sheets)).rows[0].slope_angle == math.radians(slope)
+
+
+def test_dates_in_number_cells_are_refused(sheets, save, refused):
+    put(sheets, "net height", datetime.datetime(2026, 5, 2))
+    (finding,) = refused(save(sheets))
+    assert finding.rule == "is a date or time, not a number"
+
+
+def test_a_percent_format_is_refused_unless_the_quantity_has_no_unit(
+    sheets, save, refused
+):
+    sheets["Nets"][HEADINGS].append("slack")
+    sheets["Nets"][FIRST].append(0.05)
+
+    def show_slack_as_percent(workbook):
+        workbook["Nets"]["O2"].number_format = "0%"
+
+    def show_slope_as_percent(workbook):
+        workbook["Nets"]["B2"].number_format = "0.00%"
+
+    assert read_site(save(sheets, show_slack_as_percent)).rows[0].slack == 0.05
+    (finding,) = refused(save(sheets, show_slope_as_percent))
+    assert finding.rule == "is shown as a percentage by its cell format"
+
+
+@pytest.mark.parametrize(
+    ("heading", "rule"),
+    [
+        ("slope angle", "has no unit"),
+        ("slope angle [rad]", "has an unknown unit"),
+        ("slope angle [grad]", "has an unknown unit"),
+    ],
+)
+def test_a_missing_or_unknown_unit_is_refused(sheets, save, refused, heading, rule):
+    sheets["Nets"][HEADINGS][1] = heading
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.rule) == ("B1", rule)
+    assert finding.accepted == "[deg] or [%]"
+
+
+def test_two_units_for_one_column_are_refused(sheets, save, refused):
+    sheets["Nets"].insert(1, [None, "[%]"])
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.text) == ("B2", "[%]")
+    assert finding.rule.startswith("is another unit")
+
+
+def test_thickness_and_height_exclude_each_other(sheets, save, refused):
+    put(sheets, "snow height", 4.0)
+    put(sheets, "snow thickness", None, SECOND)
+    both, neither = refused(save(sheets))
+    assert (both.cell, both.text) == ("D2", "4")
+    assert both.rule == "is given beside the snow thickness in Nets!C2"
+    assert (neither.cell, neither.text) == ("C3", "")
+    assert neither.rule.startswith("is empty: neither")
+
+
+def test_thickness_and_height_may_not_both_lack_their_heading(sheets, save, refused):
+    for row in sheets["Nets"]:
+        del row[2:4]
+    (finding,) = refused(save(sheets))
+    assert "snow thickness [m]" in finding.rule
+    assert "snow height vertical [m]" in finding.rule
+
+
+@pytest.mark.parametrize(
+    ("law", "slip", "glide", "cell", "rule"),
+    [
+        ("sliding", None, None, "F2", "needs a slip length or a glide factor: neither"),
+        ("sliding", 2.0, 1.8, "F2", "needs a slip length or a glide factor: both"),
+        ("free", 2.0, None, "G2", 'does not go with the ground law "free"'),
+        ("no-slip", None, 1.8, "H2", 'does not go with the ground law "no-slip"'),
+        ("sliding", None, 2.46, "H2", "is out of range"),
+        ("sliding", None, 1.0005, "H2", "has no slip length"),
+    ],
+)
+def test_ground_law_and_its_number_must_agree(
+    sheets, save, refused, law, slip, glide, cell, rule
+):
+    put(sheets, "ground law", law)
+    put(sheets, "slip length", slip)
+    put(sheets, "glide factor", glide)
+    (finding,) = refused(save(sheets))
+    assert finding.cell == cell
+    assert finding.rule.startswith(rule)
+
+
+def test_an_id_that_no_sheet_defines_is_refused_with_near_matches(
+    sheets, save, refused
+):
+    put(sheets, "foot anchor", "A11")
+    put(sheets, "uphill guy", "Seil")
+    anchor, guy = refused(save(sheets))
+    assert (anchor.cell, anchor.rule) == ("L2", "is no id of sheet Anchors")
+    assert '(nearest: "A1"' in anchor.accepted
+    assert (guy.cell, guy.rule) == ("M2", "is no id of sheet Ropes")
+    assert "nearest" not in guy.accepted
+
+
+def test_ids_used_twice_are_refused_with_the_first_place(sheets, save, refused):
+    put(sheets, "id", "R1", SECOND)
+    sheets["Posts"].append(["P1", 200])
+    post, net = refused(save(sheets))
+    assert (post.cell, post.rule) == ("A3", "is used twice: also in Posts!A2")
+    assert (net.cell, net.rule) == ("A3", "is used twice: also in Nets!A2")
+
+
+def test_a_pull_out_resistance_needs_its_basis(sheets, save, refused):
+    put(sheets, "basis", None, sheet="Anchors")
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, finding.cell) == ("Anchors", "D2")
+    assert finding.rule == "is empty beside the pull-out resistance in Anchors!C2"
+
+
+@pytest.mark.parametrize("value", [0, -300, 5001])
+def test_a_resistance_is_positive_and_bounded(sheets, save, refused, value):
+    put(sheets, "tendon", value, sheet="Anchors")
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.rule) == ("B2", "is out of range")
+
+
+def test_missing_sheets_are_refused(sheets, save, refused):
+    del sheets["Nets"], sheets["Ranges"]
+    nets, ranges = refused(save(sheets))
+    assert nets.rule == 'lacks the sheet "Nets"'
+    assert ranges.rule == 'lacks the sheet "Ranges"'
+
+
+def test_types_without_their_sheet_are_refused_where_they_are_named(
+    sheets, save, refused
+):
+    del sheets["Posts"]
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.rule) == ("N2", "is no id of sheet Posts")
+
+
+def test_sheets_without_headings_or_lines_are_refused(sheets, save, refused):
+    sheets["Ropes"] = [["some", "words"]]
+    del sheets["Nets"][1:]
+    assert places_and_rules(refused(save(sheets))) == [
+        ("Ropes!", "has no row of headings"),
+        ("Nets!", "has no net row"),
+    ]
+
+
+def test_two_sheets_of_one_kind_are_refused(sheets, save, refused):
+    sheets["Netze"] = sheets["Nets"]
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, finding.rule) == (
+        *("Netze", 'is a second sheet "Nets", after Nets'),
+    )
+
+
+def test_duplicated_headings_are_refused(sheets, save, refused):
+    sheets["Nets"][HEADINGS].append("Pente [%]")
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.text) == ("O1", "Pente [%]")
+    assert finding.rule == 'names "slope angle" again, after column B'
+
+
+def test_a_gap_between_lines_is_refused_once(sheets, save, refused):
+    sheets["Nets"][SECOND:SECOND] = [[None], [None]]
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.rule) == ("A3", "is in an empty row")
+
+
+def test_merged_cells_are_refused_below_the_headings_only(sheets, save, refused):
+    sheets["Nets"].insert(0, ["Title"])
+    title_only = save(sheets, lambda book: book["Nets"].merge_cells("A1:D1"))
+    assert len(read_site(title_only).rows) == 2
+    merged = save(sheets, lambda book: book["Nets"].merge_cells("K3:K4"))
+    finding, *others = refused(merged)
+    assert (finding.cell, finding.rule) == ("K3", "is merged over K3:K4")
+    assert [other.cell for other in others] == ["K4"]  # emptied by the merge
+
+
+# Ranges
+
+
+@pytest.mark.parametrize(
+    ("line", "cell", "rule"),
+    [
+        (["density", 270, 400, 3], "A2", "has no unit"),
+        (["density [t/m3]", 270, 400, 3], "A2", "has an unknown unit"),
+        (["wetness [-]", 1, 2, 3], "A2", "is no known quantity"),
+        (["friction angle [deg]", 1, 2, 3], "A3", "is given twice"),
+        (["density [kg/m3]", 99, 400, 3], "B2", "is out of range"),
+        (["density [kg/m3]", 270, 901, 3], "C2", "is out of range"),
+        (["density [kg/m3]", 270, None, 3], "C2", "is empty"),
+        (["density [kg/m3]", 400, 270, 3], "C2", "is below the low end in Ranges!B2"),
+        (["density [kg/m3]", 270, 400, 2.5], "D2", "is not a whole number"),
+        (["density [kg/m3]", 270, 400, 1], "D2", "is too few for a range"),
+        (["density [kg/m3]", 300, 300, 3], "D2", "is too many for a single value"),
+        (["density [kg/m3]", 270, 400, 26], "D2", "is out of range"),
+    ],
+)
+def test_faults_of_a_range_are_refused(sheets, save, refused, line, cell, rule):
+    sheets["Ranges"][FIRST] = line
+    findings = refused(save(sheets))
+    assert (findings[0].cell, findings[0].rule) == (cell, rule)
+    # Where the quantity itself is lost, its absence is the only further finding.
+    assert [f.rule for f in findings[1:]] in (
+        [],
+        ['lacks the quantity "density [kg/m3]"'],
+    )
+
+
+def test_a_range_names_its_unit_in_a_column_or_in_brackets(sheets, save, refused):
+    sheets["Ranges"] = [
+        ["quantity", "unit", "low", "high"],
+        ["density", "kg/m³", 270, 400],
+        ["friction angle", "[deg]", 20, 20],
+    ]
+    ranges = read_site(save(sheets)).ranges
+    assert (ranges.density.low, ranges.density.count) == (270.0, 3)
+    assert ranges.friction_angle.count == 1
+    sheets["Ranges"][SECOND][:2] = ["friction angle [deg]", "%"]
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.text) == ("B3", "%")
+
+
+def test_half_an_inclination_is_refused_and_an_empty_one_is_the_default(
+    sheets, save, refused
+):
+    sheets["Ranges"].append(["net inclination [deg]", None, None, None])
+    assert read_site(save(sheets)).ranges.inclination.low == math.radians(25)
+    put(sheets, "low", 30, line=3, sheet="Ranges")
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, finding.rule) == ("C4", "is empty beside Ranges!B4")
+
+
+def test_missing_columns_and_quantities_of_ranges_are_refused(sheets, save, refused):
+    sheets["Ranges"] = [["quantity", "low"], ["density [kg/m3]", 270]]
+    assert {f.rule for f in refused(save(sheets))} == {
+        'lacks the heading "high"',
+        'lacks the quantity "friction angle [deg]"',
+    }
+
+
+# All at once
+
+
+def test_eleven_faults_are_eleven_findings_in_one_pass(sheets, save, refused):
+    put(sheets, "slope angle", "0,45O")
+    put(sheets, "snow thickness", 40)
+    put(sheets, "upslope length", "#REF!")
+    put(sheets, "net height", "=7/2")
+    put(sheets, "foot anchor", "A-1")
+    put(sheets, "id", "R1", SECOND)
+    put(sheets, "ground law", "slidin", SECOND)
+    sheets["Nets"].insert(SECOND, [None])
+    put(sheets, "tendon", "1,234", sheet="Anchors")
+    sheets["Ropes"][HEADINGS][1] = "minimum breaking force"
+    sheets["Ranges"][FIRST][1:3] = [400, 270]
+    assert sorted(places_and_rules(refused(save(sheets)))) == [
+        ("Anchors!B2", "is ambiguous: 1.234 or 1234"),
+        ("Nets!A3", "is in an empty row"),
+        ("Nets!A4", "is used twice: also in Nets!A2"),
+        ("Nets!B2", "is not a number"),
+        ("Nets!C2", "is out of range"),
+        ("Nets!E2", "is an error value"),
+        ("Nets!F4", "is not a known word"),
+        ("Nets!I2", "is a formula without a stored result"),
+        ("Nets!L2", "is no id of sheet Anchors"),
+        ("Ranges!C2", "is below the low end in Ranges!B2"),
+        ("Ropes!B1", "has no unit"),
+    ]

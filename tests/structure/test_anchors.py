@@ -1,0 +1,150 @@
+"""What one support does to the ground: signs, sums, directions."""
+
+import math
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.outcome import Outcome
+from netdesign.structure.anchors import (
+    AnchorForces,
+    FailedSupport,
+    GroundForce,
+    compute_anchor_forces,
+)
+from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+
+SPACING = 4.0
+FOOT = (30e3, 10e3)  # net pulls the foot anchor downslope and out of the ground
+
+
+def some_points(uphill_anchor_distance: float = 3.0) -> SupportPoints:
+    layout = SupportLayout(
+        post_spacing=SPACING,
+        post_tilt=math.radians(10),
+        uphill_anchor_distance=uphill_anchor_distance,
+        downhill_anchor_distance=3.0,
+    )
+    return place_support(layout, head=(1.8, 3.0))
+
+
+def forces_for(head_pull, foot_pull=FOOT, points=None) -> AnchorForces | FailedSupport:
+    return compute_anchor_forces(
+        points or some_points(),
+        foot_pull_per_m=foot_pull,
+        head_pull_per_m=head_pull,
+        post_spacing=SPACING,
+    )
+
+
+@pytest.mark.parametrize(
+    "head_pull", [(20e3, -30e3), (-40e3, -30e3), (0.0, -1e3), (0.0, 0.0)]
+)
+def test_ground_takes_all_that_the_net_pulls(head_pull):
+    forces = forces_for(head_pull)
+    parts = (
+        forces.foot_anchor,
+        forces.uphill_anchor,
+        forces.downhill_anchor,
+        forces.post_base,
+    )
+    expected_x = SPACING * (FOOT[0] + head_pull[0])
+    expected_y = SPACING * (FOOT[1] + head_pull[1])
+    assert sum(f.x for f in parts) == pytest.approx(expected_x, rel=1e-14, abs=1e-9)
+    assert sum(f.y for f in parts) == pytest.approx(expected_y, rel=1e-14, abs=1e-9)
+
+
+def test_foot_anchor_is_pulled_by_the_net_over_the_spacing():
+    foot = forces_for((20e3, -30e3)).foot_anchor
+    assert (foot.member, foot.x, foot.y) == ("net", 30e3 * 4.0, 10e3 * 4.0)
+
+
+def test_uphill_anchor_is_drawn_towards_the_head():
+    forces = forces_for((20e3, -30e3))
+    anchor = forces.uphill_anchor
+    assert anchor.member == "uphill_guy"
+    assert anchor.size == pytest.approx(forces.head.uphill_guy_tension, rel=1e-15)
+    assert anchor.direction == pytest.approx(math.atan2(3.0, 1.8 + 3.0), rel=1e-14)
+
+
+def test_downhill_anchor_is_drawn_towards_the_head():
+    forces = forces_for((-40e3, -30e3))
+    anchor, points = forces.downhill_anchor, some_points()
+    assert anchor.member == "downhill_guy"
+    assert anchor.size == pytest.approx(forces.head.downhill_guy_tension, rel=1e-15)
+    expected = math.atan2(3.0, 1.8 - points.downhill_anchor[0])
+    assert math.pi / 2 < anchor.direction < math.pi
+    assert anchor.direction == pytest.approx(expected, rel=1e-14)
+
+
+def test_post_base_is_pressed_into_the_ground_along_the_post():
+    forces = forces_for((20e3, -30e3))
+    base = forces.post_base
+    assert base.member == "post"
+    assert base.size == pytest.approx(forces.head.post_compression, rel=1e-15)
+    assert base.direction == pytest.approx(-math.pi / 2 - math.radians(10), rel=1e-14)
+
+
+def test_slack_guy_leaves_its_anchor_without_force_or_direction():
+    anchor = forces_for((20e3, -30e3)).downhill_anchor
+    assert (anchor.x, anchor.y, anchor.size) == (0.0, 0.0, 0.0)
+    assert anchor.direction is None
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "degrees"),
+    [(1, 0, 0), (0, 1, 90), (-1, 0, 180), (0, -1, -90), (1, 1, 45), (-1, -1, -135)],
+)
+def test_direction_counts_from_downslope_positive_out_of_the_ground(x, y, degrees):
+    force = GroundForce(member="net", x=float(x), y=float(y))
+    assert force.direction == pytest.approx(math.radians(degrees), rel=1e-15)
+
+
+def test_member_forces_are_those_of_the_members():
+    forces = forces_for((20e3, -30e3))
+    assert not forces.is_foot_shared
+    assert forces.member_forces == {
+        "foot_anchor": pytest.approx(4.0 * math.hypot(*FOOT), rel=1e-15),
+        "uphill_guy": forces.head.uphill_guy_tension,
+        "uphill_anchor": forces.uphill_anchor.size,
+        "downhill_guy": 0.0,
+        "downhill_anchor": 0.0,
+        "post": forces.head.post_compression,
+    }
+
+
+def test_anchor_shared_by_net_and_guy_takes_both():
+    forces = forces_for((20e3, -30e3), points=some_points(uphill_anchor_distance=0.0))
+    demands = forces.member_forces
+    both = forces.foot_anchor.size + forces.uphill_anchor.size
+    assert forces.is_foot_shared
+    assert forces.uphill_anchor.size > 0.0
+    assert demands["foot_anchor"] == demands["uphill_anchor"] == both
+    assert demands["uphill_guy"] == forces.head.uphill_guy_tension < both
+
+
+def test_failed_head_gives_no_anchor_forces():
+    failed = forces_for((0.0, 10e3))
+    assert isinstance(failed, FailedSupport)
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_pull_that_is_no_number_gives_no_anchor_forces(bad):
+    failures = [
+        forces_for((20e3, -30e3), foot_pull=(bad, 0.0)),
+        forces_for((20e3, -30e3), foot_pull=(0.0, bad)),
+        forces_for((bad, -30e3)),
+    ]
+    assert [f.outcome for f in failures] == [Outcome.NONFINITE] * 3
+
+
+@pytest.mark.parametrize("bad", [0.0, -4.0, math.nan, math.inf])
+def test_spacing_must_be_a_length(bad):
+    with pytest.raises(ModelError, match="post spacing"):
+        compute_anchor_forces(
+            some_points(),
+            foot_pull_per_m=FOOT,
+            head_pull_per_m=(20e3, -30e3),
+            post_spacing=bad,
+        )

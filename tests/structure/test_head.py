@@ -1,0 +1,152 @@
+"""Which members carry the post head, and what is refused."""
+
+import dataclasses
+import math
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.outcome import Outcome
+from netdesign.structure.head import (
+    MIN_GUY_ANGLE,
+    FailedSupport,
+    HeadForces,
+    compute_head_forces,
+)
+from netdesign.structure.layout import SupportPoints
+
+KN = 1e3
+
+
+def some_points(**changes: tuple[float, float]) -> SupportPoints:
+    """Upright post of 4 m, both guys at 3 : 4 : 5."""
+    values = {
+        "net_foot": (-2.0, 0.0),
+        "head": (0.0, 4.0),
+        "post_base": (0.0, 0.0),
+        "uphill_anchor": (-3.0, 0.0),
+        "downhill_anchor": (3.0, 0.0),
+    }
+    return SupportPoints(**(values | changes))
+
+
+def test_pull_downslope_is_held_by_the_uphill_guy():
+    forces = compute_head_forces((30 * KN, 0.0), some_points())
+    assert forces.uphill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
+    assert forces.post_compression == pytest.approx(40 * KN, rel=1e-14)
+    assert forces.downhill_guy_tension == 0.0
+    assert forces.outcome is Outcome.CONVERGED
+    assert "downhill guy is slack" in forces.reason
+
+
+def test_pull_upslope_is_held_by_the_downhill_guy():
+    forces = compute_head_forces((-30 * KN, -10 * KN), some_points())
+    assert forces.downhill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
+    assert forces.post_compression == pytest.approx(50 * KN, rel=1e-14)
+    assert forces.uphill_guy_tension == 0.0
+    assert "uphill guy is slack" in forces.reason
+
+
+@pytest.mark.parametrize("across", [0.0, 1e-14, -1e-14])
+def test_pull_down_the_post_leaves_both_guys_slack(across):
+    forces = compute_head_forces((across * 70 * KN, -70 * KN), some_points())
+    assert forces.post_compression == pytest.approx(70 * KN, rel=1e-15)
+    assert (forces.uphill_guy_tension, forces.downhill_guy_tension) == (0.0, 0.0)
+    assert "both guys are slack" in forces.reason
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_more_than_rounding_across_the_post_tightens_one_guy(sign):
+    forces = compute_head_forces((sign * 1e-12 * 70 * KN, -70 * KN), some_points())
+    tight, slack = forces.uphill_guy_tension, forces.downhill_guy_tension
+    if sign < 0:
+        tight, slack = slack, tight
+    assert tight == pytest.approx(1e-12 * 70 * KN * 5 / 3, rel=1e-12)
+    assert slack == 0.0
+
+
+def test_slack_net_loads_nothing():
+    forces = compute_head_forces((0.0, 0.0), some_points())
+    assert dataclasses.astuple(forces)[:3] == (0.0, 0.0, 0.0)
+
+
+def test_pull_along_the_guy_leaves_the_post_at_zero_not_below():
+    for run in (k / 7 for k in range(1, 50)):  # some round below zero, some above
+        points = some_points(uphill_anchor=(-run, 0.0))
+        forces = compute_head_forces((run * KN, 4.0 * KN), points)
+        assert 0.0 <= forces.post_compression <= 1e-12 * KN
+        expected = KN * math.hypot(run, 4.0)
+        assert forces.uphill_guy_tension == pytest.approx(expected, rel=1e-13)
+
+
+def test_lifting_pull_has_no_equilibrium_and_no_number():
+    failed = compute_head_forces((0.0, 10 * KN), some_points())
+    assert isinstance(failed, FailedSupport)
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert "post would be in tension" in failed.reason
+
+
+def test_lifting_pull_aside_names_both_pairs():
+    failed = compute_head_forces((1 * KN, 10 * KN), some_points())
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert "uphill guy the post would be in tension" in failed.reason
+    assert "downhill guy the guy would have to push" in failed.reason
+
+
+def test_guy_along_the_post_holds_nothing():
+    points = some_points(downhill_anchor=(0.0, 0.0))
+    failed = compute_head_forces((-1 * KN, -10 * KN), points)
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert "downhill guy nothing holds sideways" in failed.reason
+
+
+def test_guy_along_the_post_does_not_disturb_the_other():
+    points = some_points(downhill_anchor=(0.0, 0.0))
+    forces = compute_head_forces((30 * KN, 0.0), points)
+    assert forces.uphill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
+
+
+@pytest.mark.parametrize(("share", "holds"), [(0.999, False), (1.001, True)])
+def test_smallest_angle_between_guy_and_post(share, holds):
+    run = 4.0 * math.tan(share * MIN_GUY_ANGLE)
+    points = some_points(uphill_anchor=(-run, 0.0))
+    result = compute_head_forces((1 * KN, 0.0), points)
+    assert isinstance(result, HeadForces) == holds
+
+
+def test_guy_without_length_holds_nothing():
+    points = some_points(uphill_anchor=(0.0, 4.0))
+    failed = compute_head_forces((1 * KN, 0.0), points)
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert "uphill guy nothing holds sideways" in failed.reason
+
+
+def test_post_without_length_is_refused():
+    failed = compute_head_forces((1 * KN, 0.0), some_points(post_base=(0.0, 4.0)))
+    assert failed.outcome is Outcome.OUT_OF_VALIDITY
+    assert "no length" in failed.reason
+
+
+def test_foot_at_the_uphill_anchor_changes_nothing_at_the_head():
+    apart = compute_head_forces((30 * KN, -5 * KN), some_points())
+    shared = compute_head_forces((30 * KN, -5 * KN), some_points(net_foot=(-3.0, 0.0)))
+    assert shared == apart
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_what_is_no_number_gives_no_forces(bad):
+    for pull in ((bad, 0.0), (0.0, bad)):
+        failed = compute_head_forces(pull, some_points())
+        assert failed.outcome is Outcome.NONFINITE
+    for place in ("head", "post_base", "uphill_anchor", "downhill_anchor"):
+        failed = compute_head_forces((1.0, 0.0), some_points(**{place: (bad, 0.0)}))
+        assert failed.outcome is Outcome.NONFINITE
+
+
+@pytest.mark.parametrize("bad", [-5e-324, math.nan, math.inf])
+@pytest.mark.parametrize(
+    "member", ["post_compression", "uphill_guy_tension", "downhill_guy_tension"]
+)
+def test_forces_with_a_wrong_sign_cannot_be_built(member, bad):
+    with pytest.raises(ModelError, match=member.replace("_", " ")):
+        HeadForces(**({"post_compression": 1.0, "reason": ""} | {member: bad}))

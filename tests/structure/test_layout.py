@@ -1,0 +1,91 @@
+"""Guards and signs of the support's geometry."""
+
+import math
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.structure.layout import SupportLayout, place_support
+
+ABOVE_45_DEG = math.nextafter(math.radians(45), 2)
+BELOW_MINUS_30_DEG = math.nextafter(math.radians(-30), -2)
+
+
+def a_layout(**changes: float) -> SupportLayout:
+    values = {
+        "post_spacing": 4.0,
+        "post_tilt": math.radians(15),
+        "uphill_anchor_distance": 3.0,
+        "downhill_anchor_distance": 2.0,
+    }
+    return SupportLayout(**(values | changes))
+
+
+def test_points_lie_where_the_layout_says():
+    points = place_support(a_layout(), head=(1.5, 3.0))
+    x_base = 1.5 - 3.0 * math.tan(math.radians(15))
+    assert points.net_foot == (0.0, 0.0)
+    assert points.head == (1.5, 3.0)
+    assert points.post_base == pytest.approx((x_base, 0.0), rel=1e-15)
+    assert points.uphill_anchor == (-3.0, 0.0)
+    assert points.downhill_anchor == pytest.approx((x_base + 2.0, 0.0), rel=1e-15)
+
+
+@pytest.mark.parametrize("degrees", [-30, -5, 0, 15, 45])
+def test_post_leans_by_its_tilt_with_the_head_downslope(degrees):
+    points = place_support(a_layout(post_tilt=math.radians(degrees)), head=(1.0, 2.5))
+    run = points.head[0] - points.post_base[0]
+    rise = points.head[1] - points.post_base[1]
+    assert math.degrees(math.atan2(run, rise)) == pytest.approx(degrees, abs=1e-12)
+
+
+def test_uphill_anchor_may_stand_at_the_foot():
+    points = place_support(a_layout(uphill_anchor_distance=0.0), head=(1.0, 2.0))
+    assert points.uphill_anchor == points.net_foot
+
+
+@pytest.mark.parametrize(
+    ("field", "accepted"),
+    [
+        ("post_spacing", [5e-324, 1e3]),
+        ("post_tilt", [math.radians(-30), math.radians(45)]),
+        ("uphill_anchor_distance", [0.0, 100.0]),
+        ("downhill_anchor_distance", [0.0, 100.0]),
+    ],
+)
+def test_layout_accepts_the_ends_of_its_ranges(field, accepted):
+    for value in accepted:
+        assert getattr(a_layout(**{field: value}), field) == value
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize(
+    "field",
+    [
+        "post_spacing",
+        "post_tilt",
+        "uphill_anchor_distance",
+        "downhill_anchor_distance",
+    ],
+)
+def test_layout_refuses_what_is_no_number(field, bad):
+    with pytest.raises(ModelError, match=field.replace("_", " ")):
+        a_layout(**{field: bad})
+
+
+@pytest.mark.parametrize(
+    ("field", "bad"),
+    [
+        ("post_spacing", 0.0),
+        ("post_spacing", -4.0),
+        ("post_tilt", ABOVE_45_DEG),
+        ("post_tilt", BELOW_MINUS_30_DEG),
+        ("uphill_anchor_distance", -5e-324),
+        ("uphill_anchor_distance", math.nextafter(100.0, 200.0)),
+        ("downhill_anchor_distance", -5e-324),
+        ("downhill_anchor_distance", math.nextafter(100.0, 200.0)),
+    ],
+)
+def test_layout_refuses_values_beyond_its_ranges(field, bad):
+    with pytest.raises(ModelError, match=field.replace("_", " ")):
+        a_layout(**{field: bad})
