@@ -36,6 +36,18 @@ class SiteDataError(NetDesignError):
         super().__init__("\n".join(str(finding) for finding in self.findings))
 
 
+class StudyError(NetDesignError):
+    """A stored study cannot be read."""
+
+    exit_code = 3
+
+
+class SceneFileError(NetDesignError):
+    """A scene file was refused; the message lists every fault."""
+
+    exit_code = 3
+
+
 class OutputError(NetDesignError):
     """An output cannot be written: it exists already, or the place is unfit."""
 

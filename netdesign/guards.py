@@ -13,7 +13,9 @@ from netdesign.errors import ModelError
 def require_positive(name: str, value: float, unit: str = "") -> None:
     """Refuse anything but a finite number above zero."""
     if not (math.isfinite(value) and value > 0):
-        raise ModelError(f"{name} = {value!r}: must be a finite number above 0{_in(unit)}")
+        raise ModelError(
+            f"{name} = {value!r}: must be a finite number above 0{_in(unit)}"
+        )
 
 
 def require_within(

@@ -39,7 +39,7 @@ _SENTENCES = {
 class Verdict(StrEnum):
     """Conclusion of a check, of a net row or of a whole study."""
 
-    PASS = "pass"  # noqa: S105 - a verdict, not a password
+    PASS = "pass"
     FAIL = "fail"
     NOT_PROVEN = "not_proven"
 

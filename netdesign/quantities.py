@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,4 +85,4 @@ _ROWS = (
     ),
 )
 
-QUANTITIES: dict[str, Quantity] = {row.key: row for row in _ROWS}
+QUANTITIES: Mapping[str, Quantity] = MappingProxyType({row.key: row for row in _ROWS})

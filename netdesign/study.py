@@ -1,4 +1,4 @@
-"""The study: site -> envelope -> checks -> one value that feeds every output.
+"""The study as a document: one value that feeds every output.
 
 All numbers of this module's values are in engineer's units (kN, degrees, m,
 kg/m3), named in each field, exactly as the JSON document shows them.
@@ -6,12 +6,15 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
+from typing import Literal
 
+from netdesign.errors import StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 
-SCHEMA = "netdesign.study/1"
+SCHEMA: Literal["netdesign.study/1"] = "netdesign.study/1"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,7 +165,7 @@ class Provenance:
 class Study:
     """One study of one site under one profile."""
 
-    schema: str
+    schema: Literal["netdesign.study/1"]
     verdict: Verdict
     project: Project
     profile: ProfileRecord
@@ -170,3 +173,29 @@ class Study:
     range_inputs: list[InputEcho]
     notes: list[str]
     provenance: Provenance
+
+
+def write_document(study: Study) -> str:
+    """JSON text of a study; numbers in full, keys in the order of the fields."""
+    return json.dumps(asdict(study), indent=1, ensure_ascii=False, allow_nan=False)
+
+
+def read_document(text: str) -> Study:
+    """Study from its JSON text.
+
+    Raises
+    ------
+    StudyError
+        Naming every key that is missing, unknown or of the wrong kind.
+    """
+    from pydantic import TypeAdapter, ValidationError
+
+    try:
+        return TypeAdapter(Study).validate_json(text)
+    except ValidationError as error:
+        faults = "\n".join(
+            f"{'.'.join(str(part) for part in fault['loc']) or 'document'}: "
+            f"{fault['msg']}"
+            for fault in error.errors()
+        )
+        raise StudyError(f"not a study of schema {SCHEMA}:\n{faults}") from None

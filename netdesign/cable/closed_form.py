@@ -39,8 +39,8 @@ def compute_parabola_sag(
     require_positive("stiffness", stiffness)
     require_within("slack", slack, 0.0, 1.0)
     # increasing and convex in f above the taut sag: Newton from above is monotone
-    taut = (3.0 * load * chord**4 / (64.0 * stiffness)) ** (1.0 / 3.0)
-    sag = taut + chord * math.sqrt(3.0 * slack / 8.0)
+    taut = math.cbrt(3.0 * load * chord**4 / (64.0 * stiffness))
+    sag: float = taut + chord * math.sqrt(3.0 * slack / 8.0)
     for _ in range(60):
         value = 8.0 / 3.0 * (sag / chord) ** 2 - slack
         value -= load * chord**2 / (8.0 * sag * stiffness)

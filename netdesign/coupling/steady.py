@@ -146,9 +146,7 @@ def _estimate_pulls(
         EndPull(
             x=float(better[0]) * scale,
             y=float(better[1]) * scale,
-            error=float(
-                np.hypot(*(better - worse)) + ERROR_FLOOR * np.hypot(*better)
-            )
+            error=float(np.hypot(*(better - worse)) + ERROR_FLOOR * np.hypot(*better))
             * scale,
         )
         for better, worse in ends
@@ -179,7 +177,9 @@ def _couple(
     images: list[Floats] = []
     for round_number in range(1, settings.max_rounds + 1):
         mesh = _place(problem, curve)
-        wanted = max(settings.stress_tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
+        wanted = max(
+            settings.stress_tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER)
+        )
         flow = solve_flow(
             problem.law,
             mesh,
@@ -333,8 +333,6 @@ def _build_solution(
         net_slides=np.concatenate([[False], end.state.contact.sign != 0]),
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
-        balance=measure_balance(
-            end.problem.law, mesh, end.forces, cable, scale
-        ),
+        balance=measure_balance(end.problem.law, mesh, end.forces, cable, scale),
         cost=cost,
     )

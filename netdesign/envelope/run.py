@@ -100,9 +100,12 @@ def run_cases(
             results.append(solve_case(task))
             notify(results[-1])
         return results
-    with _single_threaded_workers(), ProcessPoolExecutor(
-        min(jobs, len(tasks)), mp_context=get_context("spawn")
-    ) as pool:
+    with (
+        _single_threaded_workers(),
+        ProcessPoolExecutor(
+            min(jobs, len(tasks)), mp_context=get_context("spawn")
+        ) as pool,
+    ):
         futures = {pool.submit(solve_case, task): task for task in tasks}
         try:
             done = {}
@@ -217,9 +220,7 @@ def _collect(future: Future[CaseResult], task: CaseTask) -> CaseResult:
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:
-    return CaseResult(
-        case=task.case, outcome=outcome, reason=reason, member_forces={}
-    )
+    return CaseResult(case=task.case, outcome=outcome, reason=reason, member_forces={})
 
 
 @contextmanager

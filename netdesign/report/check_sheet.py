@@ -187,15 +187,20 @@ class _CheckLine:
             self._put_number(target, demand, product)
         self._put_number(_RESISTANCE_K, check.resistance_characteristic_kN)
         self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
-        quotient = f"{self._at(_RESISTANCE_K)}/{self._at(_RESISTANCE_FACTOR)}"
+        given, factor = self._at(_RESISTANCE_K), self._at(_RESISTANCE_FACTOR)
+        quotient = f'IF({given}>0,{given}/{factor},"{MISSING}")'
         is_live = _divide_resistance(check) is not None or check.resistance_kN is None
         self._put_number(_RESISTANCE, check.resistance_kN, quotient if is_live else "")
         low, high = find_utilisation_band(check)
         for field, demand_field, ratio in zip(
             _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
         ):
-            ratio_of = f"{self._at(demand_field)}/{self._at(_RESISTANCE)}"
-            self._put_number(field, ratio, ratio_of)
+            quotient = f"{self._at(demand_field)}/{self._at(_RESISTANCE)}"
+            # a slack member needs no resistance, unless the study holds it back
+            is_slack = f'AND({self._at(_DEMANDS[2])}=0,{self._at(_SET)}="{MISSING}")'
+            is_live = check.demand_kN is not None or ratio is None
+            formula = f"IF({is_slack},0,{quotient})" if is_live else ""
+            self._put_number(field, ratio, formula)
 
     def _write_verdict(self, check: CheckRecord) -> None:
         is_set = decide_by_ratio(*_recalculate_band(check)) is not check.verdict
@@ -245,6 +250,8 @@ def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
 def _recalculate_band(check: CheckRecord) -> tuple[float | None, float | None]:
     """Band as the sheet calculates it; may differ in the last bit, at exactly 1."""
     resistance = _divide_resistance(check) or check.resistance_kN
+    if check.demand_high_kN == 0.0 or check.utilisation == 0.0:
+        return 0.0, 0.0
     ends = []
     for action, demand in zip(
         _list_actions(check)[::2], _list_demands(check)[::2], strict=True

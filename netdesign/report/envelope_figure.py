@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -88,6 +89,12 @@ def _force(case: CaseRecord, member: str) -> float | None:
     return force
 
 
+def _height(case: CaseRecord, member: str) -> float:
+    """Force, or a gap in the line."""
+    force = _force(case, member)
+    return math.nan if force is None else force
+
+
 def _has_failed(cases: Iterable[CaseRecord]) -> bool:
     return any(case.outcome is not Outcome.CONVERGED for case in cases)
 
@@ -102,10 +109,9 @@ def _draw_panel(
     here = [case for case in row.cases if case.case.inclination_deg == inclination]
     for friction, (shade, dashes, marker) in zip(frictions, _LINES, strict=False):
         points = sorted(
-            (case.case.density_kg_m3, force)
+            (case.case.density_kg_m3, _height(case, member))
             for case in here
             if case.case.friction_deg == friction
-            and (force := _force(case, member)) is not None
         )
         axes.plot(
             [x for x, _ in points],
@@ -218,7 +224,7 @@ def _draw_legend(
     handles.append(ring)
     if has_failed:
         handles.append(Line2D([], [], ls="", marker="x", color=ACCENT, ms=5))
-        handles[-1].set_label("case without a result")
+        handles[-1].set_label("no result")
     figure.legend(
         handles=handles,
         loc="upper left",

@@ -14,6 +14,7 @@ from netdesign.report.view import ReportView, build_view
 from netdesign.report.workbook import Book
 from netdesign.study import Study
 
+_NO_TIME = datetime(1980, 1, 1)
 SHEETS = (
     "Summary",
     "Inputs",
@@ -102,5 +103,7 @@ def _say_none(title: str) -> Table:
 
 def _read_time(started: str) -> datetime:
     """Start of the study in UTC without a zone, as workbooks store it."""
+    if not started:
+        return _NO_TIME
     time = datetime.fromisoformat(started)
     return time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time

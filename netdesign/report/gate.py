@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.check_view import find_utilisation_band
 from netdesign.study import CheckRecord, Study
 
 _TOLERANCE = 1e-9  # relative; products of two stored numbers differ by rounding only
@@ -60,8 +61,11 @@ def _require_sound(place: str, check: CheckRecord) -> None:
             raise NetDesignError(
                 f"{place}: {name} is {whole!r}, but its parts give {parts!r}"
             )
+    is_loaded = check.demand_high_kN or check.action_kN
+    if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
+        raise NetDesignError(f"{place}: utilisation is 0, but the member is not slack")
     if check.verdict is Verdict.PASS and check.demand_kN is not None:
-        high = _ratio(check.demand_high_kN, check.resistance_kN)
+        _, high = find_utilisation_band(check)
         if high is None or not high <= 1:
             raise NetDesignError(
                 f"{place} says pass, but the high end of its utilisation is {high}"

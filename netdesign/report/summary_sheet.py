@@ -52,7 +52,7 @@ def _list_columns() -> tuple[Column, ...]:
         Column(heading="Verdict"),
         *(Column(heading=VERDICTS[v].word, is_number=True) for v in _COUNTED),
         Column(heading=f"Largest {ratio.lower()}", is_number=True),
-        Column(heading="High end of the band", is_number=True),
+        Column(heading="Largest high end", is_number=True),
         Column(heading="Governing check, as studied"),
         Column(heading="Its case"),
         Column(heading="Held back by study"),
@@ -129,8 +129,11 @@ def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     for column, (name, value) in enumerate(
         zip(("check_utilisation", "check_utilisation_high"), cached, strict=True), 6
     ):
-        largest = f"_xlfn.MAXIFS({name},check_net_row_number,A{index + 1})"
-        formula = f'=IF({largest}>0,{largest},"{MISSING}")'
+        mine = f"check_net_row_number,A{index + 1}"
+        formula = (
+            f'=IF(COUNTIFS({mine},{name},">=0")>0,'
+            f'_xlfn.MAXIFS({name},{mine}),"{MISSING}")'
+        )
         sheet.write_formula(
             index, column, formula, form, MISSING if value is None else value
         )

@@ -22,6 +22,7 @@ from netdesign.study import CasePoint, CaseRecord, RowStudy, Study
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+_COUNTS = ("Cases", "Without result")
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 
 
@@ -58,6 +59,12 @@ def _words(heading: str) -> Column:
 
 def _numbers(key: str, heading: str = "") -> Column:
     return Column(heading=heading or name_heading(key), quantity=key, is_number=True)
+
+
+def _name_columns(
+    headings: Sequence[str], *, numbers: Sequence[str]
+) -> tuple[Column, ...]:
+    return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
 
 
 def _text(text: str) -> Cell:
@@ -171,10 +178,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
     headings = ("Input", "Typed", "Understood as", "Unit", "Cell")
     return Table(
         caption=caption,
-        columns=tuple(
-            Column(heading=heading, is_number=heading == "Understood as")
-            for heading in headings
-        ),
+        columns=_name_columns(headings, numbers=("Understood as",)),
         rows=tuple(
             (
                 _text(echo.label),
@@ -193,10 +197,7 @@ def build_profile(study: Study, status: str = "") -> Table:
     headings = ("Clause", "Value of", "Value", "Unit", "Status", "Source")
     return Table(
         caption=f"Values with the status {status!r}" if status else "Every value used",
-        columns=tuple(
-            Column(heading=heading, is_number=heading == "Value")
-            for heading in headings
-        ),
+        columns=_name_columns(headings, numbers=("Value",)),
         rows=tuple(
             (
                 _text(value.clause),
@@ -218,7 +219,7 @@ def build_quality(study: Study) -> Table:
         caption="Quality of the solutions, worst case of each net row",
         columns=(
             _words("Net row"),
-            *(Column(heading=h, is_number=True) for h in ("Cases", "Without result")),
+            *_name_columns(_COUNTS, numbers=_COUNTS),
             _numbers("balance_residual", "Largest balance residual, of the weight"),
             _words("In case"),
             _numbers("error_percent", "Largest error estimate [%]"),
@@ -258,11 +259,7 @@ def build_outcomes(study: Study) -> Table:
     counts = Counter(case.outcome for row in study.rows for case in row.cases)
     return Table(
         caption="Cases by outcome",
-        columns=(
-            _words("Outcome"),
-            Column(heading="Cases", is_number=True),
-            _words("Meaning"),
-        ),
+        columns=_name_columns(("Outcome", "Cases", "Meaning"), numbers=("Cases",)),
         rows=tuple(
             (_text(outcome), _given(counts[outcome]), Cell(text=outcome.sentence))
             for outcome in Outcome

@@ -89,7 +89,7 @@ def show_given(value: float) -> str:
     >>> show_given(30.000000000000004), show_given(366.8)
     ('30', '366.8')
     """
-    return f"{value:.6g}"
+    return f"{value:.6g}" if math.isfinite(value) else MISSING
 
 
 def show_with_unit(key: str, value: float | None) -> str:

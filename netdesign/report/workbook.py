@@ -17,7 +17,7 @@ _COLOURS = {
     "not-proven": ("#F7EBC8", "#5F4B00"),
 }
 _NARROWEST, _WIDEST = 6.0, 40.0  # columns, in characters of the default font
-_CHARACTER = 0.76  # width of one of ours
+_CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 
@@ -75,7 +75,7 @@ class Book:
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         properties = _align(column)
-        if cell.number is None:
+        if cell.number is None or not math.isfinite(cell.number):
             form = self.format(**properties, text_wrap=True)
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from netdesign.envelope.grid import Interval, Ranges
 from netdesign.site.columns import (
     DEFAULT_INCLINATION_DEG,
     DEFAULT_SAMPLES,
@@ -11,7 +12,7 @@ from netdesign.site.columns import (
 )
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
 from netdesign.site.fields import Field, normalise_unit, split_heading
-from netdesign.site.model import InputEcho, Interval, Ranges
+from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
 

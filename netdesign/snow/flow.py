@@ -12,6 +12,7 @@ the snow hardly deforms, and every full step is in equilibrium exactly (F5).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sparse
@@ -180,9 +181,7 @@ def solve_flow(
             break
     else:
         outcome = Outcome.MAX_ITERATIONS
-    return FlowResult(
-        outcome=outcome, state=state, linear_solves=solves, change=change
-    )
+    return FlowResult(outcome=outcome, state=state, linear_solves=solves, change=change)
 
 
 def compute_residual(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats:
@@ -235,22 +234,21 @@ def _advance(
     moduli, kept = _linearise_creep(law, state.stress)
     matrix = assemble_stiffness(mesh, moduli)
     force = assemble_stress(mesh, kept) - _gravity_load(law, mesh)
-    base_modulus = base_kept = None
+    base = None
     if state.base_shear is not None:
-        base_modulus, base_kept = _linearise_sliding(law, state.base_shear)
-        matrix = matrix + assemble_base_stiffness(mesh, base_modulus)
-        force += assemble_base_force(mesh, base_kept)
+        base = _linearise_sliding(law, state.base_shear)
+        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
+        force += assemble_base_force(mesh, base.kept)
     velocity = _solve_velocity(law, mesh, contact, matrix, force)
-    strain = compute_strain(mesh, velocity)
-    stress = kept + (moduli @ strain[..., None])[..., 0]
-    base_shear = None
-    if base_modulus is not None:
-        base_shear = base_kept + base_modulus * compute_base_velocity(mesh, velocity)
+    stress = kept + (moduli @ compute_strain(mesh, velocity)[..., None])[..., 0]
+    shear = None
+    if base is not None:
+        shear = base.kept + base.modulus * compute_base_velocity(mesh, velocity)
     advanced = FlowState(
         velocity=velocity,
         reaction=force + matrix @ velocity,
         stress=stress,
-        base_shear=base_shear,
+        base_shear=shear,
         contact=contact,
     )
     size = _stress_norm(law, mesh, stress)
@@ -271,13 +269,18 @@ def _linearise_creep(law: FlowLaw, stress: Floats) -> tuple[Floats, Floats]:
     return moduli, stress * (1.0 - share)[..., None]
 
 
-def _linearise_sliding(law: FlowLaw, shear: Floats) -> tuple[Floats, Floats]:
+class _SlidingTangent(NamedTuple):
+    modulus: Floats  # shape (n_edges, n_points)
+    kept: Floats
+
+
+def _linearise_sliding(law: FlowLaw, shear: Floats) -> _SlidingTangent:
     """Same as ``_linearise_creep`` for the scalar law of a sliding ground, (G2)."""
     n = law.exponent
     floored = shear**2 + STRESS_FLOOR**2
     share = 1.0 / (1.0 + (n - 1.0) * shear**2 / floored)
     modulus = floored ** ((1.0 - n) / 2.0) * share / law.slip_ratio
-    return modulus, shear * (1.0 - share)
+    return _SlidingTangent(modulus=modulus, kept=shear * (1.0 - share))
 
 
 def _solve_velocity(
@@ -321,7 +324,9 @@ def _update_contact(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Contact
     velocity = state.velocity[tangential]
     limit = law.friction * np.maximum(pressure, 0.0)
     still = velocity * state.contact.sign <= 0.0
-    released = np.where(np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN), np.sign(shear), 0)
+    released = np.where(
+        np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN), np.sign(shear), 0
+    )
     stuck_or_released = np.where(state.contact.sign == 0, released, 0)
     sign = np.where(still, stuck_or_released, state.contact.sign)
     frictionless = np.where(velocity < 0.0, -1, 1)

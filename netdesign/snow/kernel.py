@@ -13,7 +13,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy.sparse as sparse
-from numpy.typing import NDArray
 from skfem import ElementTriP2
 from skfem.quadrature import get_quadrature
 
@@ -69,15 +68,13 @@ class PlacedMesh:
     @property
     def n_dofs(self) -> int:
         """Number of velocity components, constrained ones included."""
-        return 2 * self.nodes.shape[1]
+        return 2 * int(self.nodes.shape[1])
 
     def to_node_axes(self, vectors: Floats) -> Floats:
         """Vectors (2, n_nodes) in the slope's axes to interleaved node axes."""
         cosine, sine = self.axes
         x, y = vectors
-        return np.column_stack(
-            [cosine * x + sine * y, -sine * x + cosine * y]
-        ).ravel()
+        return np.column_stack([cosine * x + sine * y, -sine * x + cosine * y]).ravel()
 
     def to_slope_axes(self, components: Floats) -> Floats:
         """Interleaved node axes (n_dofs,) to vectors (2, n_nodes)."""
@@ -121,11 +118,7 @@ def build_placed_mesh(template: MeshTemplate, nodes: Floats) -> PlacedMesh:
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
-    load = np.bincount(
-        template.triangles.T.ravel(),
-        (weights @ shape).ravel(),
-        minlength=nodes.shape[1],
-    )
+    load = _gather(template.triangles.T, weights @ shape, nodes.shape[1])
     return PlacedMesh(
         template=template,
         nodes=nodes,
@@ -151,8 +144,7 @@ def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
     operator = mesh.strain.reshape(n_triangles, 3 * n_points, 12)
     weighted = (stress * mesh.weights[..., None]).reshape(n_triangles, 1, -1)
     forces = weighted @ operator
-    dofs = _element_dofs(mesh.template)
-    return np.bincount(dofs.ravel(), forces.ravel(), minlength=mesh.n_dofs)
+    return _gather(_element_dofs(mesh.template), forces, mesh.n_dofs)
 
 
 def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
@@ -170,7 +162,7 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     """Nodal forces (n_dofs,) of a shear stress (n_edges, n_points) on the ground."""
     base = mesh.base
     forces = (base.weights * shear) @ base.shape
-    return np.bincount(base.dofs.ravel(), forces.ravel(), minlength=mesh.n_dofs)
+    return _gather(base.dofs, forces, mesh.n_dofs)
 
 
 def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
@@ -188,6 +180,12 @@ def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
     return np.asarray(velocity[mesh.base.dofs] @ mesh.base.shape.T)
 
 
+def _gather(places: Ints, values: Floats, size: int) -> Floats:
+    """Sums of the values that go to each of ``size`` places."""
+    sums = np.bincount(places.ravel(), values.ravel(), minlength=size)
+    return np.asarray(sums, dtype=np.float64)
+
+
 def _map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats]:
     """Shape gradients (2, n_triangles, n_points, 6) and area element."""
     _, reference, _ = _reference_element()
@@ -202,9 +200,7 @@ def _map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Float
     return gradients, determinant * template.orientation[:, None]
 
 
-def _strain_operator(
-    template: MeshTemplate, gradients: Floats, axes: Floats
-) -> Floats:
+def _strain_operator(template: MeshTemplate, gradients: Floats, axes: Floats) -> Floats:
     cosine, sine = axes[:, template.triangles.T][:, :, None, :]
     d_dx, d_dy = gradients
     operator = np.empty((*d_dx.shape[:2], 3, 12))
@@ -262,7 +258,6 @@ def _reference_element() -> tuple[Floats, Floats, Floats]:
     points, weights = get_quadrature(element.refdom, QUADRATURE_DEGREE)
     values, gradients = zip(*(element.lbasis(points, i) for i in range(6)), strict=True)
     return np.array(values).T, np.array(gradients), weights
-
 
 
 def _element_dofs(template: MeshTemplate) -> Ints:

@@ -92,7 +92,7 @@ class MeshTemplate:
     @property
     def net_fractions(self) -> Floats:
         """Height of the net nodes over the thickness, shape (n_net,); 0 to 1."""
-        return self.nodes[1, self.net]
+        return np.asarray(self.nodes[1, self.net])
 
 
 @lru_cache(maxsize=32)

@@ -131,6 +131,7 @@ def build_row(
         ),
         build_check("post", "compression", extremes[3], 420.0),
         build_geometry_check(),
+        build_slack_check(extremes[2].case),
     ]
     verdicts = [check.verdict for check in checks]
     verdict = next(v for v in (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)
@@ -266,6 +267,26 @@ def build_geometry_check() -> CheckRecord:
         verdict=Verdict.PASS,
         case=None,
         reason="25° to 35° lies within 25° to 35°.",
+    )
+
+
+def build_slack_check(case: CasePoint) -> CheckRecord:
+    """Check of a member that never carries: it passes without a resistance."""
+    return CheckRecord(
+        id="downhill_guy.rope",
+        clause="-",
+        member="downhill_guy",
+        mode="rope",
+        demand_kN=0.0,
+        demand_low_kN=0.0,
+        demand_high_kN=0.0,
+        resistance_kN=None,
+        utilisation=0.0,
+        verdict=Verdict.PASS,
+        case=case,
+        reason="The member is slack in every case and needs no resistance.",
+        action_kN=0.0,
+        action_factor=ACTION_FACTOR,
     )
 
 

@@ -14,10 +14,12 @@ LIMIT = 1e-12  # relative: one rounding of a product, with room
 
 
 def hold_back(study):
-    """The same study with a passing check held back for failed cases."""
+    """The same study with passing checks held back for failed cases."""
     row = study.rows[0]
     check = replace(row.checks[0], verdict=Verdict.NOT_PROVEN, reason="Failed cases.")
-    held = replace(row, checks=[check, *row.checks[1:]], verdict=Verdict.NOT_PROVEN)
+    slack = replace(row.checks[6], utilisation=None, verdict=Verdict.NOT_PROVEN)
+    checks = [check, *row.checks[1:6], slack]
+    held = replace(row, checks=checks, verdict=Verdict.NOT_PROVEN)
     return replace(study, rows=[held, *study.rows[1:]])
 
 
@@ -80,12 +82,14 @@ def test_verdicts_follow_an_edited_cell(content, tmp_path):
     sheet = book["Checks"]
     assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
     sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
-    sheet["L20"], sheet["M20"] = 1e4, 1.35  # third: the missing resistance is given
+    sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
+    sheet["F18"], sheet["E18"], sheet["G18"] = 5.0, 5.0, 5.0  # second: slack no more
     buffer = io.BytesIO()
     book.save(buffer)
     fresh = read_workbook(recalculate_or_skip(buffer.getvalue(), tmp_path))
     assert fresh["Checks"]["S6"].value == "FAIL"
-    assert fresh["Checks"]["S20"].value == "PASS"
+    assert fresh["Checks"]["S18"].value == "NOT PROVEN"
+    assert fresh["Checks"]["S22"].value == "PASS"
     verdicts = [line["Verdict"] for line in read_rows(fresh["Summary"], "No.")]
     assert verdicts == ["FAIL", "FAIL", "PASS"]
 
@@ -133,7 +137,7 @@ def test_sheets_are_ready_to_read_and_print(content):
         assert sheet.page_setup.orientation == "landscape"
         assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
         assert sheet.print_title_rows
-    assert book["Checks"].auto_filter.ref == "A4:X22"
+    assert book["Checks"].auto_filter.ref == "A4:X25"
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )

@@ -54,7 +54,7 @@ def test_envelope_marks_each_governing_value(samples):
         assert f"{extreme.max_kN:.1f}" in shown
     assert "θ = 35°" in shown
     assert "φ = 15°" in shown
-    assert "case without a result" in shown
+    assert "no result" in shown
 
 
 def test_envelope_of_failed_cases_only_is_empty():

@@ -31,6 +31,7 @@ def test_the_sound_study_passes():
         (spoil(0, 0, demand_high_kN=1e4), "high end of its utilisation is"),
         (spoil(0, 0, demand_high_kN=None), "high end of its utilisation is None"),
         (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
+        (spoil(0, 6, demand_high_kN=1.0), "the member is not slack"),
         (spoil(0, 0, verdict=Verdict.FAIL), "says pass, but its parts give fail"),
         (replace(build_study(), verdict=Verdict.PASS), "says pass, but its parts"),
         (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give fail"),

@@ -69,6 +69,12 @@ def test_worked_check_shows_symbols_numbers_and_result():
     assert ratio.result.startswith(f"{1.5 * force / (480 / 1.35):.3f} (")
 
 
+def test_slack_member_passes_without_a_resistance():
+    check = build_view(build_study()).rows[0].checks[6]
+    assert (check.utilisation, check.band) == ("0.000", "0.000 to 0.000")
+    assert (check.resistance, check.verdict.word) == ("-", "PASS")
+
+
 def test_assumed_values_are_listed():
     view = build_view(build_study())
     assert view.assumed_line == "factor.action, factor.tendon"

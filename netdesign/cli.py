@@ -1,0 +1,459 @@
+"""The command line: parses, calls, shows; no physics and no formatting of results.
+
+Imports of anything heavy stand inside the commands that need it: help is instant.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+import click
+
+from netdesign import __version__
+from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.outcome import Verdict
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from netdesign.envelope.run import CaseResult
+    from netdesign.site.model import Site
+    from netdesign.study import Study
+
+DEFAULT_STANDARD = "nf-p-95-304-style"
+DEFAULT_FOLDER = "netdesign-out"
+EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
+_EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
+# Rough time of one case on one core of a small server; for --dry-run only.
+_SECONDS_A_CASE = 0.12
+
+_EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
+5 internal error, 130 interrupted."
+
+
+@click.group(epilog=_EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__)
+def cli() -> None:
+    """Check the anchors of snow nets.
+
+    \b
+    netdesign check --example          a first look
+    netdesign init site.xlsx           an input workbook to fill in
+    netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
+    """
+
+
+@cli.command()
+@click.argument("site_file", required=False, type=click.Path(path_type=Path))
+@click.option("--example", is_flag=True, help="Use the built-in example site.")
+@click.option(
+    "--standard",
+    "standards",
+    multiple=True,
+    metavar="ID",
+    help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
+)
+@click.option(
+    "--accuracy",
+    type=click.FloatRange(1e-4, 0.1),
+    default=0.01,
+    show_default=True,
+    help="Relative error allowed in every end force of the net.",
+)
+@click.option(
+    "--method",
+    type=click.Choice(["steady"]),
+    default="steady",
+    show_default=True,
+    expose_value=False,  # the only one yet
+    help="Coupling of snow and net.",
+)
+@click.option(
+    "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help=f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].",
+)
+@click.option("--html/--no-html", default=True, help="Write report.html.")
+@click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
+@click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
+@click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+def check(
+    site_file: Path | None,
+    *,
+    example: bool,
+    standards: tuple[str, ...],
+    accuracy: float,
+    jobs: int | None,
+    out: Path | None,
+    html: bool,
+    excel: bool,
+    as_json: bool,
+    dry_run: bool,
+    force: bool,
+    quiet: bool,
+) -> None:
+    """Check every anchor of a site workbook and write the reports.
+
+    \b
+    netdesign check --example
+    netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --json > study.json
+    """
+    from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
+    from netdesign.checks import load_standard
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.output import require_free, write_files
+
+    if example == (site_file is not None):
+        raise click.UsageError(
+            "give a site workbook, or --example for the built-in one"
+        )
+    site = _read_site(site_file)
+    chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
+    profiles = [load_standard(name) for name in chosen]
+    run = CheckRun(
+        settings=SolverSettings(accuracy=accuracy),
+        jobs=jobs or os.cpu_count() or 1,
+        command=_own_command(),
+        started=_now(),
+    )
+    if dry_run:
+        _announce(site, count_cases(site), run.jobs)
+        return
+    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
+    names = _output_names(folder, [p.id for p in profiles], html=html, excel=excel)
+    require_free([path for group in names for path in group], overwrite=force)
+    with _progress(count_cases(site), quiet=quiet) as on_done:
+        results = solve_site(site, run, on_done)
+    studies = [judge_site(site, results, profile, run) for profile in profiles]
+    write_files(_render(studies, names))
+    _show(studies, as_json=as_json)
+    _report_places(names, quiet=quiet or as_json)
+    sys.exit(_exit_code(studies))
+
+
+@cli.command()
+@click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
+@click.option("--example", is_flag=True, help="Fill in the built-in example site.")
+@click.option("--force", is_flag=True, help="Overwrite an existing file.")
+def init(site_file: Path, *, example: bool, force: bool) -> None:
+    """Write an input workbook to fill in.
+
+    \b
+    netdesign init site.xlsx
+    netdesign init example.xlsx --example
+    """
+    from netdesign.output import require_free
+    from netdesign.site.template import write_site_workbook
+
+    require_free([site_file], overwrite=force)
+    write_site_workbook(site_file, example=example, overwrite=force)
+    click.echo(f"wrote {site_file}", err=True)
+
+
+@cli.command()
+@click.argument("scene_file", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
+def solve(scene_file: Path, *, as_json: bool) -> None:
+    """Solve one scene, given as a TOML file.
+
+    \b
+    netdesign solve scene.toml
+    netdesign solve scene.toml --json
+    """
+    import json
+    import time
+
+    from netdesign.coupling.steady import solve_steady
+    from netdesign.scene_file import read_scene, write_solution_document
+
+    scene, settings = read_scene(scene_file)
+    start = time.perf_counter()
+    solution = solve_steady(scene, settings)
+    elapsed = time.perf_counter() - start
+    document = write_solution_document(solution, settings, elapsed)
+    if as_json:
+        click.echo(json.dumps(document, indent=1, allow_nan=False))
+    elif document["outcome"] == "converged":
+        _show_solution(document)
+    else:
+        click.echo(f"{document['outcome']}: {document['reason']}")
+    sys.exit(
+        0 if document["outcome"] == "converged" else EXIT_CODES[Verdict.NOT_PROVEN]
+    )
+
+
+@cli.command()
+@click.argument("study_file", type=click.Path(path_type=Path))
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=DEFAULT_FOLDER,
+    show_default=True,
+    help="Folder of the outputs.",
+)
+@click.option("--html/--no-html", default=True, help="Write report.html.")
+@click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+def report(
+    study_file: Path, *, out: Path, html: bool, excel: bool, force: bool
+) -> None:
+    """Render the reports of a stored study again, without solving.
+
+    \b
+    netdesign report netdesign-out/study.json --out again
+    """
+    from netdesign.errors import StudyError
+    from netdesign.output import require_free, write_files
+    from netdesign.study import read_document
+
+    try:
+        study = read_document(study_file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"{study_file}: cannot be read: {error}") from None
+    names = _output_names(out, [study.profile.id], html=html, excel=excel)
+    names = [[path for path in names[0] if path.suffix != ".json"]]
+    require_free(names[0], overwrite=force)
+    write_files(_render([study], names))
+    _report_places(names, quiet=False)
+    sys.exit(_exit_code([study]))
+
+
+@cli.group()
+def standards() -> None:
+    """Show the limit profiles.
+
+    \b
+    netdesign standards list
+    netdesign standards show nf-p-95-304-style
+    netdesign standards validate my-profile/
+    """
+
+
+@standards.command("list")
+def list_profiles() -> None:
+    """List the profiles that come with the program."""
+    from netdesign.checks import list_standards, load_standard
+
+    for name in list_standards():
+        click.echo(f"{name}  {load_standard(name).title}")
+
+
+@standards.command("show")
+@click.argument("name", metavar="ID")
+def show_profile(name: str) -> None:
+    """Show every value of a profile with its status and source."""
+    from netdesign.checks import load_standard
+
+    profile = load_standard(name)
+    click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
+    click.echo(f"sha256 {profile.sha256}\n\n{profile.what_it_is}")
+    click.echo(f"{profile.what_it_is_not}\n")
+    for entry in profile.values:
+        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
+        click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
+
+
+@standards.command("validate")
+@click.argument("folder", type=click.Path(path_type=Path))
+def validate_profile(folder: Path) -> None:
+    """Validate a profile folder; every fault is told."""
+    from netdesign.checks import load_standard
+
+    profile = load_standard(folder)
+    click.echo(f"{profile.id}: {len(profile.values)} values, sha256 {profile.sha256}")
+
+
+def main() -> NoReturn:
+    """Entry point: every way of ending has its own exit code."""
+    try:
+        cli.main(standalone_mode=False)
+    except click.exceptions.Exit as end:
+        sys.exit(end.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted; run the same command again", err=True)
+        sys.exit(_EXIT_INTERRUPTED)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(_EXIT_USAGE)
+    except SiteDataError as error:
+        click.echo(f"{error}\n{_count_findings(error)}", err=True)
+        sys.exit(error.exit_code)
+    except NetDesignError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(error.exit_code)
+    except BrokenPipeError:
+        # whoever read our output has stopped: nothing more to say
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(_EXIT_INTERNAL)
+    except Exception as error:  # the one place where a bug ends
+        if os.environ.get("NETDESIGN_TRACEBACK"):
+            raise
+        click.echo(
+            f"internal error, please report it: {type(error).__name__}: {error}\n"
+            "(NETDESIGN_TRACEBACK=1 shows where)",
+            err=True,
+        )
+        sys.exit(_EXIT_INTERNAL)
+    sys.exit(0)
+
+
+def _read_site(site_file: Path | None) -> Site:
+    """Site from a workbook; the example goes through a real workbook too."""
+    from netdesign.site.reader import read_site
+
+    if site_file is not None:
+        return read_site(site_file)
+    import tempfile
+
+    from netdesign.site.template import write_site_workbook
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "example.xlsx"
+        write_site_workbook(path, example=True)
+        return read_site(path)
+
+
+def _output_names(
+    folder: Path | None, profiles: list[str], *, html: bool, excel: bool
+) -> list[list[Path]]:
+    """Output paths of each study; several profiles get a folder each."""
+    if folder is None:
+        return [[] for _ in profiles]
+    names = ["study.json", *["report.html"] * html, *["report.xlsx"] * excel]
+    several = len(profiles) > 1
+    return [
+        [(folder / profile if several else folder) / name for name in names]
+        for profile in profiles
+    ]
+
+
+def _render(studies: Sequence[Study], names: list[list[Path]]) -> dict[Path, bytes]:
+    from netdesign.study import write_document
+
+    contents: dict[Path, bytes] = {}
+    for study, paths in zip(studies, names, strict=True):
+        for path in paths:
+            if path.suffix == ".html":
+                from netdesign.report.html import render_html
+
+                contents[path] = render_html(study).encode()
+            elif path.suffix == ".xlsx":
+                from netdesign.report.excel import render_workbook
+
+                contents[path] = render_workbook(study)
+            else:
+                contents[path] = write_document(study).encode()
+    return contents
+
+
+def _show(studies: Sequence[Study], *, as_json: bool) -> None:
+    from netdesign.study import write_document
+
+    if not as_json:
+        from rich.console import Console
+
+        from netdesign.report.terminal import print_summary
+
+        for study in studies:
+            print_summary(study, Console())
+    elif len(studies) == 1:
+        click.echo(write_document(studies[0]))
+    else:
+        documents = ",\n".join(write_document(study) for study in studies)
+        click.echo(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
+
+
+def _show_solution(document: dict[str, dict[str, dict[str, float]]]) -> None:
+    for end, pull in document["anchor_forces"].items():
+        click.echo(
+            f"{end:5} {pull['size_kN_per_m']:10.2f} kN/m  "
+            f"(x {pull['x_kN_per_m']:.2f}, y {pull['y_kN_per_m']:.2f}, "
+            f"error {pull['error_kN_per_m']:.2f})"
+        )
+    balance = document["balance"]
+    click.echo(f"sag   {document['sag_m']:10.4f} m")
+    click.echo(f"balance residual {balance['relative_residual']:.1e} of the weight")
+
+
+def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
+    for path in [] if quiet else [path for group in names for path in group]:
+        click.echo(f"wrote {path}", err=True)
+
+
+def _announce(site: Site, cases: int, jobs: int) -> None:
+    seconds = cases * _SECONDS_A_CASE / jobs
+    click.echo(
+        f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
+        f"{max(1.0, seconds):.0f} s with {jobs} processes; nothing was written"
+    )
+    for note in site.notes:
+        click.echo(f"note: {note}")
+
+
+def _exit_code(studies: Sequence[Study]) -> int:
+    from netdesign.outcome import merge_verdicts
+
+    return EXIT_CODES[merge_verdicts(study.verdict for study in studies)]
+
+
+@contextmanager
+def _progress(
+    total: int, *, quiet: bool
+) -> Iterator[Callable[[CaseResult], None] | None]:
+    """Bar on a terminal, a few plain lines elsewhere; both on stderr."""
+    if quiet:
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    console = Console(stderr=True)
+    with ExitStack() as stack:
+        if not console.is_terminal:
+            yield _plain_progress(total)
+            return
+        progress = stack.enter_context(Progress(console=console, transient=True))
+        task = progress.add_task("cases", total=total)
+        yield lambda _: progress.advance(task)
+
+
+def _plain_progress(total: int) -> Callable[[CaseResult], None]:
+    done = 0
+
+    def on_done(_: CaseResult) -> None:
+        nonlocal done
+        done += 1
+        if done * 4 // total > (done - 1) * 4 // total:
+            click.echo(f"{done} of {total} cases", err=True)
+
+    return on_done
+
+
+def _count_findings(error: SiteDataError) -> str:
+    return f"{len(error.findings)} findings; nothing was written"
+
+
+def _own_command() -> str:
+    import shlex
+
+    return shlex.join(["netdesign", *sys.argv[1:]])
+
+
+def _now() -> str:
+    """Time of the run, or that of SOURCE_DATE_EPOCH for reproducible outputs."""
+    from datetime import UTC, datetime
+
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
+    time = datetime.fromtimestamp(int(epoch), UTC) if epoch else datetime.now(UTC)
+    return time.isoformat(timespec="seconds")

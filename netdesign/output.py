@@ -1,0 +1,59 @@
+"""Writes outputs whole or not at all, and never over an existing file unasked."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from netdesign.errors import OutputError
+
+
+def require_free(paths: list[Path], *, overwrite: bool) -> None:
+    """Refuse before any work if an output exists or its folder is unfit.
+
+    Raises
+    ------
+    OutputError
+        Naming every path that is in the way.
+    """
+    taken = [str(path) for path in paths if path.exists()]
+    if taken and not overwrite:
+        raise OutputError(
+            f"exists already: {', '.join(taken)}; use --force to overwrite, or --out "
+            "for another folder"
+        )
+    for folder in {path.parent for path in paths}:
+        nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
+        if not nearest.is_dir():
+            raise OutputError(f"{nearest} is not a folder: choose another with --out")
+        if not os.access(nearest, os.W_OK):
+            raise OutputError(f"{nearest} cannot be written to: choose another folder")
+
+
+def write_files(contents: Mapping[Path, bytes]) -> None:
+    """Write all files under temporary names, then put them all in place."""
+    waiting: list[tuple[Path, Path]] = []
+    try:
+        for path, content in contents.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            waiting.append((_write_beside(path, content), path))
+        for temporary, path in waiting:
+            temporary.replace(path)
+    except OSError as error:
+        raise OutputError(f"cannot write: {error}") from error
+    finally:
+        for temporary, _ in waiting:
+            temporary.unlink(missing_ok=True)
+
+
+def _write_beside(path: Path, content: bytes) -> Path:
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    with os.fdopen(handle, "wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+    temporary = Path(name)
+    temporary.chmod(0o644)
+    return temporary
