@@ -83,6 +83,7 @@ def cli() -> None:
 )
 @click.option("--html/--no-html", default=True, help="Write report.html.")
 @click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
+@click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
 @click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing outputs.")
@@ -97,6 +98,7 @@ def check(
     out: Path | None,
     html: bool,
     excel: bool,
+    csv: bool,
     as_json: bool,
     dry_run: bool,
     force: bool,
@@ -121,6 +123,8 @@ def check(
     site = _read_site(site_file)
     chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
     profiles = [load_standard(name) for name in chosen]
+    if len({profile.id for profile in profiles}) < len(profiles):
+        raise click.UsageError("two of the profiles have the same id")
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         jobs=jobs or os.cpu_count() or 1,
@@ -131,7 +135,8 @@ def check(
         _announce(site, count_cases(site), run.jobs)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
-    names = _output_names(folder, [p.id for p in profiles], html=html, excel=excel)
+    kinds = _output_kinds(html=html, excel=excel, csv=csv)
+    names = _output_names(folder, [p.id for p in profiles], ["study.json", *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     with _progress(count_cases(site), quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
@@ -204,9 +209,10 @@ def solve(scene_file: Path, *, as_json: bool) -> None:
 )
 @click.option("--html/--no-html", default=True, help="Write report.html.")
 @click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
+@click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
 @click.option("--force", is_flag=True, help="Overwrite existing outputs.")
 def report(
-    study_file: Path, *, out: Path, html: bool, excel: bool, force: bool
+    study_file: Path, *, out: Path, html: bool, excel: bool, csv: bool, force: bool
 ) -> None:
     """Render the reports of a stored study again, without solving.
 
@@ -221,8 +227,8 @@ def report(
         study = read_document(study_file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError(f"{study_file}: cannot be read: {error}") from None
-    names = _output_names(out, [study.profile.id], html=html, excel=excel)
-    names = [[path for path in names[0] if path.suffix != ".json"]]
+    kinds = _output_kinds(html=html, excel=excel, csv=csv)
+    names = _output_names(out, [study.profile.id], kinds)
     require_free(names[0], overwrite=force)
     write_files(_render([study], names))
     _report_places(names, quiet=False)
@@ -277,7 +283,9 @@ def validate_profile(folder: Path) -> None:
 def main() -> NoReturn:
     """Entry point: every way of ending has its own exit code."""
     try:
-        cli.main(standalone_mode=False)
+        # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
+        with cli.make_context("netdesign", sys.argv[1:]) as context:
+            cli.invoke(context)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
@@ -324,13 +332,17 @@ def _read_site(site_file: Path | None) -> Site:
         return read_site(path)
 
 
+def _output_kinds(*, html: bool, excel: bool, csv: bool) -> list[str]:
+    wanted = {"report.html": html, "report.xlsx": excel, "cases.csv": csv}
+    return [name for name, is_wanted in wanted.items() if is_wanted]
+
+
 def _output_names(
-    folder: Path | None, profiles: list[str], *, html: bool, excel: bool
+    folder: Path | None, profiles: list[str], names: list[str]
 ) -> list[list[Path]]:
     """Output paths of each study; several profiles get a folder each."""
     if folder is None:
         return [[] for _ in profiles]
-    names = ["study.json", *["report.html"] * html, *["report.xlsx"] * excel]
     several = len(profiles) > 1
     return [
         [(folder / profile if several else folder) / name for name in names]
@@ -339,22 +351,29 @@ def _output_names(
 
 
 def _render(studies: Sequence[Study], names: list[list[Path]]) -> dict[Path, bytes]:
+    return {
+        path: _render_one(study, path.suffix)
+        for study, paths in zip(studies, names, strict=True)
+        for path in paths
+    }
+
+
+def _render_one(study: Study, suffix: str) -> bytes:
+    if suffix == ".html":
+        from netdesign.report.html import render_html
+
+        return render_html(study).encode()
+    if suffix == ".xlsx":
+        from netdesign.report.excel import render_workbook
+
+        return render_workbook(study)
+    if suffix == ".csv":
+        from netdesign.report.case_table import render_cases
+
+        return render_cases(study)
     from netdesign.study import write_document
 
-    contents: dict[Path, bytes] = {}
-    for study, paths in zip(studies, names, strict=True):
-        for path in paths:
-            if path.suffix == ".html":
-                from netdesign.report.html import render_html
-
-                contents[path] = render_html(study).encode()
-            elif path.suffix == ".xlsx":
-                from netdesign.report.excel import render_workbook
-
-                contents[path] = render_workbook(study)
-            else:
-                contents[path] = write_document(study).encode()
-    return contents
+    return write_document(study).encode()
 
 
 def _show(studies: Sequence[Study], *, as_json: bool) -> None:

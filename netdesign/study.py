@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
 from netdesign.outcome import Outcome, Verdict
@@ -164,6 +164,13 @@ class Provenance:
 @dataclass(frozen=True, kw_only=True)
 class Study:
     """One study of one site under one profile."""
+
+    # Read by pydantic, for this class and all values in it.
+    __pydantic_config__: ClassVar = {
+        "extra": "forbid",
+        "strict": True,
+        "allow_inf_nan": False,
+    }
 
     schema: Literal["netdesign.study/1"]
     verdict: Verdict

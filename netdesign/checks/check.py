@@ -135,7 +135,7 @@ def _missing(
         lacks.append(f"the resistance {resistance.value!r} N is not usable for {what}")
     if on_action is None:
         lacks.append(f"the profile has no factor {ACTION_FACTOR}")
-    if on_resistance is None:
+    if on_resistance is None and resistance.value is not None:
         basis = f" with basis {resistance.basis!r}" if resistance.basis else ""
         lacks.append(f"the profile has no factor resistance.{resistance.mode}{basis}")
     return lacks

@@ -55,7 +55,11 @@ def describe_gap(results: Sequence[CaseResult]) -> str:
 
 def _find_extreme(member: str, converged: Sequence[CaseResult]) -> Extreme:
     bands = [result.member_forces[member] for result in converged]
-    governing = max(converged, key=lambda result: result.member_forces[member].value)
+    # Equal forces: the first case of the grid, whatever the order of the results.
+    governing = min(
+        converged,
+        key=lambda result: (-result.member_forces[member].value, result.case),
+    )
     return Extreme(
         member=member,
         force=Band(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,9 +20,12 @@ class Interval:
     count: int
 
     def __post_init__(self) -> None:
-        """Refuse reversed ranges and samples that leave an end out."""
-        if not self.low <= self.high:
-            raise ModelError(f"range {self.low!r} to {self.high!r} is reversed")
+        """Refuse reversed and endless ranges, and samples that leave an end out."""
+        if not -math.inf < self.low <= self.high < math.inf:
+            raise ModelError(
+                f"range {self.low!r} to {self.high!r}: must run from a finite low end "
+                "to a finite high end"
+            )
         if self.count < 1 or (self.count == 1 and self.low != self.high):
             raise ModelError(f"range with {self.count} samples: at least 2 are needed")
 

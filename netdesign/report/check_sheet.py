@@ -11,8 +11,13 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.report.check_view import find_utilisation_band, view_check
-from netdesign.report.tables import CASE_COLUMNS, Cell, Column
+from netdesign.report.check_view import (
+    describe_resistance,
+    find_utilisation_band,
+    view_check,
+)
+from netdesign.report.table import Cell, Column
+from netdesign.report.tables import CASE_COLUMNS
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -166,8 +171,8 @@ class _CheckLine:
         texts = (
             show_text(row.id),
             view.title,
-            view.clause,
-            view.resistance_note,
+            show_text(check.clause),
+            describe_resistance(check),
             view.reason,
         )
         for field, text in zip(fields, texts, strict=True):

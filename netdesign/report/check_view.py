@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
 from netdesign.report.words import (
+    MISSING,
     VERDICTS,
     VerdictWords,
     name_case,
@@ -39,10 +40,9 @@ class CheckView:
     """One check in words."""
 
     title: str
-    clause: str
+    source: str  # clause, and where the resistance comes from
     demand: str
     resistance: str
-    resistance_note: str
     utilisation: str
     band: str
     bar: Bar | None
@@ -108,10 +108,9 @@ def view_check(check: CheckRecord) -> CheckView:
     low, high = find_utilisation_band(check)
     return CheckView(
         title=name_check(check),
-        clause=show_text(check.clause),
+        source=_describe_source(check),
         demand=show_number("demand_kN", check.demand_kN),
         resistance=show_number("resistance_kN", check.resistance_kN),
-        resistance_note=_describe_resistance(check),
         utilisation=show_number("utilisation", check.utilisation),
         band=show_band("utilisation", low, high),
         bar=_build_bar(low, check.utilisation, high),
@@ -122,9 +121,15 @@ def view_check(check: CheckRecord) -> CheckView:
     )
 
 
-def _describe_resistance(check: CheckRecord) -> str:
+def describe_resistance(check: CheckRecord) -> str:
+    """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
     parts = (check.resistance_type, check.resistance_basis, check.resistance_cell)
     return show_text(", ".join(part for part in parts if part))
+
+
+def _describe_source(check: CheckRecord) -> str:
+    parts = (show_text(check.clause), describe_resistance(check))
+    return "; ".join(part for part in parts if part != MISSING) or MISSING
 
 
 def _build_bar(

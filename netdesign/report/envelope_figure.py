@@ -18,7 +18,7 @@ from netdesign.report.figures import (
     use_style,
     write_svg,
 )
-from netdesign.report.tables import MEMBERS
+from netdesign.report.tables import list_loaded
 from netdesign.report.words import show_given, show_number
 from netdesign.study import CaseRecord, ExtremeRecord, RowStudy
 
@@ -39,12 +39,10 @@ _LINES: tuple[tuple[str, Any, str], ...] = (
 
 
 def draw_envelope(row: RowStudy, name: str) -> str:
-    """SVG of all forces of a row; "" if no case of it has a result."""
+    """SVG of all forces of a row; "" if no case of it gives a force."""
     from matplotlib.figure import Figure
 
-    members = [
-        m for m in MEMBERS if any(_force(case, m) is not None for case in row.cases)
-    ]
+    members = list_loaded(row)
     if not members:
         return ""
     governing = [extreme.case for extreme in row.extremes]
@@ -150,12 +148,13 @@ def _mark(axes: Axes, extreme: ExtremeRecord) -> None:
         "zorder": 5,
     }
     axes.plot(*at, "o", clip_on=False, **ring)
+    is_left = at[0] == axes.dataLim.x0
     axes.annotate(
         show_number("max_kN", extreme.max_kN),
         at,
-        xytext=(-7, 1),
+        xytext=(7 if is_left else -7, 1),
         textcoords="offset points",
-        ha="right",
+        ha="left" if is_left else "right",
         va="bottom",
         color=ACCENT,
     )

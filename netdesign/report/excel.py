@@ -9,7 +9,7 @@ from netdesign.errors import NetDesignError
 from netdesign.report import tables
 from netdesign.report.check_sheet import add_check_sheet
 from netdesign.report.summary_sheet import add_summary_sheet
-from netdesign.report.tables import Cell, Column, Table
+from netdesign.report.table import Cell, Column, Table
 from netdesign.report.view import ReportView, build_view
 from netdesign.report.workbook import Book
 from netdesign.study import Study

@@ -20,6 +20,7 @@ from netdesign.report.section_frame import (
     LONGEST_ARROW,
     ROD,
     Frame,
+    Point,
     move,
     set_limits,
 )
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _SHORTEST_ARROW = 0.14  # heights of the head
+_SLACK = 1e-3  # of the largest force; below it there is no arrow
 
 
 def draw_section(drawing: Drawing, name: str) -> str:
@@ -149,8 +151,10 @@ def _draw_arrow(axes: Axes, frame: Frame, arrow: Arrow) -> Label:
     largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
     start = (arrow.x_m, arrow.y_m)
     words = name_member(arrow.member), show_with_unit("max_kN", size)
-    if size <= 1e-3 * largest:
-        return Label(*words, frame.turn((start[0], start[1] - 0.1 * frame.unit)))
+    if size <= _SLACK * largest:
+        return _draw_anchor(
+            axes, frame, start, _aim(start, frame.drawing.head_m), words
+        )
     along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
     tip = move(
         start,
@@ -172,6 +176,18 @@ def _draw_arrow(axes: Axes, frame: Frame, arrow: Arrow) -> Label:
     )
     if along[1] < 0:
         return Label(*words, frame.turn(tip))
+    return _draw_anchor(axes, frame, start, along, words)
+
+
+def _aim(start: Point, target: Point) -> Point:
+    length = math.dist(start, target)
+    return (target[0] - start[0]) / length, (target[1] - start[1]) / length
+
+
+def _draw_anchor(
+    axes: Axes, frame: Frame, start: Point, along: Point, words: tuple[str, str]
+) -> Label:
+    """Rod in the ground, against the pull; its label hangs at its end."""
     rod = move(start, along, -ROD * frame.unit)
     axes.plot(*frame.turn_all([start, rod]), color=INK, linewidth=1.8, zorder=3)
     axes.plot(*frame.turn(start), "o", color=INK, ms=3.4, zorder=7)

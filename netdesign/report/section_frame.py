@@ -20,7 +20,7 @@ Point = tuple[float, float]
 LONGEST_ARROW, ROD = 0.46, 0.16
 LINE_IN = 0.34  # height of a label of two lines
 _LEFT_IN, _RIGHT_IN, _EDGE_IN = 1.25, 1.5, 0.12
-_TALLEST_IN = 4.3
+_TALLEST_IN = 3.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.check_view import find_highest, find_utilisation_band
-from netdesign.report.tables import Cell, Column
+from netdesign.report.table import Cell, Column
 from netdesign.report.view import ReportView, RowView
 from netdesign.report.words import (
     MISSING,
@@ -169,6 +169,9 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
 
 def _list_assumed(view: ReportView) -> Sequence[tuple[str, str]]:
     return [
-        (f"Clause {clause.text}", f"{what.text}: {value.text} {unit.text}".rstrip(" -"))
+        (
+            f"Clause {clause.text}",
+            f"{what.text.rstrip('.')}: {value.text} {unit.text}".rstrip(" -"),
+        )
         for clause, what, value, unit, *_ in view.assumed.rows
     ] or [("none", "")]

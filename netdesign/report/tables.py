@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from netdesign.outcome import Outcome
+from netdesign.report.table import (
+    Cell,
+    Table,
+    given_cell,
+    name_columns,
+    number_cell,
+    number_column,
+    text_cell,
+    text_column,
+)
 from netdesign.report.words import (
     VERDICTS,
     name_case,
-    name_heading,
     name_member,
     show_band,
-    show_given,
-    show_number,
-    show_text,
 )
 from netdesign.site.model import InputEcho
 from netdesign.study import CasePoint, CaseRecord, RowStudy, Study
@@ -26,71 +31,16 @@ _COUNTS = ("Cases", "Without result")
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cell:
-    """What a reader sees, and the number behind it if it is one."""
-
-    text: str
-    number: float | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Column:
-    """Heading of a column; ``quantity`` gives the decimals of its numbers."""
-
-    heading: str
-    quantity: str = ""
-    is_number: bool = False
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Table:
-    """Rows of cells under headings. Without rows, outputs print ``empty``."""
-
-    caption: str
-    columns: tuple[Column, ...]
-    rows: tuple[tuple[Cell, ...], ...]
-    empty: str = "none"
-
-
-def _words(heading: str) -> Column:
-    return Column(heading=heading)
-
-
-def _numbers(key: str, heading: str = "") -> Column:
-    return Column(heading=heading or name_heading(key), quantity=key, is_number=True)
-
-
-def _name_columns(
-    headings: Sequence[str], *, numbers: Sequence[str]
-) -> tuple[Column, ...]:
-    return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
-
-
-def _text(text: str) -> Cell:
-    return Cell(text=show_text(text))
-
-
-def _number(key: str, value: float | None) -> Cell:
-    return Cell(text=show_number(key, value), number=value)
-
-
-def _given(value: float | str) -> Cell:
-    if isinstance(value, str):
-        return _text(value)
-    return Cell(text=show_given(value), number=value)
-
-
 CASE_COLUMNS = tuple(
-    _numbers(key) for key in ("density_kg_m3", "friction_deg", "inclination_deg")
+    number_column(key) for key in ("density_kg_m3", "friction_deg", "inclination_deg")
 )
 
 
 def _case(case: CasePoint) -> tuple[Cell, ...]:
     return (
-        _given(case.density_kg_m3),
-        _given(case.friction_deg),
-        _given(case.inclination_deg),
+        given_cell(case.density_kg_m3),
+        given_cell(case.friction_deg),
+        given_cell(case.inclination_deg),
     )
 
 
@@ -100,22 +50,22 @@ def build_extremes(row: RowStudy) -> Table:
         caption="Largest characteristic force of each member, with the forces of the "
         "other members in the same case",
         columns=(
-            _words("Member"),
-            _numbers("max_kN"),
-            _words("Band [kN]"),
+            text_column("Member"),
+            number_column("max_kN"),
+            text_column("Band [kN]"),
             *CASE_COLUMNS,
-            *(_numbers(f"{member}_kN") for member in MEMBERS),
+            *(number_column(f"{member}_kN") for member in MEMBERS),
         ),
         rows=tuple(
             (
                 Cell(text=name_member(extreme.quantity)),
-                _number("max_kN", extreme.max_kN),
+                number_cell("max_kN", extreme.max_kN),
                 Cell(text=show_band("max_kN", extreme.low_kN, extreme.high_kN)),
                 *_case(extreme.case),
                 *(
-                    _number(f"{member}_kN", extreme.coincident_kN.get(member))
+                    number_cell(f"{member}_kN", extreme.coincident_kN.get(member))
                     if member != extreme.quantity
-                    else _number("max_kN", extreme.max_kN)
+                    else number_cell("max_kN", extreme.max_kN)
                     for member in MEMBERS
                 ),
             )
@@ -130,13 +80,22 @@ def list_failed(row: RowStudy) -> list[CaseRecord]:
     return [case for case in row.cases if case.outcome is not Outcome.CONVERGED]
 
 
+def list_loaded(row: RowStudy) -> list[str]:
+    """Members that carry a force in at least one case."""
+    return [
+        member
+        for member in MEMBERS
+        if any(getattr(case, f"{member}_kN") for case in row.cases)
+    ]
+
+
 def build_failed(row: RowStudy) -> Table:
     """Cases without a result, by name."""
     return Table(
         caption="Cases that gave no numbers; no largest force includes them",
-        columns=(_words("Case"), _words("Outcome"), _words("Reason")),
+        columns=(text_column("Case"), text_column("Outcome"), text_column("Reason")),
         rows=tuple(
-            (Cell(text=name_case(case.case)), _text(case.outcome), _explain(case))
+            (Cell(text=name_case(case.case)), text_cell(case.outcome), _explain(case))
             for case in list_failed(row)
         ),
         empty="none: every case converged" if row.cases else "none: no case was run",
@@ -145,8 +104,8 @@ def build_failed(row: RowStudy) -> Table:
 
 def _explain(case: CaseRecord) -> Cell:
     if case.outcome is Outcome.CONVERGED:
-        return _text(case.reason)
-    return _text(f"{case.outcome.sentence} {case.reason}")
+        return text_cell(case.reason)
+    return text_cell(f"{case.outcome.sentence} {case.reason}")
 
 
 def build_cases(row: RowStudy) -> Table:
@@ -157,15 +116,15 @@ def build_cases(row: RowStudy) -> Table:
         caption="Cases, characteristic forces per anchor",
         columns=(
             *CASE_COLUMNS,
-            *(_numbers(key) for key in keys),
-            _words("Outcome"),
-            _words("Reason"),
+            *(number_column(key) for key in keys),
+            text_column("Outcome"),
+            text_column("Reason"),
         ),
         rows=tuple(
             (
                 *_case(case.case),
-                *(_number(key, getattr(case, key)) for key in keys),
-                _text(case.outcome),
+                *(number_cell(key, getattr(case, key)) for key in keys),
+                text_cell(case.outcome),
                 _explain(case),
             )
             for case in row.cases
@@ -178,14 +137,14 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
     headings = ("Input", "Typed", "Understood as", "Unit", "Cell")
     return Table(
         caption=caption,
-        columns=_name_columns(headings, numbers=("Understood as",)),
+        columns=name_columns(headings, numbers=("Understood as",)),
         rows=tuple(
             (
-                _text(echo.label),
-                _text(echo.text),
-                _given(echo.value),
-                _text(echo.unit),
-                _text(echo.cell),
+                text_cell(echo.label),
+                text_cell(echo.text),
+                given_cell(echo.value),
+                text_cell(echo.unit),
+                text_cell(echo.cell),
             )
             for echo in inputs
         ),
@@ -197,15 +156,15 @@ def build_profile(study: Study, status: str = "") -> Table:
     headings = ("Clause", "Value of", "Value", "Unit", "Status", "Source")
     return Table(
         caption=f"Values with the status {status!r}" if status else "Every value used",
-        columns=_name_columns(headings, numbers=("Value",)),
+        columns=name_columns(headings, numbers=("Value",)),
         rows=tuple(
             (
-                _text(value.clause),
-                _text(value.text),
-                _given(value.value),
-                _text(value.unit),
-                _text(value.status),
-                _text(value.source),
+                text_cell(value.clause),
+                text_cell(value.text),
+                given_cell(value.value),
+                text_cell(value.unit),
+                text_cell(value.status),
+                text_cell(value.source),
             )
             for value in study.profile.values
             if status in ("", value.status)
@@ -218,12 +177,14 @@ def build_quality(study: Study) -> Table:
     return Table(
         caption="Quality of the solutions, worst case of each net row",
         columns=(
-            _words("Net row"),
-            *_name_columns(_COUNTS, numbers=_COUNTS),
-            _numbers("balance_residual", "Largest balance residual, of the weight"),
-            _words("In case"),
-            _numbers("error_percent", "Largest error estimate [%]"),
-            _words("In case"),
+            text_column("Net row"),
+            *name_columns(_COUNTS, numbers=_COUNTS),
+            number_column(
+                "balance_residual", "Largest balance residual, of the weight"
+            ),
+            text_column("In case"),
+            number_column("error_percent", "Largest error estimate [%]"),
+            text_column("In case"),
         ),
         rows=tuple(_quality_row(row) for row in study.rows),
     )
@@ -233,12 +194,12 @@ def _quality_row(row: RowStudy) -> tuple[Cell, ...]:
     residual, residual_case = _worst(row, lambda case: case.balance_residual)
     error, error_case = _worst(row, lambda case: case.error_percent)
     return (
-        _text(row.id),
-        _given(len(row.cases)),
-        _given(len(list_failed(row))),
-        _number("balance_residual", residual),
+        text_cell(row.id),
+        given_cell(len(row.cases)),
+        given_cell(len(list_failed(row))),
+        number_cell("balance_residual", residual),
         Cell(text=name_case(residual_case)),
-        _number("error_percent", error),
+        number_cell("error_percent", error),
         Cell(text=name_case(error_case)),
     )
 
@@ -259,9 +220,13 @@ def build_outcomes(study: Study) -> Table:
     counts = Counter(case.outcome for row in study.rows for case in row.cases)
     return Table(
         caption="Cases by outcome",
-        columns=_name_columns(("Outcome", "Cases", "Meaning"), numbers=("Cases",)),
+        columns=name_columns(("Outcome", "Cases", "Meaning"), numbers=("Cases",)),
         rows=tuple(
-            (_text(outcome), _given(counts[outcome]), Cell(text=outcome.sentence))
+            (
+                text_cell(outcome),
+                given_cell(counts[outcome]),
+                Cell(text=outcome.sentence),
+            )
             for outcome in Outcome
             if counts[outcome]
         ),
@@ -288,8 +253,8 @@ def build_provenance(study: Study) -> Table:
     pairs |= {f"Library: {name}": text for name, text in made.libraries.items()}
     return Table(
         caption="Origin of every number of this report",
-        columns=(_words("Item"), _words("Value")),
-        rows=tuple((_text(name), _text(text)) for name, text in pairs.items()),
+        columns=(text_column("Item"), text_column("Value")),
+        rows=tuple((text_cell(name), text_cell(text)) for name, text in pairs.items()),
     )
 
 
@@ -298,6 +263,8 @@ def stack_tables(caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
     first = parts[0][1]
     return Table(
         caption=caption,
-        columns=(_words("Net row"), *first.columns),
-        rows=tuple((_text(name), *row) for name, part in parts for row in part.rows),
+        columns=(text_column("Net row"), *first.columns),
+        rows=tuple(
+            (text_cell(name), *row) for name, part in parts for row in part.rows
+        ),
     )

@@ -23,11 +23,12 @@ from netdesign.report.check_view import (
     work_out,
 )
 from netdesign.report.gate import require_consistent
-from netdesign.report.tables import Table
+from netdesign.report.table import Table
 from netdesign.report.words import (
     VERDICTS,
     VerdictWords,
     name_case,
+    name_member,
     show_text,
 )
 from netdesign.study import ProfileRecord, RowStudy, Study
@@ -47,6 +48,7 @@ class RowView:
     checks: tuple[CheckView, ...]
     worked: Worked | None
     drawn_case: str
+    unloaded: str  # members left out of the envelope figure, or ""
     extremes: Table
     failed: Table
     inputs: Table
@@ -137,10 +139,17 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         checks=tuple(view_check(check) for check in row.checks),
         worked=work_out(shown) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
+        unloaded=_name_unloaded(row),
         extremes=tables.build_extremes(row),
         failed=tables.build_failed(row),
         inputs=tables.build_inputs(row.inputs, "Inputs, with the cell of each"),
     )
+
+
+def _name_unloaded(row: RowStudy) -> str:
+    loaded = tables.list_loaded(row)
+    names = [name_member(member) for member in tables.MEMBERS if member not in loaded]
+    return f"Without force in every case: {', '.join(names)}." if names else ""
 
 
 def _name_person(name: str) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from netdesign.report.tables import Cell, Column, Table
+from netdesign.report.table import Cell, Column, Table
 from netdesign.report.words import VERDICTS, number_format
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}

@@ -57,6 +57,23 @@ def test_envelope_marks_each_governing_value(samples):
     assert "no result" in shown
 
 
+def test_slack_members_are_left_out_of_the_envelope():
+    slack = [replace(c, downhill_guy_kN=0.0 if c.post_kN else None) for c in ROW.cases]
+    shown = texts(draw_envelope(replace(ROW, cases=slack), "x"))
+    assert "Downhill guy [kN]" not in shown
+    assert "Post [kN]" in shown
+
+
+def test_slack_anchor_keeps_its_place_in_the_section():
+    arrows = [
+        replace(a, force_x_kN=0.0, force_y_kN=0.0) for a in ROW.drawing.arrows[3:]
+    ]
+    arrows = [*ROW.drawing.arrows[:3], *arrows]
+    shown = texts(draw_section(replace(ROW.drawing, arrows=arrows), "x"))
+    assert "Downhill anchor" in shown
+    assert "0.0 kN" in shown
+
+
 def test_envelope_of_failed_cases_only_is_empty():
     failed = next(case for case in ROW.cases if case.foot_anchor_kN is None)
     assert draw_envelope(replace(ROW, cases=[failed], extremes=[]), "x") == ""

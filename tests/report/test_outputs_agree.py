@@ -36,7 +36,9 @@ def test_checks_agree(page, book):
         (table,) = page.tables[f"{row.anchor}-checks"]
         for check, cells in zip(row.checks, table[1:], strict=True):
             line = next(sheet)
-            assert cells[0] == f"{check.title} {check.clause}"
+            assert cells[0] == f"{check.title} {check.source}"
+            assert line["Clause"] in ("-", *check.source.split("; "))
+            assert line["Resistance from"] in ("-", *check.source.split("; "))
             assert cells[1] == check.demand == show("demand_kN", line["E_d [kN]"])
             assert cells[2] == check.resistance == show("demand_kN", line["R_d [kN]"])
             low, high = (

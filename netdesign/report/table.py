@@ -1,0 +1,69 @@
+"""What a table of the report is made of: cells under headings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from netdesign.report.words import name_heading, show_given, show_number, show_text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cell:
+    """What a reader sees, and the number behind it if it is one."""
+
+    text: str
+    number: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Column:
+    """Heading of a column; ``quantity`` gives the decimals of its numbers."""
+
+    heading: str
+    quantity: str = ""
+    is_number: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """Rows of cells under headings. Without rows, outputs print ``empty``."""
+
+    caption: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    empty: str = "none"
+
+
+def text_column(heading: str) -> Column:
+    """Column of texts."""
+    return Column(heading=heading)
+
+
+def number_column(key: str, heading: str = "") -> Column:
+    """Column of the quantity ``key``, under its own name unless another is given."""
+    return Column(heading=heading or name_heading(key), quantity=key, is_number=True)
+
+
+def name_columns(
+    headings: Sequence[str], *, numbers: Sequence[str]
+) -> tuple[Column, ...]:
+    """Columns by heading alone; those in ``numbers`` are set to the right."""
+    return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
+
+
+def text_cell(text: str) -> Cell:
+    """Text on one line, never empty."""
+    return Cell(text=show_text(text))
+
+
+def number_cell(key: str, value: float | None) -> Cell:
+    """Number of the quantity ``key``, with its decimals."""
+    return Cell(text=show_number(key, value), number=value)
+
+
+def given_cell(value: float | str) -> Cell:
+    """What somebody chose or counted: no decimals are added."""
+    if isinstance(value, str):
+        return text_cell(value)
+    return Cell(text=show_given(value), number=value)
