@@ -289,8 +289,7 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
     if result is None or result.solution is None or result.anchors is None:
         return None
     solution = result.solution
-    x_head, y_head = (float(v) for v in solution.scene.net.head)
-    points = place_support(row.layout, (x_head, y_head))
+    points = place_support(row.layout, solution.head_point)
     curve = solution.net_curve.T.round(_DRAWN_DECIMALS).tolist()
     in_snow = len(solution.net_slides)
     sticks = [not bool(slides) for slides in solution.net_slides]

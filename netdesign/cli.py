@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -179,12 +179,12 @@ def solve(scene_file: Path, *, as_json: bool) -> None:
     import json
     import time
 
-    from netdesign.coupling.steady import solve_steady
+    from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene, write_solution_document
 
     scene, settings = read_scene(scene_file)
     start = time.perf_counter()
-    solution = solve_steady(scene, settings)
+    solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
     if as_json:
@@ -233,6 +233,20 @@ def report(
     write_files(_render([study], names))
     _report_places(names, quiet=False)
     sys.exit(_exit_code([study]))
+
+
+@cli.command()
+def glide() -> None:
+    """Measure the glide factors of slip lengths again, beside the stored table."""
+    from netdesign.coupling.glide import measure_glide_factor
+    from netdesign.snow.creep_law import CREEP_LAWS
+    from netdesign.snow.ground import load_glide_tables
+
+    click.echo("creep law          slip length / d   N stored   N measured")
+    for name, table in load_glide_tables().items():
+        for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
+            measured = measure_glide_factor(CREEP_LAWS[name], ratio)
+            click.echo(f"{name:18} {ratio:15g} {stored:10.3f} {measured:12.3f}")
 
 
 @cli.group()
@@ -393,16 +407,26 @@ def _show(studies: Sequence[Study], *, as_json: bool) -> None:
         click.echo(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
 
 
-def _show_solution(document: dict[str, dict[str, dict[str, float]]]) -> None:
-    for end, pull in document["anchor_forces"].items():
+def _show_solution(document: dict[str, Any]) -> None:
+    for end, pull in (document["anchor_forces"] or {}).items():
         click.echo(
             f"{end:5} {pull['size_kN_per_m']:10.2f} kN/m  "
             f"(x {pull['x_kN_per_m']:.2f}, y {pull['y_kN_per_m']:.2f}, "
             f"error {pull['error_kN_per_m']:.2f})"
         )
+    if document["wall"]:
+        wall = document["wall"]
+        click.echo(
+            f"wall  x {wall['force_x_kN_per_m']:.2f}, y {wall['force_y_kN_per_m']:.2f} "
+            f"kN/m, error {wall['error_kN_per_m']:.2f}; moment about the foot "
+            f"{wall['moment_about_foot_kN']:.2f} kN"
+        )
+    else:
+        click.echo(f"sag   {document['sag_m']:10.4f} m")
     balance = document["balance"]
-    click.echo(f"sag   {document['sag_m']:10.4f} m")
     click.echo(f"balance residual {balance['relative_residual']:.1e} of the weight")
+    for flag in document["flags"]:
+        click.echo(f"note: {flag}")
 
 
 def _report_places(names: list[list[Path]], *, quiet: bool) -> None:

@@ -4,23 +4,53 @@ from __future__ import annotations
 
 import math
 import tomllib
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from netdesign import __version__
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    Balance,
+    FailedSolution,
+    Solution,
+    WallSolution,
+)
 from netdesign.errors import ModelError, SceneFileError
-from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
+from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.snowpack import GravityMode, Snowpack, compute_thickness
-from netdesign.units import kilonewton_from_newton, newton_from_kilonewton
+from netdesign.snow.law import Sides
+from netdesign.snow.snowpack import (
+    GravityMode,
+    Layer,
+    Snowpack,
+    compute_mean_density,
+    compute_thickness,
+)
+from netdesign.snow.wall import Wall
+from netdesign.units import (
+    fluidity_from_mpa_year,
+    kelvin_from_celsius,
+    kilonewton_from_newton,
+    mm_per_day,
+    newton_from_kilonewton,
+)
 
+SOLUTION_SCHEMA = "netdesign.solution/1"
+_FITTED_EXPONENT = 3.0  # of a(D) and b(D) in all named sets
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
+Temperature = Annotated[float, Field(ge=-60, le=0)]
 
 
 class _Table(BaseModel):
@@ -33,17 +63,38 @@ class SlopeTable(_Table):
     angle_deg: Annotated[float, Field(ge=0, le=80)]
 
 
+class LayerTable(_Table):
+    """One entry of ``snow.layers``, from the ground up."""
+
+    thickness_m: Positive
+    density_kg_m3: Positive
+    temperature_C: Temperature | None = None
+
+
+class CreepLawTable(_Table):
+    """A set of the user's own for ``snow.creep_law``."""
+
+    name: str
+    source: str
+    shear_fit: Pair
+    bulk_fit: Pair
+    branch: Positive
+    clamp: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    calibrated: Pair
+
+
 class SnowTable(_Table):
-    """``[snow]``; one of thickness and vertical height."""
+    """``[snow]``; one of thickness and vertical height, one of density and layers."""
 
     thickness_m: Positive | None = None
     height_vertical_m: Positive | None = None
     upslope_length_m: Positive
-    density_kg_m3: Annotated[float, Field(gt=0, lt=917)]
-    creep_law: str = "boutillier-2004"
-    creep_exponent: Annotated[float, Field(ge=3, le=3)] = 3.0
-    fluidity_per_MPa3_a: Positive = 20.0
-    temperature_C: Annotated[float, Field(ge=-60, le=0)] | None = None
+    density_kg_m3: Positive | None = None
+    layers: Annotated[list[LayerTable], Field(min_length=1)] | None = None
+    creep_law: str | CreepLawTable = "boutillier-2004"
+    creep_exponent: Annotated[float, Field(ge=1, le=10)] = 3.0
+    fluidity_per_MPa3_a: Positive | None = None
+    temperature_C: Temperature | None = None
 
 
 class GroundTable(_Table):
@@ -52,18 +103,19 @@ class GroundTable(_Table):
     law: GroundKind = "free"
     slip_length_m: Positive | None = None
     glide_factor: Annotated[float, Field(ge=1, allow_inf_nan=False)] | None = None
-    contact: Literal["two-sided"] = "two-sided"
+    contact: Sides = "two-sided"
 
 
 class NetTable(_Table):
-    """``[net]``."""
+    """``[net]``; a rigid wall has no stiffness and slack, and may adhere."""
 
-    kind: Literal["cable"] = "cable"
+    kind: Literal["cable", "rigid"] = "cable"
     inclination_deg: Annotated[float, Field(ge=0, lt=90)] = 30.0
     height_m: Positive | None = None
-    stiffness_kN_per_m: Positive
-    slack: Annotated[float, Field(ge=0, le=0.5)] = 0.0
-    friction_deg: Annotated[float, Field(ge=0, le=60)]
+    stiffness_kN_per_m: Positive | None = None
+    slack: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    friction_deg: Annotated[float, Field(ge=0, le=60)] | None = None
+    contact: Sides = "two-sided"
 
 
 class GravityTable(_Table):
@@ -115,94 +167,51 @@ def read_scene(path: Path) -> tuple[Scene, SolverSettings]:
 
 def build_scene(file: SceneFile) -> tuple[Scene, SolverSettings]:
     """Scene and settings in SI units."""
-    slope = math.radians(file.slope.angle_deg)
-    thickness = _thickness(file.snow, slope)
-    if file.snow.creep_law not in CREEP_LAWS:
-        known = ", ".join(CREEP_LAWS)
-        raise ModelError(f"snow.creep_law = {file.snow.creep_law!r}: known are {known}")
+    snowpack = _snowpack(file)
+    creep_law = _creep_law(file.snow)
     scene = Scene(
-        snowpack=Snowpack(
-            slope_angle=slope,
-            thickness=thickness,
-            upslope_length=file.snow.upslope_length_m,
-            density=file.snow.density_kg_m3,
-            gravity=file.gravity.mode,
-        ),
-        ground=_ground(file.ground, thickness),
-        net=Net(
-            height_normal=file.net.height_m or thickness,
-            inclination=math.radians(file.net.inclination_deg),
-            stiffness_per_m=newton_from_kilonewton(file.net.stiffness_kN_per_m),
-            slack=file.net.slack,
-            friction_angle=math.radians(file.net.friction_deg),
-        ),
-        creep_law=CREEP_LAWS[file.snow.creep_law],
+        snowpack=snowpack,
+        ground=_ground(file.ground, snowpack.thickness, creep_law.name),
+        net=_net(file.net, snowpack.thickness),
+        creep_law=creep_law,
+        fluidity=_fluidity(file.snow),
+        ground_contact=file.ground.contact,
+        net_contact=file.net.contact,
     )
     return scene, SolverSettings(accuracy=file.solve.accuracy)
 
 
 def write_solution_document(
-    solution: Solution | FailedSolution, settings: SolverSettings, wall_s: float
+    solution: Solution | WallSolution | FailedSolution,
+    settings: SolverSettings,
+    wall_s: float,
 ) -> dict[str, Any]:
     """Solution as plain values in the form ``netdesign.solution/1``."""
     if isinstance(solution, FailedSolution):
         return {
-            "schema": "netdesign.solution/1",
+            "schema": SOLUTION_SCHEMA,
             "outcome": solution.outcome.value,
             "reason": solution.reason,
         }
-    balance, cost = solution.balance, solution.cost
+    held = (
+        _write_wall(solution)
+        if isinstance(solution, WallSolution)
+        else _write_net(solution)
+    )
     return {
-        "schema": "netdesign.solution/1",
+        "schema": SOLUTION_SCHEMA,
         "outcome": solution.outcome.value,
-        "method": solution.method,
-        "anchor_forces": {
-            "foot": _write_pull(solution.foot),
-            "head": _write_pull(solution.head),
-        },
-        "wall": None,
-        "tension_kN_per_m": {
-            "foot": kilonewton_from_newton(solution.foot.size),
-            "head": kilonewton_from_newton(solution.head.size),
-            "min": kilonewton_from_newton(solution.tension_min),
-            "max": kilonewton_from_newton(solution.tension_max),
-        },
-        "sag_m": solution.sag,
-        "balance": {
-            "weight_along_slope_kN_per_m": kilonewton_from_newton(
-                balance.weight_along_slope
-            ),
-            "relative_residual": balance.relative_residual,
-            "friction_excess": balance.friction_excess,
-            "suction_share": balance.suction_share,
-            "ground_tension_share": balance.ground_tension_share,
-        },
-        "nodes": [
-            {
-                "x_m": float(x),
-                "y_m": float(y),
-                "force_x_kN_per_m": kilonewton_from_newton(float(force_x)),
-                "force_y_kN_per_m": kilonewton_from_newton(float(force_y)),
-                "sliding": bool(slides),
-            }
-            for (x, y), (force_x, force_y), slides in zip(
-                solution.net_curve.T,
-                solution.net_forces.T,
-                solution.net_slides,
-                strict=False,  # a free end above the snow carries no nodal force
-            )
-        ],
+        "method": "steady",
+        **held,
+        "balance": _write_balance(solution.balance),
+        "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         "history": None,
-        "cost": {
-            "wall_s": wall_s,
-            "linear_solves": cost.linear_solves,
-            "rounds": cost.rounds,
-            "elements": cost.elements,
-            "degrees_of_freedom": cost.degrees_of_freedom,
-        },
+        "flags": _list_flags(solution.scene),
+        "cost": {"wall_s": wall_s, **asdict(solution.cost)},
         "provenance": {
             "version": __version__,
             "creep_law": solution.scene.creep_law.name,
+            "element": solution.scene.flow_law.element,
             "settings": {
                 "accuracy": settings.accuracy,
                 "stress_tolerance": settings.stress_tolerance,
@@ -211,6 +220,123 @@ def write_solution_document(
             },
         },
     }
+
+
+def _write_net(solution: Solution) -> dict[str, Any]:
+    ends = {"foot": solution.foot, "head": solution.head}
+    # a free end of the net above the snow carries no nodal force and is left out
+    curve = solution.net_curve[:, : solution.net_slides.size]
+    return {
+        "anchor_forces": {
+            end: {
+                "x_kN_per_m": kilonewton_from_newton(pull.x),
+                "y_kN_per_m": kilonewton_from_newton(pull.y),
+                "size_kN_per_m": kilonewton_from_newton(pull.size),
+                "error_kN_per_m": kilonewton_from_newton(pull.error),
+            }
+            for end, pull in ends.items()
+        },
+        "wall": None,
+        "tension_kN_per_m": {
+            **{end: kilonewton_from_newton(pull.size) for end, pull in ends.items()},
+            "min": kilonewton_from_newton(solution.tension_min),
+            "max": kilonewton_from_newton(solution.tension_max),
+        },
+        "sag_m": solution.sag,
+        "nodes": _write_nodes(curve, solution.net_forces, solution.net_slides),
+    }
+
+
+def _write_wall(solution: WallSolution) -> dict[str, Any]:
+    force = solution.force
+    nodes = _write_nodes(
+        solution.wall_nodes, solution.wall_forces, solution.wall_slides
+    )
+    return {
+        "anchor_forces": None,
+        "wall": {
+            "force_x_kN_per_m": kilonewton_from_newton(force.x),
+            "force_y_kN_per_m": kilonewton_from_newton(force.y),
+            "moment_about_foot_kN": kilonewton_from_newton(solution.moment_about_foot),
+            "error_kN_per_m": kilonewton_from_newton(force.error),
+        },
+        "tension_kN_per_m": None,
+        "sag_m": None,
+        "nodes": nodes,
+    }
+
+
+def _write_nodes(curve: Floats, forces: Floats, slides: Mask) -> list[dict[str, Any]]:
+    return [
+        {
+            "x_m": float(x),
+            "y_m": float(y),
+            "force_x_kN_per_m": kilonewton_from_newton(float(force_x)),
+            "force_y_kN_per_m": kilonewton_from_newton(float(force_y)),
+            "sliding": bool(is_sliding),
+        }
+        for (x, y), (force_x, force_y), is_sliding in zip(
+            curve.T, forces.T, slides, strict=True
+        )
+    ]
+
+
+def _write_balance(balance: Balance) -> dict[str, float]:
+    return {
+        "weight_along_slope_kN_per_m": kilonewton_from_newton(
+            balance.weight_along_slope
+        ),
+        "relative_residual": balance.relative_residual,
+        "friction_excess": balance.friction_excess,
+        "suction_share": balance.suction_share,
+        "ground_tension_share": balance.ground_tension_share,
+    }
+
+
+def _list_flags(scene: Scene) -> list[str]:
+    """What a reader must know before using the numbers."""
+    law = scene.creep_law
+    flags = []
+    if not scene.is_calibrated:
+        low, high = law.calibrated
+        flags.append(
+            f"snow density outside the range of {low:g} to {high:g} (relative) for "
+            f"which the creep law {law.name} is given"
+        )
+    if law.exponent != _FITTED_EXPONENT:
+        flags.append(
+            f"creep exponent {law.exponent:g}: a(D) and b(D) were fitted for 3 and "
+            "their branches do not meet for another"
+        )
+    return flags
+
+
+def _snowpack(file: SceneFile) -> Snowpack:
+    snow, slope = file.snow, math.radians(file.slope.angle_deg)
+    thickness = _thickness(snow, slope)
+    if (snow.density_kg_m3 is None) == (snow.layers is None):
+        raise ModelError("snow.density_kg_m3 and snow.layers: give exactly one of them")
+    layers = tuple(
+        Layer(
+            thickness=layer.thickness_m,
+            density=layer.density_kg_m3,
+            temperature=(
+                None
+                if layer.temperature_C is None
+                else kelvin_from_celsius(layer.temperature_C)
+            ),
+        )
+        for layer in snow.layers or ()
+    )
+    density = snow.density_kg_m3 or compute_mean_density(layers)
+    return Snowpack(
+        slope_angle=slope,
+        thickness=thickness,
+        upslope_length=snow.upslope_length_m,
+        density=density,
+        layers=layers,
+        gravity=file.gravity.mode,
+    )
 
 
 def _thickness(snow: SnowTable, slope: float) -> float:
@@ -223,7 +349,42 @@ def _thickness(snow: SnowTable, slope: float) -> float:
     return compute_thickness(snow.height_vertical_m or 0.0, slope)
 
 
-def _ground(ground: GroundTable, thickness: float) -> GroundLaw:
+def _creep_law(snow: SnowTable) -> CreepLaw:
+    if isinstance(snow.creep_law, CreepLawTable):
+        given = snow.creep_law
+        return CreepLaw(
+            name=given.name,
+            source=given.source,
+            exponent=snow.creep_exponent,
+            shear_fit=(given.shear_fit[0], given.shear_fit[1]),
+            bulk_fit=(given.bulk_fit[0], given.bulk_fit[1]),
+            branch=given.branch,
+            clamp=given.clamp,
+            calibrated=(given.calibrated[0], given.calibrated[1]),
+        )
+    if snow.creep_law not in CREEP_LAWS:
+        known = ", ".join(CREEP_LAWS)
+        raise ModelError(
+            f"snow.creep_law = {snow.creep_law!r}: known are {known}, or a table with "
+            "a set of your own"
+        )
+    return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
+
+
+def _fluidity(snow: SnowTable) -> float:
+    given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
+    if given is not None and temperature is not None:
+        raise ModelError(
+            "snow.fluidity_per_MPa3_a and snow.temperature_C: give one of them at most"
+        )
+    if temperature is not None:
+        return compute_fluidity(kelvin_from_celsius(temperature))
+    if given is not None:
+        return fluidity_from_mpa_year(given, snow.creep_exponent)
+    return PAPER_FLUIDITY
+
+
+def _ground(ground: GroundTable, thickness: float, creep_law: str) -> GroundLaw:
     slip, glide = ground.slip_length_m, ground.glide_factor
     if ground.law != "sliding":
         if slip is not None or glide is not None:
@@ -239,7 +400,30 @@ def _ground(ground: GroundTable, thickness: float) -> GroundLaw:
         )
     if slip is not None:
         return GroundLaw(kind="sliding", slip_length=slip)
-    return build_ground_from_glide_factor(glide or 1.0, thickness)
+    return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law)
+
+
+def _net(net: NetTable, thickness: float) -> Net | Wall:
+    height = net.height_m or thickness
+    inclination = math.radians(net.inclination_deg)
+    friction = None if net.friction_deg is None else math.radians(net.friction_deg)
+    if net.kind == "rigid":
+        if net.stiffness_kN_per_m is not None or net.slack is not None:
+            raise ModelError("net.stiffness_kN_per_m and net.slack: a wall has none")
+        return Wall(
+            height_normal=height, inclination=inclination, friction_angle=friction
+        )
+    if net.stiffness_kN_per_m is None or friction is None:
+        raise ModelError(
+            "net.stiffness_kN_per_m and net.friction_deg: a cable needs both"
+        )
+    return Net(
+        height_normal=height,
+        inclination=inclination,
+        stiffness_per_m=newton_from_kilonewton(net.stiffness_kN_per_m),
+        slack=net.slack or 0.0,
+        friction_angle=friction,
+    )
 
 
 def _describe(fault: Any) -> str:
@@ -247,12 +431,3 @@ def _describe(fault: Any) -> str:
     value = fault.get("input")
     shown = f" = {value!r}" if isinstance(value, (str, int, float)) else ""
     return f"{place}{shown}: {fault['msg']}"
-
-
-def _write_pull(pull: EndPull) -> dict[str, float]:
-    return {
-        "x_kN_per_m": kilonewton_from_newton(pull.x),
-        "y_kN_per_m": kilonewton_from_newton(pull.y),
-        "size_kN_per_m": kilonewton_from_newton(pull.size),
-        "error_kN_per_m": kilonewton_from_newton(pull.error),
-    }

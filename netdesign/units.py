@@ -58,6 +58,11 @@ def fluidity_to_mpa_year(value: float, creep_exponent: float) -> float:
     return float(value * SECONDS_PER_YEAR / 1e-6**creep_exponent)
 
 
+def mm_per_day(value: float) -> float:
+    """Velocity in m/s to mm per day."""
+    return value * 1e3 * SECONDS_PER_DAY
+
+
 def celsius_from_kelvin(value: float) -> float:
     """K to degrees Celsius."""
     return value - KELVIN_AT_0_C

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.cable.funicular import Funicular
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
-from netdesign.snow.flow import FlowLaw
+from netdesign.snow.flow import compute_weight
 from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.law import FlowLaw
 
 Floats = NDArray[np.float64]
 
@@ -20,21 +20,30 @@ def measure_balance(
     law: FlowLaw,
     mesh: PlacedMesh,
     forces: SupportForces,
-    cable: Funicular,
+    held: Floats,
+    tension: Floats | None,
     force_scale: float,
 ) -> Balance:
-    """Balance of a coupled state; forces are scaled by ``force_scale`` [N/m]."""
-    weight = mesh.area * np.array(law.gravity)
+    """Balance of a state, whose forces are scaled by ``force_scale`` [N/m].
+
+    ``held`` is the sum of the net's end pulls, or the wall's force, shape (2,);
+    ``tension`` holds all tensions of the net, None for a wall.
+    """
+    weight = compute_weight(law, mesh)
     size = float(np.hypot(*weight))
-    missing = weight - forces.on_ground - cable.foot_pull - cable.head_pull
+    missing = weight - forces.on_ground - held
     normal, tangential = _net_components(mesh, forces.on_net)
     pressed = np.maximum(normal, 0.0)
-    excess = np.abs(tangential) - law.friction * pressed
+    excess = np.zeros(1)
+    if np.isfinite(law.friction):
+        excess = np.abs(tangential) - law.friction * pressed
     return Balance(
         weight_along_slope=float(weight[0]) * force_scale,
         relative_residual=max(float(np.hypot(*missing)), forces.unbalanced) / size,
         friction_excess=max(0.0, float(excess.max())) / size,
-        smallest_tension=float(cable.tension.min()) * force_scale,
+        smallest_tension=(
+            None if tension is None else float(tension.min()) * force_scale
+        ),
         suction_share=_negative_share(normal),
         ground_tension_share=_negative_share(forces.ground_normal),
     )
@@ -52,10 +61,10 @@ def check_balance(balance: Balance, tolerance: float) -> None:
         _refuse("force missing from the balance", balance.relative_residual, tolerance)
     if not balance.friction_excess <= tolerance:
         _refuse("shear beyond the friction limit", balance.friction_excess, tolerance)
-    if not balance.smallest_tension > 0.0:
+    tension = balance.smallest_tension
+    if tension is not None and not tension > 0.0:
         raise SolveError(
-            Outcome.BALANCE_VIOLATED,
-            f"the net would have to push: tension {balance.smallest_tension:g} N/m",
+            Outcome.BALANCE_VIOLATED, f"the net would have to push: {tension:g} N/m"
         )
 
 

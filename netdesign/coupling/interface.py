@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.snow.flow import FlowLaw, FlowState, compute_residual, free_components
+from netdesign.snow.contact import free_unknowns, net_components
+from netdesign.snow.flow import FlowState, compute_residual
 from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.law import FlowLaw
 
 Floats = NDArray[np.float64]
 
@@ -59,11 +61,12 @@ def compute_support_forces(
         on_ground[0] = 0.0
     if state.base_shear is not None:
         on_ground[0] = float((mesh.base.weights * state.base_shear).sum())
-    held = ~free_components(law, mesh)
-    held[2 * template.net + 1] = True  # friction, tested on its own
+    free = free_unknowns(law, mesh, state.contact)
+    free[net_components(mesh)[1]] = False  # friction, tested on its own
+    free[mesh.n_velocities :] = False
     return SupportForces(
         on_net=on_net,
         on_ground=on_ground,
         ground_normal=-ground[1],
-        unbalanced=float(np.linalg.norm(residual[~held])),
+        unbalanced=float(np.linalg.norm(residual[free])),
     )

@@ -7,21 +7,28 @@ from dataclasses import dataclass, field
 
 from netdesign.cable.net import Net
 from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
+from netdesign.guards import require_one_of, require_positive, require_within
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
+    ICE_DENSITY,
     CreepLaw,
     compute_bulk_factor,
     compute_shear_factor,
+    require_admissible,
 )
-from netdesign.snow.flow import FlowLaw
+from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import GroundLaw
+from netdesign.snow.law import FlowLaw, FlowLayer, Sides
 from netdesign.snow.mesh import MeshSize
-from netdesign.snow.snowpack import Snowpack
+from netdesign.snow.snowpack import Layer, Snowpack
+from netdesign.snow.wall import Wall
 
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.
 _OVERTOPPING = 1e-6
+# a / b above which the snow counts as nearly incompressible and takes the mixed
+# element; the velocity element's error grows from there (tests/verification).
+MIXED_BULK_RATIO = 20.0
 
 # Meshes from the fewest triangles upwards; each halves the sizes of the one before.
 MESH_LEVELS = (
@@ -34,12 +41,31 @@ MESH_LEVELS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """A snowpack on its ground, hanging on a net."""
+    """A snowpack on its ground, against a net or a rigid wall.
+
+    Attributes
+    ----------
+    snowpack : Snowpack
+        The snow.
+    ground : GroundLaw
+        Base law.
+    net : Net or Wall
+        What holds the snow.
+    creep_law : CreepLaw
+        Set of a(D), b(D), n.
+    fluidity : float
+        B [Pa^-n s^-1]; of layers without a temperature.
+    ground_contact, net_contact : str
+        ``two-sided`` (the paper) or ``one-sided`` (cannot pull on the snow).
+    """
 
     snowpack: Snowpack
     ground: GroundLaw
-    net: Net
+    net: Net | Wall
     creep_law: CreepLaw = BOUTILLIER_2004
+    fluidity: float = PAPER_FLUIDITY
+    ground_contact: Sides = "two-sided"
+    net_contact: Sides = "two-sided"
 
     def __post_init__(self) -> None:
         """Refuse combinations that the model cannot represent."""
@@ -50,27 +76,62 @@ class Scene:
                 f"{thickness:g} m (both normal to the slope): the model has no rule "
                 "for snow that overtops the net; raise the net or lower the snow"
             )
+        if isinstance(self.net, Net):
+            _require_clear_of_ground(self.net)
+        require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
+        for name in ("ground_contact", "net_contact"):
+            require_one_of(name, getattr(self, name), ("two-sided", "one-sided"))
         require_within(
             "upslope length over snow thickness",
             self.snowpack.upslope_length / thickness,
             0.25,
             200.0,
         )
+        for layer in self.layers:
+            require_admissible(self.creep_law, layer.density / ICE_DENSITY)
+
+    @property
+    def layers(self) -> tuple[Layer, ...]:
+        """Layers from the ground up; a single one for uniform snow."""
+        pack = self.snowpack
+        whole = Layer(thickness=pack.thickness, density=pack.density)
+        return pack.layers or (whole,)
+
+    @property
+    def layer_tops(self) -> tuple[float, ...]:
+        """Heights of the interfaces between layers over the thickness."""
+        tops, height = [], 0.0
+        for layer in self.layers[:-1]:
+            height += layer.thickness
+            tops.append(height / self.snowpack.thickness)
+        return tuple(tops)
 
     @property
     def flow_law(self) -> FlowLaw:
         """The scene's snow and ground, dimensionless."""
-        density = self.snowpack.relative_density
-        shear = compute_shear_factor(self.creep_law, density)
-        bulk = compute_bulk_factor(self.creep_law, density)
+        tops = (*self.layer_tops, 1.0)
+        layers = tuple(
+            self._scale_layer(layer, top)
+            for layer, top in zip(self.layers, tops, strict=True)
+        )
+        stiffest = max(layer.bulk_ratio for layer in layers)
         return FlowLaw(
             exponent=self.creep_law.exponent,
-            bulk_ratio=shear / bulk,
+            layers=layers,
             gravity=self.snowpack.gravity_direction,
             ground=self.ground.kind,
             slip_ratio=self.ground.slip_length / self.snowpack.thickness,
             friction=self.net.friction,
+            element="mixed" if stiffest > MIXED_BULK_RATIO else "velocity",
+            ground_contact=self.ground_contact,
+            net_contact=self.net_contact,
         )
+
+    @property
+    def is_calibrated(self) -> bool:
+        """Every layer's density lies where the creep law is given."""
+        law = self.creep_law
+        return all(law.is_calibrated(la.density / ICE_DENSITY) for la in self.layers)
 
     @property
     def force_scale(self) -> float:
@@ -78,13 +139,45 @@ class Scene:
         return self.snowpack.stress_scale * self.snowpack.thickness
 
     @property
-    def weight_along_slope(self) -> float:
-        """Weight of the snow upslope of a straight net, along the slope [N/m]."""
-        pack, net = self.snowpack, self.net
-        wedge = pack.thickness**2 * math.tan(net.inclination) / 2.0
-        area = pack.upslope_length * pack.thickness + wedge
-        stress = pack.stress_scale * math.sin(pack.slope_angle)
-        return stress * area / pack.thickness
+    def velocity_scale(self) -> float:
+        """B a^((n+1)/2) (rho g d)^n d [m/s], the scale of velocities."""
+        n, pack = self.creep_law.exponent, self.snowpack
+        shear = compute_shear_factor(self.creep_law, pack.relative_density)
+        rate = self.fluidity * shear ** ((n + 1) / 2) * pack.stress_scale**n
+        return float(rate * pack.thickness)
+
+    def _scale_layer(self, layer: Layer, top: float) -> FlowLayer:
+        """Layer relative to snow of the mean density and the scene's fluidity."""
+        law, pack = self.creep_law, self.snowpack
+        density = layer.density / ICE_DENSITY
+        shear = compute_shear_factor(law, density)
+        mean_shear = compute_shear_factor(law, pack.relative_density)
+        warmth = 1.0
+        if layer.temperature is not None:
+            warmth = compute_fluidity(layer.temperature) / self.fluidity
+        return FlowLayer(
+            top=top,
+            bulk_ratio=shear / compute_bulk_factor(law, density),
+            fluidity=warmth * float((shear / mean_shear) ** ((law.exponent + 1) / 2)),
+            density=layer.density / pack.density,
+        )
+
+
+def _require_clear_of_ground(net: Net) -> None:
+    """Refuse slack that would let the net hang on the ground below its foot.
+
+    The net leaves its foot at the chord's angle to the ground, less the end slope of
+    a parabola of its unstressed length, 4 f / c.
+    """
+    sag = math.sqrt(3.0 * net.slack / 8.0)
+    if math.atan(4.0 * sag) >= math.pi / 2 - net.inclination:
+        steepest = math.pi / 2 - net.inclination
+        most = 8.0 / 3.0 * (math.tan(steepest) / 4.0) ** 2
+        raise ModelError(
+            f"slack = {net.slack:g}: the net would lie on the ground at its foot; at "
+            f"an inclination of {math.degrees(net.inclination):.1f} degrees less than "
+            f"{most:.3g} is accepted"
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,13 +197,15 @@ class SolverSettings:
         Force that may be missing, over the weight of the snow.
     max_rounds, max_iterations : int
         Rounds between snow and net; Newton steps in one of them.
+    levels : tuple of MeshSize
+        Meshes from coarse to fine, at least two.
     """
 
     accuracy: float = 0.01
     stress_tolerance: float = 1e-8
     shape_tolerance: float = 1e-7
     balance_tolerance: float = 1e-8
-    max_rounds: int = 60
+    max_rounds: int = 80
     max_iterations: int = 40
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
 

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EndPull:
-    """What the net pulls with on one of its ends, per metre of width [N/m].
+    """A force per metre of width with its error: a net's pull, a wall's load [N/m].
 
     ``error`` is the estimated discretisation error of the vector.
     """
@@ -27,7 +27,7 @@ class EndPull:
 
     @property
     def size(self) -> float:
-        """Tension of the net at that end [N/m]."""
+        """Size of the force; at a net's end its tension there [N/m]."""
         return float(np.hypot(self.x, self.y))
 
 
@@ -43,8 +43,8 @@ class Balance:
         Force missing from the global balance, over the weight.
     friction_excess : float
         Largest shear beyond the friction limit at a node, over the weight.
-    smallest_tension : float
-        Of the net [N/m].
+    smallest_tension : float or None
+        Of the net [N/m]; None for a wall.
     suction_share : float
         Share of the normal force by which the snow would pull on the net.
     ground_tension_share : float
@@ -54,7 +54,7 @@ class Balance:
     weight_along_slope: float
     relative_residual: float
     friction_excess: float
-    smallest_tension: float
+    smallest_tension: float | None
     suction_share: float
     ground_tension_share: float
 
@@ -95,6 +95,8 @@ class Solution:
         [m].
     mesh_edges : ndarray, shape (2, n_edges)
         Node numbers of the triangles' edges.
+    largest_velocity : float
+        Of the snow [m/s]; the only result that depends on the fluidity.
     balance, cost
         See there.
     """
@@ -111,6 +113,52 @@ class Solution:
     net_slides: NDArray[np.bool_]
     mesh_nodes: Floats
     mesh_edges: NDArray[np.int64]
+    largest_velocity: float
+    balance: Balance
+    cost: Cost
+
+    @property
+    def head_point(self) -> tuple[float, float]:
+        """Position of the net's head [m]."""
+        x, y = self.net_curve[:, -1]
+        return float(x), float(y)
+
+    @property
+    def outcome(self) -> Outcome:
+        """Always converged: anything else is a ``FailedSolution``."""
+        return Outcome.CONVERGED
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WallSolution:
+    """Snow against a rigid wall, its balances checked. SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    force : EndPull
+        Resultant of the snow on the wall.
+    moment_about_foot : float
+        Of the snow's forces about the wall's foot, positive where they tip its
+        upper edge downslope [N m per m].
+    wall_nodes, wall_forces : ndarray, shape (2, n)
+        Positions [m] and forces [N/m], foot to upper edge.
+    wall_slides : ndarray of bool, shape (n,)
+        Where the snow slips on the wall.
+    mesh_nodes, mesh_edges, largest_velocity, balance, cost
+        As in ``Solution``.
+    """
+
+    scene: Scene
+    force: EndPull
+    moment_about_foot: float
+    wall_nodes: Floats
+    wall_forces: Floats
+    wall_slides: NDArray[np.bool_]
+    mesh_nodes: Floats
+    mesh_edges: NDArray[np.int64]
+    largest_velocity: float
     balance: Balance
     cost: Cost
 

@@ -8,6 +8,7 @@ forces per metre of width in rho g d^2.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,21 +17,22 @@ from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.cable.net import Net
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import SupportForces, compute_support_forces
+from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Cost, EndPull, FailedSolution, Solution
-from netdesign.errors import SolveError
+from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
-from netdesign.snow.flow import FlowLaw, FlowState, solve_flow
+from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
+from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template, place_nodes
 
 Floats = NDArray[np.float64]
 
-# Smallest relative error that is ever claimed: what two meshes cannot see.
-ERROR_FLOOR = 5e-4
 # The flow of a round is solved this much more tightly than the net still moves.
 _INNER_SHARE = 1e-2
 _LOOSEST_INNER = 1e-3
@@ -96,9 +98,8 @@ def solve_steady(
     Returns
     -------
     Solution or FailedSolution
-        The error of each end pull is its difference from the next coarser mesh
-        plus ``ERROR_FLOOR`` of it. If the finest mesh does not reach the accuracy
-        asked for, the error says so.
+        The error of each end pull is estimated from two meshes. If the finest mesh
+        does not reach the accuracy asked for, the error says so.
 
     Verified by
     -----------
@@ -113,56 +114,33 @@ def solve_steady(
 
 
 def _refine(scene: Scene, settings: SolverSettings) -> Solution:
-    coarse = _couple(_build_problem(scene, settings.levels[0]), settings, None)
-    solves, rounds = coarse.linear_solves, coarse.rounds
-    for level in settings.levels[1:]:
-        fine = _couple(_build_problem(scene, level), settings, coarse)
-        solves, rounds = solves + fine.linear_solves, rounds + fine.rounds
-        pulls = _estimate_pulls(fine, coarse, scene.force_scale)
-        if all(pull.error <= settings.accuracy * pull.size for pull in pulls):
-            break
-        coarse = fine
-    cost = Cost(
-        linear_solves=solves,
-        rounds=rounds,
-        elements=fine.problem.template.triangles.shape[1],
-        degrees_of_freedom=fine.mesh.n_dofs,
+    if not isinstance(scene.net, Net):
+        raise ModelError("net: a steady net needs a Net; a Wall goes to solve_rigid")
+    net = scene.net
+    states, pulls = refine(
+        settings.levels,
+        lambda size, coarse: _couple(
+            _build_problem(scene, net, size), settings, coarse
+        ),
+        lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
+        settings.accuracy,
     )
-    solution = _build_solution(scene, fine, pulls, cost)
+    solution = _build_solution(scene, states, pulls)
     check_balance(solution.balance, settings.balance_tolerance)
     return solution
 
 
-def _estimate_pulls(
-    fine: _Coupled, coarse: _Coupled, scale: float
-) -> tuple[EndPull, EndPull]:
-    """End pulls of the finer mesh, with what the coarser one tells of their error."""
-    fine_cable, coarse_cable = fine.hanging.cable, coarse.hanging.cable
-    ends = (
-        (fine_cable.foot_pull, coarse_cable.foot_pull),
-        (fine_cable.head_pull, coarse_cable.head_pull),
-    )
-    foot, head = (
-        EndPull(
-            x=float(better[0]) * scale,
-            y=float(better[1]) * scale,
-            error=float(np.hypot(*(better - worse)) + ERROR_FLOOR * np.hypot(*better))
-            * scale,
-        )
-        for better, worse in ends
-    )
-    return foot, head
-
-
-def _build_problem(scene: Scene, size: MeshSize) -> _Problem:
+def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
     thickness = scene.snowpack.thickness
     return _Problem(
         law=scene.flow_law,
-        template=build_template(scene.snowpack.upslope_length / thickness, size),
-        head=scene.net.head / thickness,
-        length=scene.net.unstressed_length / thickness,
-        slack=scene.net.slack,
-        stiffness=scene.net.stiffness_per_m / scene.force_scale,
+        template=build_template(
+            scene.snowpack.upslope_length / thickness, size, scene.layer_tops
+        ),
+        head=net.head / thickness,
+        length=net.unstressed_length / thickness,
+        slack=net.slack,
+        stiffness=net.stiffness_per_m / scene.force_scale,
     )
 
 
@@ -223,7 +201,8 @@ def _place(problem: _Problem, curve: Floats) -> PlacedMesh:
             Outcome.OUT_OF_VALIDITY,
             "the net would touch the ground: less slack or less inclination is needed",
         )
-    mesh = build_placed_mesh(problem.template, place_nodes(problem.template, curve))
+    nodes = place_nodes(problem.template, curve)
+    mesh = build_placed_mesh(problem.template, nodes, problem.law.element)
     if not mesh.is_valid:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
@@ -312,27 +291,40 @@ def _start_curve(
 
 
 def _build_solution(
-    scene: Scene, end: _Coupled, pulls: tuple[EndPull, EndPull], cost: Cost
+    scene: Scene, states: Sequence[_Coupled], pulls: Sequence[Estimate]
 ) -> Solution:
+    end = states[-1]
     thickness, scale = scene.snowpack.thickness, scene.force_scale
-    cable, mesh = end.hanging.cable, end.mesh
-    foot, head = pulls
+    cable, mesh, law = end.hanging.cable, end.mesh, end.problem.law
+    foot, head = (_scale_pull(pull, scale) for pull in pulls)
     along = end.problem.head / np.hypot(*end.problem.head)
     offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
-    sizes = [*(cable.tension.ravel() * scale), foot.size, head.size]
+    tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
+    held = cable.foot_pull + cable.head_pull
     return Solution(
         scene=scene,
         method="steady",
         foot=foot,
         head=head,
-        tension_min=min(sizes),
-        tension_max=max(sizes),
+        tension_min=min(tensions),
+        tension_max=max(tensions),
         sag=float(offsets.max()) * thickness,
         net_curve=cable.curve * thickness,
         net_forces=end.forces.on_net * scale,
-        net_slides=np.concatenate([[False], end.state.contact.sign != 0]),
+        net_slides=np.append(False, end.state.contact.sign != 0),
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
-        balance=measure_balance(end.problem.law, mesh, end.forces, cable, scale),
-        cost=cost,
+        largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
+        balance=measure_balance(law, mesh, end.forces, held, cable.tension, scale),
+        cost=Cost(
+            linear_solves=sum(state.linear_solves for state in states),
+            rounds=sum(state.rounds for state in states),
+            elements=mesh.template.triangles.shape[1],
+            degrees_of_freedom=mesh.n_dofs,
+        ),
     )
+
+
+def _scale_pull(pull: Estimate, scale: float) -> EndPull:
+    x, y = (float(part) * scale for part in pull.vector)
+    return EndPull(x=x, y=y, error=pull.error * scale)

@@ -151,9 +151,8 @@ def _anchor_forces(
     task: CaseTask, solution: Solution, shift: tuple[float, float]
 ) -> AnchorForces | FailedSupport:
     """Anchor forces with both end pulls moved by ``shift`` times their error."""
-    x_head, y_head = solution.scene.net.head
     return compute_anchor_forces(
-        place_support(task.layout, (float(x_head), float(y_head))),
+        place_support(task.layout, solution.head_point),
         foot_pull_per_m=_shifted(solution.foot, shift),
         head_pull_per_m=_shifted(solution.head, shift),
         post_spacing=task.layout.post_spacing,

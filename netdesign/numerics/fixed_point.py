@@ -8,11 +8,17 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
-def mix_anderson(points: list[Floats], images: list[Floats], depth: int = 12) -> Floats:
+def mix_anderson(
+    points: list[Floats],
+    images: list[Floats],
+    *,
+    depth: int = 20,
+    damping: float = 0.5,
+) -> Floats:
     """Next iterate of a fixed-point iteration from its history.
 
-    The combination of past steps whose residual image - point is least, applied to
-    the images. With one entry it is the plain step.
+    The combination of past iterates whose residual, image - point, is least, moved
+    on by a share of what is left of that residual. The first step goes all the way.
 
     Parameters
     ----------
@@ -20,6 +26,9 @@ def mix_anderson(points: list[Floats], images: list[Floats], depth: int = 12) ->
         Iterates and what the map made of them, oldest first; at least one.
     depth : int
         How many of the last entries are used.
+    damping : float
+        Share of the remaining residual that is added, 0 to 1 [-]. One half converges
+        also where the map alone would circle round its fixed point.
 
     Returns
     -------
@@ -36,6 +45,7 @@ def mix_anderson(points: list[Floats], images: list[Floats], depth: int = 12) ->
     if used == 1:
         return images[-1]
     differences = np.array([residuals[-1] - r for r in residuals[-used:-1]]).T
-    image_steps = np.array([images[-1] - image for image in images[-used:-1]]).T
+    steps = np.array([points[-1] - point for point in points[-used:-1]]).T
     weights, *_ = np.linalg.lstsq(differences, residuals[-1], rcond=1e-10)
-    return np.asarray(images[-1] - image_steps @ weights)
+    left = residuals[-1] - differences @ weights
+    return np.asarray(points[-1] - steps @ weights + damping * left)

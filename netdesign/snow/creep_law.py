@@ -1,6 +1,6 @@
 """Creep laws of snow: how strain rate depends on stress and density.
 
-Theory: snow/THEORY.md, eqs (N1) to (N4).
+Theory: snow/THEORY.md, eqs (N1) to (N5).
 """
 
 from __future__ import annotations
@@ -12,6 +12,9 @@ from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
 
 ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source paper
+# Relative density from which snow counts as ice, a = 1 and b = 0 nearly; Elmer/Ice
+# treats more than 0.99 as ice. The law needs b > 0, so denser snow is refused.
+DENSEST_SNOW = 0.99
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,34 +33,38 @@ class CreepLaw:
         (c0, c1) of ``exp(c0 - c1 D)`` for a and for b below ``branch`` [-].
     branch : float
         Relative density at and above which the Duva-Crow forms hold [-].
+    clamp : float
+        Relative density below which the coefficients stay constant [-]; 0 if never.
     calibrated : tuple of float
-        Relative densities for which the fit was made [-].
+        Relative densities for which the set is given [-]; outside it is flagged.
     """
 
     name: str
     source: str
-    exponent: float
+    exponent: float = 3.0
     shear_fit: tuple[float, float]
     bulk_fit: tuple[float, float]
     branch: float
+    clamp: float = 0.0
     calibrated: tuple[float, float]
 
     def __post_init__(self) -> None:
-        """Refuse exponents below 1: the potential would not be convex."""
+        """Refuse a set that is not convex, or breaks (N5) where it is calibrated."""
         require_within("creep exponent", self.exponent, 1.0, 10.0)
         require_positive("branch density", self.branch)
+        require_within("branch density", self.branch, 0.0, DENSEST_SNOW)
+        require_within("clamp density", self.clamp, 0.0, self.branch)
+        low, high = self.calibrated
+        require_within("calibrated density, low", low, 0.0, high)
+        require_within("calibrated density, high", high, low, 1.0)
+        # the ratio a/b is monotonic on each branch: its ends decide
+        for density in (max(low, 1e-3), min(high, DENSEST_SNOW)):
+            require_admissible(self, density)
 
-
-BOUTILLIER_2004 = CreepLaw(
-    name="boutillier-2004",
-    source="the source paper, Eqs 4-a and 4-b (fit to Landauer 1957)",
-    exponent=3.0,
-    shear_fit=(16.03, 19.25),
-    bulk_fit=(16.75, 22.51),
-    branch=0.81,
-    calibrated=(0.25, 0.81),
-)
-CREEP_LAWS = {law.name: law for law in (BOUTILLIER_2004,)}
+    def is_calibrated(self, relative_density: float) -> bool:
+        """The set is given for this density."""
+        low, high = self.calibrated
+        return low <= relative_density <= high
 
 
 def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
@@ -68,7 +75,7 @@ def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
     law : CreepLaw
         The set.
     relative_density : float
-        D, density against ice [-], above 0 and below 1.
+        D, density against ice [-], above 0 and at most ``DENSEST_SNOW``.
 
     Returns
     -------
@@ -84,11 +91,11 @@ def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
     -----------
     tests/snow/test_creep_law.py
     """
-    _require_snow(relative_density)
-    if relative_density < law.branch:
-        return math.exp(law.shear_fit[0] - law.shear_fit[1] * relative_density)
+    density = _require_snow(law, relative_density)
+    if density < law.branch:
+        return math.exp(law.shear_fit[0] - law.shear_fit[1] * density)
     power = 2 * law.exponent / (law.exponent + 1)
-    return float((1 + 2 * (1 - relative_density) / 3) / relative_density**power)
+    return float((1 + 2 * (1 - density) / 3) / density**power)
 
 
 def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
@@ -96,17 +103,69 @@ def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
 
     Parameters, returns and errors as in ``compute_shear_factor``.
     """
-    _require_snow(relative_density)
-    if relative_density < law.branch:
-        return math.exp(law.bulk_fit[0] - law.bulk_fit[1] * relative_density)
+    density = _require_snow(law, relative_density)
+    if density < law.branch:
+        return math.exp(law.bulk_fit[0] - law.bulk_fit[1] * density)
     n = law.exponent
-    void = (1 - relative_density) ** (1 / n)
+    void = (1 - density) ** (1 / n)
     return float(0.75 * (void / (n * (1 - void))) ** (2 * n / (n + 1)))
 
 
-def _require_snow(relative_density: float) -> None:
-    if not 0 < relative_density < 1:
+def require_admissible(law: CreepLaw, relative_density: float) -> None:
+    """Refuse a density at which uniaxial compression would shrink sideways, (N5).
+
+    Raises
+    ------
+    ModelError
+        If 3a < 2b.
+    """
+    shear = compute_shear_factor(law, relative_density)
+    bulk = compute_bulk_factor(law, relative_density)
+    if not 3 * shear >= 2 * bulk:
         raise ModelError(
-            f"relative density = {relative_density!r}: must lie above 0 and below 1, "
-            f"that is below {ICE_DENSITY:g} kg/m3"
+            f"relative density = {relative_density:g}: the creep law {law.name} has "
+            f"3a = {3 * shear:.4g} < 2b = {2 * bulk:.4g} there; snow compressed along "
+            "one axis would shrink sideways: use another set or denser snow"
         )
+
+
+def _require_snow(law: CreepLaw, relative_density: float) -> float:
+    """Density at which the coefficients are taken; refuses what is not snow."""
+    if not 0 < relative_density <= DENSEST_SNOW:
+        raise ModelError(
+            f"relative density = {relative_density!r}: must lie above 0 and at most "
+            f"{DENSEST_SNOW:g}, that is {DENSEST_SNOW * ICE_DENSITY:.0f} kg/m3"
+        )
+    return max(relative_density, law.clamp)
+
+
+BOUTILLIER_2004 = CreepLaw(
+    name="boutillier-2004",
+    source="the source paper, Eqs 4-a and 4-b, fit to Landauer (1957)",
+    shear_fit=(16.03, 19.25),
+    bulk_fit=(16.75, 22.51),
+    branch=0.81,
+    # The paper gives no range; its sister set is given from 0.4 upwards.
+    calibrated=(0.4, 1.0),
+)
+ZWINGER_2007 = CreepLaw(
+    name="zwinger-2007",
+    source="Zwinger et al. (2007) as coded in Elmer/Ice",
+    shear_fit=(13.22240, 15.78652),
+    bulk_fit=(15.09371, 20.46489),
+    branch=0.81,
+    clamp=0.4,
+    calibrated=(0.4, 1.0),
+)
+GAGLIARDINI_1997 = CreepLaw(
+    name="gagliardini-1997",
+    source="Gagliardini and Meyssonnier (1997) as coded in a public firn model",
+    shear_fit=(15.94, 19.67),
+    bulk_fit=(20.37, 27.65),
+    branch=0.785,
+    # below 0.504 it breaks 3a >= 2b
+    calibrated=(0.51, 1.0),
+)
+CREEP_LAWS = {
+    law.name: law for law in (BOUTILLIER_2004, ZWINGER_2007, GAGLIARDINI_1997)
+}

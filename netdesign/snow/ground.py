@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
 from typing import Literal
 
 import numpy as np
@@ -14,12 +17,9 @@ from netdesign.guards import require_one_of, require_within
 GroundKind = Literal["free", "no-slip", "sliding"]
 GROUND_KINDS: tuple[GroundKind, ...] = ("free", "no-slip", "sliding")
 
-# Slip length over snow thickness at which the snow pressure on a rigid wall is N
-# times that without slip (n = 3; within 3 % over 275 to 410 kg/m3 and slopes of
-# 35 to 45 degrees). Recipe: wall normal to the slope, height = thickness.
-_GLIDE_FACTORS = np.array([1.0, 1.1, 1.2, 1.34, 1.52, 1.76, 2.07, 2.45])
-_SLIP_RATIOS = np.array([0.0, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
-LARGEST_GLIDE_FACTOR = float(_GLIDE_FACTORS[-1])
+DEFAULT_CREEP_LAW = "boutillier-2004"
+_SMALLEST_GLIDE_FACTOR = 1.001  # below it the ground does not slip
+_TABLE_FILE = "glide_factors.toml"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,42 +55,82 @@ class GroundLaw:
             )
 
 
-def compute_slip_length(glide_factor: float, snow_thickness: float) -> float:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GlideTable:
+    """Glide factors of one creep law, both ascending.
+
+    Attributes
+    ----------
+    slip_ratios : tuple of float
+        Slip length over snow thickness [-].
+    glide_factors : tuple of float
+        N [-].
+    """
+
+    slip_ratios: tuple[float, ...]
+    glide_factors: tuple[float, ...]
+
+
+@lru_cache(maxsize=1)
+def load_glide_tables() -> dict[str, GlideTable]:
+    """Stored tables by the name of their creep law."""
+    text = files(__package__).joinpath(_TABLE_FILE).read_text(encoding="utf-8")
+    return {
+        name: GlideTable(
+            slip_ratios=tuple(table["slip_ratios"]),
+            glide_factors=tuple(table["glide_factors"]),
+        )
+        for name, table in tomllib.loads(text).items()
+    }
+
+
+LARGEST_GLIDE_FACTOR = load_glide_tables()[DEFAULT_CREEP_LAW].glide_factors[-1]
+
+
+def compute_slip_length(
+    glide_factor: float, snow_thickness: float, creep_law: str = DEFAULT_CREEP_LAW
+) -> float:
     """Slip length that raises snow pressure on a wall by the glide factor N.
 
     Parameters
     ----------
     glide_factor : float
-        N of the guidelines [-], above 1 and at most ``LARGEST_GLIDE_FACTOR``.
+        N of the guidelines [-], above 1 and at most the table's last.
     snow_thickness : float
         Normal to the slope [m].
+    creep_law : str
+        Name of the set.
 
     Returns
     -------
     float
-        Slip length D* [m].
+        Slip length D* [m], linear between the entries of the stored table.
 
     Raises
     ------
     ModelError
-        If the factor lies outside the table: there is no extrapolation.
-
-    Validity
-    --------
-    Creep exponent 3; linear between the entries of the table above, which was
-    measured with this model.
+        If there is no table, or the factor lies outside it: no extrapolation.
     """
-    require_within("glide factor", glide_factor, 1.001, LARGEST_GLIDE_FACTOR)
-    ratio = np.interp(glide_factor, _GLIDE_FACTORS, _SLIP_RATIOS)
+    tables = load_glide_tables()
+    if creep_law not in tables:
+        raise ModelError(
+            f"glide factor: the creep law {creep_law!r} has no table of slip lengths; "
+            f"give a slip length, or use one of {', '.join(tables)}"
+        )
+    table = tables[creep_law]
+    largest = table.glide_factors[-1]
+    require_within("glide factor", glide_factor, _SMALLEST_GLIDE_FACTOR, largest)
+    ratio = np.interp(
+        glide_factor, (1.0, *table.glide_factors), (0.0, *table.slip_ratios)
+    )
     return float(ratio) * snow_thickness
 
 
 def build_ground_from_glide_factor(
-    glide_factor: float, snow_thickness: float
+    glide_factor: float, snow_thickness: float, creep_law: str = DEFAULT_CREEP_LAW
 ) -> GroundLaw:
     """Ground law for a glide factor N [-]; N = 1 is no slip."""
     if glide_factor == 1.0:
         return GroundLaw(kind="no-slip")
-    return GroundLaw(
-        kind="sliding", slip_length=compute_slip_length(glide_factor, snow_thickness)
-    )
+    slip = compute_slip_length(glide_factor, snow_thickness, creep_law)
+    return GroundLaw(kind="sliding", slip_length=slip)

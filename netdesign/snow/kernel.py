@@ -1,19 +1,21 @@
 """Fast assembly of the creep problem on one placed mesh.
 
 Same integrals as the readable forms in ``snow/forms.py`` (tests compare them),
-written with arrays over (triangle, quadrature point). Velocities are in node axes:
-(normal, tangential) to the net at its nodes, (X, Y) elsewhere, interleaved. Plane
-tensors are stored as (xx, yy, xy); strain rates with the engineering shear.
+written with arrays over (triangle, quadrature point). Unknowns are velocities in node
+axes, (normal, tangential) to the net at its nodes and (X, Y) elsewhere, interleaved;
+then, in the mixed element, one pressure per vertex. Plane tensors are stored as
+(xx, yy, xy); strain rates with the engineering shear.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Literal
 
 import numpy as np
 import scipy.sparse as sparse
-from skfem import ElementTriP2
+from skfem import ElementTriP1, ElementTriP2
 from skfem.quadrature import get_quadrature
 
 from netdesign.snow.mesh import Floats, Ints, MeshTemplate
@@ -23,10 +25,16 @@ from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 QUADRATURE_DEGREE = 4
 _EDGE_POINTS, _EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 
+Element = Literal["velocity", "mixed"]
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlacedMesh:
     """A template whose nodes have been placed, with all that depends on the place.
+
+    The number of rows R is 3 for the velocity element, whose generalised strains are
+    (xx, yy, xy), and 4 for the mixed one, which adds the pressure. The number of
+    columns C is 12, or 15 with the three vertex pressures.
 
     Attributes
     ----------
@@ -36,8 +44,10 @@ class PlacedMesh:
         Positions in the slope's axes [thickness].
     weights : ndarray, shape (n_triangles, n_points)
         Quadrature weights times the area element.
-    strain : ndarray, shape (n_triangles, n_points, 3, 12)
-        Strain rate per velocity in node axes.
+    operator : ndarray, shape (n_triangles, n_points, R, C)
+        Generalised strains per unknown.
+    dofs : ndarray, shape (n_triangles, C)
+        Unknowns of each triangle.
     load : ndarray, shape (n_nodes,)
         Integral of each shape function: nodal share of a unit body force.
     net_normal : ndarray, shape (2, n_net)
@@ -50,7 +60,8 @@ class PlacedMesh:
     template: MeshTemplate
     nodes: Floats
     weights: Floats
-    strain: Floats
+    operator: Floats
+    dofs: Ints
     load: Floats
     net_normal: Floats
     axes: Floats
@@ -66,20 +77,29 @@ class PlacedMesh:
         return bool(np.isfinite(self.weights).all() and self.weights.min() > 0)
 
     @property
-    def n_dofs(self) -> int:
+    def n_velocities(self) -> int:
         """Number of velocity components, constrained ones included."""
         return 2 * int(self.nodes.shape[1])
 
+    @property
+    def n_dofs(self) -> int:
+        """Number of unknowns, constrained ones included."""
+        is_mixed = self.operator.shape[2] == 4
+        return self.n_velocities + (self.template.n_vertices if is_mixed else 0)
+
     def to_node_axes(self, vectors: Floats) -> Floats:
-        """Vectors (2, n_nodes) in the slope's axes to interleaved node axes."""
+        """Vectors (2, n_nodes) in the slope's axes to unknowns (n_dofs,)."""
         cosine, sine = self.axes
         x, y = vectors
-        return np.column_stack([cosine * x + sine * y, -sine * x + cosine * y]).ravel()
+        unknowns = np.zeros(self.n_dofs)
+        unknowns[: self.n_velocities : 2] = cosine * x + sine * y
+        unknowns[1 : self.n_velocities : 2] = -sine * x + cosine * y
+        return unknowns
 
-    def to_slope_axes(self, components: Floats) -> Floats:
-        """Interleaved node axes (n_dofs,) to vectors (2, n_nodes)."""
+    def to_slope_axes(self, unknowns: Floats) -> Floats:
+        """Unknowns (n_dofs,) to vectors (2, n_nodes) in the slope's axes."""
         cosine, sine = self.axes
-        first, second = components.reshape(-1, 2).T
+        first, second = unknowns[: self.n_velocities].reshape(-1, 2).T
         return np.array(
             [cosine * first - sine * second, sine * first + cosine * second]
         )
@@ -109,7 +129,9 @@ class BaseEdges:
     weights: Floats
 
 
-def build_placed_mesh(template: MeshTemplate, nodes: Floats) -> PlacedMesh:
+def build_placed_mesh(
+    template: MeshTemplate, nodes: Floats, element: Element = "velocity"
+) -> PlacedMesh:
     """Everything that assembly needs on nodes of shape (2, n_nodes)."""
     gradients, area_element = _map_gradients(template, nodes)
     shape, _, point_weights = _reference_element()
@@ -118,44 +140,67 @@ def build_placed_mesh(template: MeshTemplate, nodes: Floats) -> PlacedMesh:
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
-    load = _gather(template.triangles.T, weights @ shape, nodes.shape[1])
+    operator = _strain_operator(template, gradients, axes)
+    dofs = _velocity_dofs(template)
+    if element == "mixed":
+        operator = _add_pressure_rows(operator)
+        first = 2 * nodes.shape[1]
+        dofs = np.hstack([dofs, first + template.triangles[:3].T])
     return PlacedMesh(
         template=template,
         nodes=nodes,
         weights=weights,
-        strain=_strain_operator(template, gradients, axes),
-        load=load,
+        operator=operator,
+        dofs=dofs,
+        load=_gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,
         axes=axes,
     )
 
 
-def compute_strain(mesh: PlacedMesh, velocity: Floats) -> Floats:
-    """Strain rates, shape (n_triangles, n_points, 3), of velocities (n_dofs,)."""
-    n_triangles, n_points = mesh.weights.shape
-    operator = mesh.strain.reshape(n_triangles, 3 * n_points, 12)
-    nodal = velocity[_element_dofs(mesh.template)][..., None]
-    return np.asarray((operator @ nodal).reshape(n_triangles, n_points, 3))
+def point_heights(template: MeshTemplate) -> Floats:
+    """Reference heights of the quadrature points, shape (n_triangles, n_points)."""
+    shape, _, _ = _reference_element()
+    return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
+
+
+def compute_strain(mesh: PlacedMesh, unknowns: Floats) -> Floats:
+    """Generalised strains, shape (n_triangles, n_points, R), of unknowns (n_dofs,)."""
+    n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
+    operator = mesh.operator.reshape(n_triangles, n_points * n_rows, n_columns)
+    strains = operator @ unknowns[mesh.dofs][..., None]
+    return np.asarray(strains.reshape(n_triangles, n_points, n_rows))
 
 
 def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
-    """Nodal forces (n_dofs,) of a stress field (n_triangles, n_points, 3)."""
-    n_triangles, n_points = mesh.weights.shape
-    operator = mesh.strain.reshape(n_triangles, 3 * n_points, 12)
+    """Nodal forces (n_dofs,) of generalised stresses (n_triangles, n_points, R)."""
+    n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
+    operator = mesh.operator.reshape(n_triangles, n_points * n_rows, n_columns)
     weighted = (stress * mesh.weights[..., None]).reshape(n_triangles, 1, -1)
-    forces = weighted @ operator
-    return _gather(_element_dofs(mesh.template), forces, mesh.n_dofs)
+    return _gather(mesh.dofs, weighted @ operator, mesh.n_dofs)
 
 
 def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, 3, 3)."""
-    n_triangles, n_points = mesh.weights.shape
-    stresses = (moduli * mesh.weights[..., None, None]) @ mesh.strain
-    left = mesh.strain.reshape(n_triangles, 3 * n_points, 12).transpose(0, 2, 1)
-    blocks = left @ stresses.reshape(n_triangles, 3 * n_points, 12)
-    rows, columns = _block_pattern(mesh.template)
+    """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, R, R)."""
+    n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
+    flat = (n_triangles, n_points * n_rows, n_columns)
+    stresses = (moduli * mesh.weights[..., None, None]) @ mesh.operator
+    blocks = mesh.operator.reshape(flat).transpose(0, 2, 1) @ stresses.reshape(flat)
+    rows = np.repeat(mesh.dofs, n_columns, axis=1).ravel()
+    columns = np.tile(mesh.dofs, (1, n_columns)).ravel()
     shape = (mesh.n_dofs, mesh.n_dofs)
     return sparse.csr_matrix((blocks.ravel(), (rows, columns)), shape=shape)
+
+
+def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
+    """Nodal loads (n_dofs,) of a body force (2, n_triangles, n_points)."""
+    shape, _, _ = _reference_element()
+    n_nodes = mesh.nodes.shape[1]
+    nodal = [
+        _gather(mesh.template.triangles.T, (mesh.weights * part) @ shape, n_nodes)
+        for part in force
+    ]
+    return mesh.to_node_axes(np.array(nodal))
 
 
 def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
@@ -260,12 +305,17 @@ def _reference_element() -> tuple[Floats, Floats, Floats]:
     return np.array(values).T, np.array(gradients), weights
 
 
-def _element_dofs(template: MeshTemplate) -> Ints:
+def _velocity_dofs(template: MeshTemplate) -> Ints:
     """Velocity components of each triangle, shape (n_triangles, 12)."""
     first = 2 * template.triangles.T
     return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
 
 
-def _block_pattern(template: MeshTemplate) -> tuple[Ints, Ints]:
-    dofs = _element_dofs(template)
-    return np.repeat(dofs, 12, axis=1).ravel(), np.tile(dofs, (1, 12)).ravel()
+def _add_pressure_rows(strain: Floats) -> Floats:
+    """Operator (.., 4, 15) whose fourth strain is the pressure, linear per triangle."""
+    element = ElementTriP1()
+    points, _ = get_quadrature(element.refdom, QUADRATURE_DEGREE)
+    operator = np.zeros((*strain.shape[:2], 4, 15))
+    operator[..., :3, :12] = strain
+    operator[..., 3, 12:] = np.array([element.lbasis(points, i)[0] for i in range(3)]).T
+    return operator

@@ -25,6 +25,7 @@ Ints = NDArray[np.int64]
 
 _RING_RATIO = 0.4  # aimed ratio of the radii of neighbouring rings
 _RING_REACH = 2.2  # outermost ring, in units of the net spacing
+_RING_SHARE = 0.6  # size of triangles near an end over their distance from it
 _CLEARANCE = 1.3  # points of the background keep this many ring reaches away
 _UPSLOPE_GROWTH = 1.35  # of neighbouring columns
 _NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
@@ -90,19 +91,39 @@ class MeshTemplate:
     aspect: float
 
     @property
+    def n_vertices(self) -> int:
+        """Number of corner nodes; they come first."""
+        return int(self.nodes.shape[1] - self.edges.shape[1])
+
+    @property
     def net_fractions(self) -> Floats:
         """Height of the net nodes over the thickness, shape (n_net,); 0 to 1."""
         return np.asarray(self.nodes[1, self.net])
 
 
 @lru_cache(maxsize=32)
-def build_template(aspect: float, size: MeshSize) -> MeshTemplate:
-    """Reference mesh for a snowpack of ``aspect`` = length / thickness [-]."""
+def build_template(
+    aspect: float, size: MeshSize, interfaces: tuple[float, ...] = ()
+) -> MeshTemplate:
+    """Reference mesh of a snowpack.
+
+    Parameters
+    ----------
+    aspect : float
+        Upslope length over thickness [-].
+    size : MeshSize
+        Resolution.
+    interfaces : tuple of float
+        Heights between layers over the thickness, ascending [-]; no triangle
+        crosses them.
+    """
     require_within("upslope length over thickness", aspect, 0.25, 200.0)
     points = np.vstack([_ring_points(size), _background_points(aspect, size)])
     # a short snowpack: the rings must not reach beyond its upslope end
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
+    for line in _interface_points(aspect, size, interfaces):
+        points = np.vstack([_clear_line(points, line), line])
     points = np.unique(points.round(12), axis=0)
     mesh = skfem.MeshTri(points.T.copy(), _triangulate(points).T.copy())
     basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
@@ -144,8 +165,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
     placed = np.array([follow * x_net - distance, height + follow * (y_net - height)])
-    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
-    placed[:, n_vertices:] = placed[:, template.edges].mean(axis=1)
+    placed[:, template.n_vertices :] = placed[:, template.edges].mean(axis=1)
     placed[:, template.net] = net_curve
     return placed
 
@@ -182,6 +202,41 @@ def _background_points(aspect: float, size: MeshSize) -> Floats:
     to_foot = np.hypot(cloud[:, 0], cloud[:, 1])
     to_head = np.hypot(cloud[:, 0], 1.0 - cloud[:, 1])
     return np.asarray(cloud[np.minimum(to_foot, to_head) > clear])
+
+
+def _interface_points(
+    aspect: float, size: MeshSize, interfaces: tuple[float, ...]
+) -> list[Floats]:
+    """Points along each interface, as close as the mesh is fine there."""
+    bounds = (0.0, *interfaces, 1.0)
+    lines = []
+    for below, height, above in zip(bounds, interfaces, bounds[2:], strict=False):
+        gap = min(height - below, above - height)
+        places = [0.0]
+        while places[-1] < aspect:
+            to_end = np.hypot(places[-1], min(height, 1.0 - height))
+            column = min(
+                size.net_spacing + (_UPSLOPE_GROWTH - 1.0) * places[-1],
+                size.upslope_spacing,
+            )
+            places.append(places[-1] + min(gap, column, _RING_SHARE * to_end))
+        stretch = aspect / places[-1]
+        lines.append(
+            np.column_stack([np.array(places) * stretch, np.full(len(places), height)])
+        )
+    return lines
+
+
+def _clear_line(points: Floats, line: Floats) -> Floats:
+    """Drop points inside the circles over the line's pieces.
+
+    A piece whose circle is empty is an edge of the Delaunay triangulation.
+    """
+    centres, radii = (line[1:] + line[:-1]) / 2, np.diff(line[:, 0]) / 2
+    nearest = np.searchsorted(line[:, 0], points[:, 0], side="right") - 1
+    nearest = np.clip(nearest, 0, len(centres) - 1)
+    distance = np.hypot(*(points - centres[nearest]).T)
+    return np.asarray(points[distance > radii[nearest] * (1.0 + 1e-9)])
 
 
 def _triangulate(points: Floats) -> Ints:

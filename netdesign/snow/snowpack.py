@@ -8,7 +8,7 @@ from typing import Literal
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_one_of, require_positive, require_within
-from netdesign.snow.creep_law import ICE_DENSITY
+from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 
 GRAVITY = 9.81  # [m/s2]
 STEEPEST_SLOPE = math.radians(80.0)  # beyond it no snowpack of this shape stands
@@ -16,9 +16,37 @@ STEEPEST_SLOPE = math.radians(80.0)  # beyond it no snowpack of this shape stand
 GravityMode = Literal["full", "parallel"]
 
 
+_LAYER_SUM_TOLERANCE = 1e-6
+THINNEST_LAYER = 0.02  # over the thickness of the snowpack
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layer:
+    """One layer of snow, parallel to the slope.
+
+    Attributes
+    ----------
+    thickness : float
+        Normal to the slope [m].
+    density : float
+        rho [kg/m3].
+    temperature : float or None
+        [K]; None where the scene's fluidity holds.
+    """
+
+    thickness: float
+    density: float
+    temperature: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse values that no layer has."""
+        require_positive("layer thickness", self.thickness, "m")
+        _require_snow_density("layer density", self.density)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Snowpack:
-    """Uniform snowpack on a plane slope.
+    """Snowpack of uniform or layered density on a plane slope.
 
     Attributes
     ----------
@@ -29,7 +57,10 @@ class Snowpack:
     upslope_length : float
         L, snowpack carried by the net, measured on the ground [m].
     density : float
-        rho [kg/m3].
+        rho [kg/m3]; of layered snow the mean.
+    layers : tuple of Layer
+        From the ground up; empty for uniform snow. ``build_layered_snowpack`` makes
+        thickness and mean density from them.
     gravity : str
         ``full``, or ``parallel``: only the component along the slope.
     """
@@ -38,6 +69,7 @@ class Snowpack:
     thickness: float
     upslope_length: float
     density: float
+    layers: tuple[Layer, ...] = ()
     gravity: GravityMode = "full"
 
     def __post_init__(self) -> None:
@@ -46,11 +78,26 @@ class Snowpack:
         require_positive("snow thickness", self.thickness, "m")
         require_positive("upslope length", self.upslope_length, "m")
         require_one_of("gravity mode", self.gravity, ("full", "parallel"))
-        if not 0 < self.density < ICE_DENSITY:
-            raise ModelError(
-                f"snow density = {self.density!r}: must lie above 0 and below "
-                f"{ICE_DENSITY:g} kg/m3 (ice)"
-            )
+        _require_snow_density("snow density", self.density)
+        if self.layers:
+            self._require_layers_add_up()
+
+    def _require_layers_add_up(self) -> None:
+        for name, total, given in (
+            ("layer thicknesses", _sum_thickness(self.layers), self.thickness),
+            ("mean layer density", compute_mean_density(self.layers), self.density),
+        ):
+            if not abs(total - given) <= _LAYER_SUM_TOLERANCE * given:
+                raise ModelError(
+                    f"{name}: add up to {total:g}, the snowpack has {given:g}"
+                )
+        thinnest = min(layer.thickness for layer in self.layers)
+        require_within(
+            "layer thickness over snow thickness",
+            thinnest / self.thickness,
+            THINNEST_LAYER,
+            1.0,
+        )
 
     @property
     def relative_density(self) -> float:
@@ -67,6 +114,45 @@ class Snowpack:
     def stress_scale(self) -> float:
         """Rho g d [Pa], the scale of every stress in the snowpack."""
         return self.density * GRAVITY * self.thickness
+
+
+def build_layered_snowpack(
+    layers: tuple[Layer, ...],
+    *,
+    slope_angle: float,
+    upslope_length: float,
+    gravity: GravityMode = "full",
+) -> Snowpack:
+    """Snowpack of the given layers, from the ground up; at least one."""
+    if not layers:
+        raise ModelError("layers: at least one is needed")
+    return Snowpack(
+        slope_angle=slope_angle,
+        thickness=_sum_thickness(layers),
+        upslope_length=upslope_length,
+        density=compute_mean_density(layers),
+        layers=layers,
+        gravity=gravity,
+    )
+
+
+def _sum_thickness(layers: tuple[Layer, ...]) -> float:
+    return sum(layer.thickness for layer in layers)
+
+
+def compute_mean_density(layers: tuple[Layer, ...]) -> float:
+    """Mean over the thickness of the layers [kg/m3]."""
+    mass = sum(layer.density * layer.thickness for layer in layers)
+    return mass / _sum_thickness(layers)
+
+
+def _require_snow_density(name: str, density: float) -> None:
+    densest = DENSEST_SNOW * ICE_DENSITY
+    if not 0 < density <= densest:
+        raise ModelError(
+            f"{name} = {density!r}: must lie above 0 and at most {densest:.0f} kg/m3, "
+            f"below ice of {ICE_DENSITY:g} kg/m3"
+        )
 
 
 def compute_thickness(vertical_height: float, slope_angle: float) -> float:

@@ -1,0 +1,65 @@
+"""Solves on finer and finer meshes until vectors are accurate enough."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.snow.mesh import MeshSize
+
+Floats = NDArray[np.float64]
+State = TypeVar("State")
+
+# Smallest relative error that is ever claimed: what two meshes cannot see.
+ERROR_FLOOR = 5e-4
+
+
+class Estimate(NamedTuple):
+    """A vector with its estimated discretisation error."""
+
+    vector: Floats
+    error: float
+
+
+def refine(
+    levels: Sequence[MeshSize],
+    solve: Callable[[MeshSize, State | None], State],
+    measure: Callable[[State], Sequence[Floats]],
+    accuracy: float,
+) -> tuple[list[State], list[Estimate]]:
+    """Solve level after level until two in turn agree.
+
+    Parameters
+    ----------
+    levels : sequence of MeshSize
+        From coarse to fine, at least two.
+    solve : callable
+        Level and the state on the level before to a state.
+    measure : callable
+        State to the vectors that matter, each shape (2,).
+    accuracy : float
+        Relative error allowed in each vector [-].
+
+    Returns
+    -------
+    list, list of Estimate
+        All states, coarse to fine, and the vectors of the last. The error is the
+        difference from the level before plus ``ERROR_FLOOR`` of the vector; if the
+        finest level does not reach the accuracy, the error says so.
+    """
+    states = [solve(levels[0], None)]
+    for level in levels[1:]:
+        states.append(solve(level, states[-1]))
+        pairs = zip(measure(states[-1]), measure(states[-2]), strict=True)
+        estimates = [_estimate(fine, coarse) for fine, coarse in pairs]
+        if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
+            break
+    return states, estimates
+
+
+def _estimate(fine: Floats, coarse: Floats) -> Estimate:
+    error = np.hypot(*(fine - coarse)) + ERROR_FLOOR * np.hypot(*fine)
+    return Estimate(vector=fine, error=float(error))

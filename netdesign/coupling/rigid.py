@@ -1,0 +1,121 @@
+"""Snow against a rigid wall or rake: forces on the wall."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.interface import SupportForces, compute_support_forces
+from netdesign.coupling.refine import refine
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import Cost, EndPull, FailedSolution, WallSolution
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.flow import FlowState, solve_flow
+from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
+from netdesign.snow.law import FlowLaw
+from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Pressed:
+    """Snow against the wall on one mesh, dimensionless."""
+
+    law: FlowLaw
+    mesh: PlacedMesh
+    state: FlowState
+    forces: SupportForces
+    linear_solves: int
+
+
+def solve_rigid(
+    scene: Scene, settings: SolverSettings | None = None
+) -> WallSolution | FailedSolution:
+    """Steady flow against the scene's wall, refined until its force is accurate.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a ``Wall``.
+    settings : SolverSettings, optional
+        Accuracy and tolerances.
+
+    Returns
+    -------
+    WallSolution or FailedSolution
+        Forces of the snow on the wall, the error from two meshes.
+
+    Verified by
+    -----------
+    tests/verification/test_rigid_wall.py
+    """
+    chosen = settings or SolverSettings()
+    try:
+        states, (force,) = refine(
+            chosen.levels,
+            lambda size, _: _press(scene, size, chosen),
+            lambda pressed: [pressed.forces.on_net.sum(axis=1)],
+            chosen.accuracy,
+        )
+        end, scale = states[-1], scene.force_scale
+        balance = measure_balance(
+            end.law, end.mesh, end.forces, force.vector, None, scale
+        )
+        check_balance(balance, chosen.balance_tolerance)
+    except SolveError as failure:
+        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    nodes = end.mesh.nodes[:, end.mesh.template.net]
+    moment = (nodes[1] * end.forces.on_net[0] - nodes[0] * end.forces.on_net[1]).sum()
+    thickness = scene.snowpack.thickness
+    return WallSolution(
+        scene=scene,
+        force=EndPull(
+            x=float(force.vector[0]) * scale,
+            y=float(force.vector[1]) * scale,
+            error=force.error * scale,
+        ),
+        moment_about_foot=float(moment) * scale * thickness,
+        wall_nodes=nodes * thickness,
+        wall_forces=end.forces.on_net * scale,
+        wall_slides=np.append(False, end.state.contact.sign != 0),
+        mesh_nodes=end.mesh.nodes * thickness,
+        mesh_edges=end.mesh.template.edges,
+        largest_velocity=end.state.largest_velocity(end.mesh) * scene.velocity_scale,
+        balance=balance,
+        cost=Cost(
+            linear_solves=sum(state.linear_solves for state in states),
+            rounds=len(states),
+            elements=end.mesh.template.triangles.shape[1],
+            degrees_of_freedom=end.mesh.n_dofs,
+        ),
+    )
+
+
+def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
+    thickness = scene.snowpack.thickness
+    law = scene.flow_law
+    aspect = scene.snowpack.upslope_length / thickness
+    template = build_template(aspect, size, scene.layer_tops)
+    heights = template.net_fractions
+    wall = np.array([heights * np.tan(scene.net.inclination), heights])
+    mesh = build_placed_mesh(template, place_nodes(template, wall), law.element)
+    flow = solve_flow(
+        law,
+        mesh,
+        tolerance=settings.stress_tolerance,
+        max_iterations=settings.max_iterations,
+    )
+    if flow.outcome is not Outcome.CONVERGED:
+        raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+    return _Pressed(
+        law=law,
+        mesh=mesh,
+        state=flow.state,
+        forces=compute_support_forces(law, mesh, flow.state),
+        linear_solves=flow.linear_solves,
+    )

@@ -1,0 +1,143 @@
+"""Where the snow sticks, slips, or lets go, on the net and on the ground.
+
+Theory: snow/THEORY.md, eqs (F6) and (F7). Components of the unknowns of a net node
+are (normal, tangential); pressures and shears are forces of the snow on its support.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+from numpy.typing import NDArray
+
+from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.law import FlowLaw
+from netdesign.snow.mesh import Floats, Ints
+
+Mask = NDArray[np.bool_]
+
+# A node is released only when its shear exceeds the friction by this share of it.
+_RELEASE_MARGIN = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Contact:
+    """State of every support node but the foot, which is always held.
+
+    Attributes
+    ----------
+    sign : ndarray of int, shape (n_net - 1,)
+        Direction of slip towards the head (+1) or the foot (-1); 0 sticks.
+    is_pressed : ndarray of bool, shape (n_net - 1,)
+        The snow presses on the net there; only then is there friction.
+    is_open : ndarray of bool, shape (n_net - 1,)
+        The snow has let go of a one-sided net.
+    is_lifted : ndarray of bool, shape (n_ground - 1,)
+        The snow has let go of a one-sided ground.
+    """
+
+    sign: Ints
+    is_pressed: Mask
+    is_open: Mask
+    is_lifted: Mask
+
+    def equals(self, other: Contact) -> bool:
+        """Same state at every node (pressure alone does not count)."""
+        return (
+            np.array_equal(self.sign, other.sign)
+            and np.array_equal(self.is_open, other.is_open)
+            and np.array_equal(self.is_lifted, other.is_lifted)
+        )
+
+
+def start_contact(mesh: PlacedMesh) -> Contact:
+    """Everything held: the snow sticks to the net and lies on the ground."""
+    n_net, n_ground = mesh.template.net.size - 1, mesh.template.ground.size - 1
+    return Contact(
+        sign=np.zeros(n_net, dtype=np.int64),
+        is_pressed=np.ones(n_net, dtype=bool),
+        is_open=np.zeros(n_net, dtype=bool),
+        is_lifted=np.zeros(n_ground, dtype=bool),
+    )
+
+
+def update_contact(
+    law: FlowLaw, mesh: PlacedMesh, contact: Contact, velocity: Floats, reaction: Floats
+) -> Contact:
+    """State that follows from the last velocities and reactions, (n_dofs,) each."""
+    normal, tangential = net_components(mesh)
+    pressure = -reaction[normal]
+    is_open = contact.is_open
+    if law.net_contact == "one-sided":
+        is_open = _let_go(is_open, pressure, velocity[normal])
+    is_lifted = contact.is_lifted
+    if law.ground_contact == "one-sided":
+        upward = 2 * mesh.template.ground[1:] + 1
+        is_lifted = _let_go(is_lifted, reaction[upward], -velocity[upward])
+    return Contact(
+        sign=_update_slip(
+            law, contact, pressure, -reaction[tangential], velocity[tangential]
+        ),
+        is_pressed=(pressure > 0.0) & ~is_open,
+        is_open=is_open,
+        is_lifted=is_lifted,
+    )
+
+
+def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
+    """Mask (n_dofs,) of unknowns that neither net nor ground holds."""
+    free = np.ones(mesh.n_dofs, dtype=bool)
+    normal, tangential = net_components(mesh)
+    foot, ground = mesh.template.ground[0], mesh.template.ground[1:]
+    free[[2 * foot, 2 * foot + 1]] = False
+    free[normal] = contact.is_open
+    free[tangential] = contact.is_open | (contact.sign != 0)
+    free[2 * ground + 1] = contact.is_lifted
+    if law.ground == "no-slip":
+        free[2 * ground] = contact.is_lifted
+    return free
+
+
+def friction_rows(
+    law: FlowLaw, mesh: PlacedMesh, contact: Contact
+) -> sparse.csr_matrix | None:
+    """Matrix that adds the friction to the tangential rows; None if nothing slips.
+
+    With it the equation of a slipping node reads R_t = tan(phi) R_n sign, (F6).
+    """
+    normal, tangential = net_components(mesh)
+    slips = (contact.sign != 0) & contact.is_pressed
+    if not slips.any() or law.friction == 0.0:
+        return None
+    entries = -law.friction * contact.sign[slips]
+    return sparse.csr_matrix(
+        (entries, (tangential[slips], normal[slips])), shape=(mesh.n_dofs,) * 2
+    )
+
+
+def net_components(mesh: PlacedMesh) -> tuple[Ints, Ints]:
+    """Normal and tangential unknowns of the net nodes above the foot."""
+    above_foot = mesh.template.net[1:]
+    return 2 * above_foot, 2 * above_foot + 1
+
+
+def _update_slip(
+    law: FlowLaw, contact: Contact, pressure: Floats, shear: Floats, velocity: Floats
+) -> Ints:
+    """Eq. (F6): slipping against one's sign sticks, too much shear releases."""
+    if np.isinf(law.friction):
+        return np.zeros_like(contact.sign)
+    limit = law.friction * np.maximum(pressure, 0.0)
+    against_sign = velocity * contact.sign <= 0.0
+    exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
+    released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
+    with_friction = np.where(against_sign, released, contact.sign)
+    frictionless = np.where(velocity < 0.0, -1, 1)
+    return np.where(limit > 0.0, with_friction, frictionless).astype(np.int64)
+
+
+def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:
+    """Eq. (F7): a held node that would pull lets go, one that moves back is held."""
+    return np.where(is_apart, outward <= 0.0, push < 0.0)

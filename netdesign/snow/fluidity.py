@@ -1,0 +1,49 @@
+"""Fluidity of snow against temperature.
+
+Fluidity only rescales time in homogeneous snow; between layers it shifts stresses.
+"""
+
+from __future__ import annotations
+
+import math
+
+from netdesign.guards import require_within
+from netdesign.units import fluidity_from_mpa_year
+
+# The source paper's value, Lliboutry and Duval (1985), for n = 3 [Pa^-3 s^-1].
+PAPER_FLUIDITY = fluidity_from_mpa_year(20.0, 3.0)
+
+_GAS_CONSTANT = 8.314  # [J/(mol K)]
+_BREAK = 263.15  # [K]
+# Rate factor A [Pa^-3 s^-1] and activation energy [J/mol] below and above the break.
+_COLD = (3.985e-13, 60e3)
+_WARM = (1.916e3, 139e3)
+COLDEST, WARMEST = 213.15, 273.15  # [K]
+
+
+def compute_fluidity(temperature: float) -> float:
+    """Fluidity B for creep exponent 3 by an Arrhenius law.
+
+    Parameters
+    ----------
+    temperature : float
+        Of the snow [K], between ``COLDEST`` and ``WARMEST``.
+
+    Returns
+    -------
+    float
+        B = 2 A [Pa^-3 s^-1].
+
+    Raises
+    ------
+    ModelError
+        Outside the range.
+
+    Source
+    ------
+    Greve and Blatter (2009), Dynamics of ice sheets and glaciers; coefficients as
+    coded in a public firn model. The paper's 20 MPa^-3 a^-1 is about -14 C on it.
+    """
+    require_within("snow temperature", temperature, COLDEST, WARMEST, "K")
+    rate_factor, energy = _COLD if temperature <= _BREAK else _WARM
+    return 2.0 * rate_factor * math.exp(-energy / (_GAS_CONSTANT * temperature))

@@ -1,0 +1,230 @@
+"""What governs one instant of flow, dimensionless, and its tangents.
+
+Lengths are in snow thicknesses d, stresses in rho g d with the mean density, strain
+rates in B a^((n+1)/2) (rho g d)^n with the B and a of the reference layer. Theory:
+snow/THEORY.md, section 2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from netdesign.snow.ground import GroundKind
+from netdesign.snow.kernel import Element, point_heights
+from netdesign.snow.mesh import Floats, MeshTemplate
+
+# Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
+# Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).
+STRESS_FLOOR = 1e-3
+
+Sides = Literal["one-sided", "two-sided"]
+
+# Plane part of the unit tensor, and the compliance of a deviatoric stress (F8).
+_UNIT = np.array([1.0, 1.0, 0.0])
+_DEVIATOR_COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])
+_DEVIATOR_STIFFNESS = np.linalg.inv(_DEVIATOR_COMPLIANCE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlowLayer:
+    """One layer of snow, all relative to the reference.
+
+    Attributes
+    ----------
+    top : float
+        Height of its upper side over the thickness; 1 for the last layer.
+    bulk_ratio : float
+        a / b of the creep law [-].
+    fluidity : float
+        B a^((n+1)/2) over that of the reference [-].
+    density : float
+        Over the mean density [-].
+    """
+
+    top: float = 1.0
+    bulk_ratio: float
+    fluidity: float = 1.0
+    density: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlowLaw:
+    """Creep, ground and friction of one scene.
+
+    Attributes
+    ----------
+    exponent : float
+        Creep exponent n [-].
+    layers : tuple of FlowLayer
+        From the ground up.
+    gravity : tuple of float
+        Gravity over g in the slope's axes [-].
+    ground : str
+        Kind of base law.
+    slip_ratio : float
+        Slip length over thickness [-]; 0 unless the ground is sliding.
+    friction : float
+        tan phi of snow on net [-]; infinite where the snow adheres.
+    element : str
+        ``velocity`` or, for nearly incompressible snow, ``mixed``.
+    ground_contact, net_contact : str
+        ``two-sided``: may pull on the snow; ``one-sided``: lets go instead.
+    """
+
+    exponent: float
+    layers: tuple[FlowLayer, ...]
+    gravity: tuple[float, float]
+    ground: GroundKind = "free"
+    slip_ratio: float = 0.0
+    friction: float = 0.0
+    element: Element = "velocity"
+    ground_contact: Sides = "two-sided"
+    net_contact: Sides = "two-sided"
+
+
+class Material(NamedTuple):
+    """Layer properties where they are needed: numbers, or arrays over points."""
+
+    bulk_ratio: float | Floats
+    fluidity: float | Floats
+    density: float | Floats
+
+    @property
+    def compliance(self) -> Floats:
+        """M^-1 of eq. (F2), shape (.., 3, 3)."""
+        return np.asarray(np.linalg.inv(self.stiffness))
+
+    @property
+    def stiffness(self) -> Floats:
+        """M of eq. (F2), shape (.., 3, 3): stress over strain rate, linear law."""
+        coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
+        shear = np.diag([2.0, 2.0, 1.0])
+        return np.asarray(shear + coupling[..., None, None] * np.outer(_UNIT, _UNIT))
+
+
+class Tangent(NamedTuple):
+    """A law linearised about a stress: stress = kept + modulus times strain rate."""
+
+    modulus: Floats
+    kept: Floats
+
+
+def sample_material(law: FlowLaw, template: MeshTemplate) -> Material:
+    """Properties at the quadrature points; plain numbers for uniform snow."""
+    if len(law.layers) == 1:
+        layer = law.layers[0]
+        return Material(layer.bulk_ratio, layer.fluidity, layer.density)
+    tops = np.array([layer.top for layer in law.layers[:-1]])
+    index = np.searchsorted(tops, point_heights(template))
+    fields = ("bulk_ratio", "fluidity", "density")
+    return Material(
+        *(
+            np.array([getattr(layer, name) for layer in law.layers])[index]
+            for name in fields
+        )
+    )
+
+
+def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent:
+    """Tangent of the creep law in the generalised strains of the law's element.
+
+    Parameters
+    ----------
+    law : FlowLaw
+        Exponent and element.
+    material : Material
+        At the points.
+    stress : ndarray, shape (n_triangles, n_points, 3 or 4)
+        (xx, yy, xy); in the mixed element of the deviator, then the pressure.
+
+    Returns
+    -------
+    Tangent
+        Moduli (.., R, R) and kept part (.., R), eqs (F4), (F5), or (F9), (F10).
+    """
+    if law.element == "mixed":
+        return _linearise_mixed(law, material, stress)
+    size = squared_size(law, material, stress)
+    viscosity, reduction, share = _scalars(law, size, size)
+    outer = stress[..., :, None] * stress[..., None, :]
+    moduli = material.stiffness - (reduction * share)[..., None, None] * outer
+    moduli *= (viscosity / material.fluidity)[..., None, None]
+    return Tangent(modulus=moduli, kept=stress * (1.0 - share)[..., None])
+
+
+def linearise_sliding(law: FlowLaw, shear: Floats) -> Tangent:
+    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points)."""
+    viscosity, _, share = _scalars(law, shear**2, shear**2)
+    return Tangent(
+        modulus=viscosity * share / law.slip_ratio, kept=shear * (1.0 - share)
+    )
+
+
+def advance_stress(law: FlowLaw, tangent: Tangent, strain: Floats) -> Floats:
+    """Stress, in the form that ``linearise_creep`` takes, after a step."""
+    stress = tangent.kept + (tangent.modulus @ strain[..., None])[..., 0]
+    if law.element == "mixed":
+        pressure = strain[..., 3]
+        stress[..., :3] += pressure[..., None] * _UNIT
+        stress[..., 3] = pressure
+    return stress
+
+
+def total_stress(law: FlowLaw, stress: Floats) -> Floats:
+    """Generalised stress whose nodal forces are the internal forces.
+
+    In the mixed element the fourth row, conjugate to the pressure, is left out: it
+    belongs to the law, not to equilibrium.
+    """
+    if law.element == "velocity":
+        return stress
+    total = np.zeros_like(stress)
+    total[..., :3] = stress[..., :3] - stress[..., 3:] * _UNIT
+    return total
+
+
+def squared_size(law: FlowLaw, material: Material, stress: Floats) -> Floats:
+    """Squared stress invariant, eq. (F3) or (F8)."""
+    if law.element == "mixed":
+        deviator, pressure = stress[..., :3], stress[..., 3]
+        return _quadratic(_DEVIATOR_COMPLIANCE, deviator) + pressure**2 / (
+            material.bulk_ratio
+        )
+    return _quadratic(material.compliance, stress)
+
+
+def _linearise_mixed(law: FlowLaw, material: Material, stress: Floats) -> Tangent:
+    deviator, pressure = stress[..., :3], stress[..., 3]
+    bulk = material.bulk_ratio
+    part = _quadratic(_DEVIATOR_COMPLIANCE, deviator)
+    size = part + pressure**2 / bulk
+    viscosity, reduction, share = _scalars(law, size, part)
+    viscosity = viscosity / material.fluidity
+    pull = reduction * share * pressure / bulk  # q s p / r of eq. (F9)
+    outer = deviator[..., :, None] * deviator[..., None, :]
+    moduli = np.empty((*stress.shape, 4))
+    moduli[..., :3, :3] = viscosity[..., None, None] * (
+        _DEVIATOR_STIFFNESS - (reduction * share)[..., None, None] * outer
+    )
+    moduli[..., :3, 3] = moduli[..., 3, :3] = -_UNIT - pull[..., None] * deviator
+    moduli[..., 3, 3] = -(1.0 / bulk + pull * pressure / bulk) / viscosity
+    kept = np.empty_like(stress)
+    kept[..., :3] = deviator * (1.0 - share + pull * pressure)[..., None]
+    kept[..., 3] = pull * size / viscosity
+    return Tangent(modulus=moduli, kept=kept)
+
+
+def _scalars(law: FlowLaw, size: Floats, part: Floats) -> tuple[Floats, Floats, Floats]:
+    """Viscosity (S^2 + s0^2)^((1-n)/2), q of (F4), and 1 / (1 + q part)."""
+    n = law.exponent
+    floored = size + STRESS_FLOOR**2
+    reduction = (n - 1.0) / floored
+    return floored ** ((1.0 - n) / 2.0), reduction, 1.0 / (1.0 + reduction * part)
+
+
+def _quadratic(compliance: Floats, stress: Floats) -> Floats:
+    strained = (compliance @ stress[..., None])[..., 0]
+    return np.asarray((strained * stress).sum(axis=-1))
