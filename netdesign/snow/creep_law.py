@@ -8,8 +8,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
+
+Floats = NDArray[np.float64]
 
 ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source paper
 # Relative density from which snow counts as ice, a = 1 and b = 0 nearly; Elmer/Ice
@@ -109,6 +114,42 @@ def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
     n = law.exponent
     void = (1 - density) ** (1 / n)
     return float(0.75 * (void / (n * (1 - void))) ** (2 * n / (n + 1)))
+
+
+def compute_strain_rate(
+    law: CreepLaw, relative_density: float, fluidity: float, stress: Floats
+) -> Floats:
+    """Strain rate of a three-dimensional stress, the inverse of (N2).
+
+    Parameters
+    ----------
+    law : CreepLaw
+        The set.
+    relative_density : float
+        D [-].
+    fluidity : float
+        B [Pa^-n s^-1].
+    stress : ndarray, shape (3, 3)
+        Symmetric, tension positive [Pa].
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        [s^-1].
+
+    Verified by
+    -----------
+    ``netdesign verify``, cases law-*
+    """
+    shear = compute_shear_factor(law, relative_density)
+    bulk = compute_bulk_factor(law, relative_density)
+    pressure = -np.trace(stress) / 3.0
+    deviator = stress + pressure * np.eye(3)
+    squared = shear * (deviator**2).sum() / 2.0 + bulk * pressure**2
+    rate = fluidity * squared ** ((law.exponent - 1.0) / 2.0)
+    return np.asarray(
+        rate * (shear / 2.0 * deviator - bulk * pressure / 3.0 * np.eye(3))
+    )
 
 
 def require_admissible(law: CreepLaw, relative_density: float) -> None:

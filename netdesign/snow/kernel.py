@@ -164,6 +164,12 @@ def point_heights(template: MeshTemplate) -> Floats:
     return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
 
 
+def interpolate(mesh: PlacedMesh, nodal: Floats) -> Floats:
+    """Values at the points, shape (.., n_triangles, n_points), of nodal (.., n)."""
+    shape, _, _ = _reference_element()
+    return np.asarray(nodal[..., mesh.template.triangles.T] @ shape.T)
+
+
 def compute_strain(mesh: PlacedMesh, unknowns: Floats) -> Floats:
     """Generalised strains, shape (n_triangles, n_points, R), of unknowns (n_dofs,)."""
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape

@@ -72,6 +72,8 @@ class FlowLaw:
         ``velocity`` or, for nearly incompressible snow, ``mixed``.
     ground_contact, net_contact : str
         ``two-sided``: may pull on the snow; ``one-sided``: lets go instead.
+    stress_floor : float
+        Stress below which snow creeps linearly [-]; keeps the tangent regular.
     """
 
     exponent: float
@@ -83,6 +85,7 @@ class FlowLaw:
     element: Element = "velocity"
     ground_contact: Sides = "two-sided"
     net_contact: Sides = "two-sided"
+    stress_floor: float = STRESS_FLOOR
 
 
 class Material(NamedTuple):
@@ -220,7 +223,7 @@ def _linearise_mixed(law: FlowLaw, material: Material, stress: Floats) -> Tangen
 def _scalars(law: FlowLaw, size: Floats, part: Floats) -> tuple[Floats, Floats, Floats]:
     """Viscosity (S^2 + s0^2)^((1-n)/2), q of (F4), and 1 / (1 + q part)."""
     n = law.exponent
-    floored = size + STRESS_FLOOR**2
+    floored = size + law.stress_floor**2
     reduction = (n - 1.0) / floored
     return floored ** ((1.0 - n) / 2.0), reduction, 1.0 / (1.0 + reduction * part)
 

@@ -124,8 +124,12 @@ def build_template(
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
     for line in _interface_points(aspect, size, interfaces):
         points = np.vstack([_clear_line(points, line), line])
-    points = np.unique(points.round(12), axis=0)
-    mesh = skfem.MeshTri(points.T.copy(), _triangulate(points).T.copy())
+    return triangulate(np.unique(points.round(12), axis=0), aspect)
+
+
+def triangulate(points: Floats, aspect: float) -> MeshTemplate:
+    """Reference mesh of given points (n, 2) that fill the rectangle to its sides."""
+    mesh = skfem.MeshTri(points.T.copy(), _connect(points).T.copy())
     basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
     nodes = np.array(basis.doflocs)
     # placing maps xi to -X and so turns every triangle over
@@ -239,7 +243,7 @@ def _clear_line(points: Floats, line: Floats) -> Floats:
     return np.asarray(points[distance > radii[nearest] * (1.0 + 1e-9)])
 
 
-def _triangulate(points: Floats) -> Ints:
+def _connect(points: Floats) -> Ints:
     triangles = Delaunay(points).simplices
     # collinear boundary points may leave triangles without area
     solid = np.abs(_twice_area(points[triangles])) > 1e-12

@@ -1,0 +1,1 @@
+"""The program against truth: closed forms, manufactured solutions, invariants."""
