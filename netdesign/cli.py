@@ -5,6 +5,7 @@ Imports of anything heavy stand inside the commands that need it: help is instan
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from collections.abc import Iterator
@@ -132,7 +133,7 @@ def check(
         started=_now(),
     )
     if dry_run:
-        _announce(site, count_cases(site), run.jobs)
+        _announce(site, count_cases(site), run.jobs, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = _output_kinds(html=html, excel=excel, csv=csv)
@@ -176,7 +177,6 @@ def solve(scene_file: Path, *, as_json: bool) -> None:
     netdesign solve scene.toml
     netdesign solve scene.toml --json
     """
-    import json
     import time
 
     from netdesign.coupling.solve import solve_scene
@@ -434,11 +434,21 @@ def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
         click.echo(f"wrote {path}", err=True)
 
 
-def _announce(site: Site, cases: int, jobs: int) -> None:
-    seconds = cases * _SECONDS_A_CASE / jobs
+def _announce(site: Site, cases: int, jobs: int, *, as_json: bool) -> None:
+    seconds = max(1.0, cases * _SECONDS_A_CASE / jobs)
+    if as_json:
+        plan = {
+            "schema": "netdesign.plan/1",
+            "net_rows": len(site.rows),
+            "cases": cases,
+            "predicted_s": seconds,
+            "notes": list(site.notes),
+        }
+        click.echo(json.dumps(plan, indent=1))
+        return
     click.echo(
         f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
-        f"{max(1.0, seconds):.0f} s with {jobs} processes; nothing was written"
+        f"{seconds:.0f} s with {jobs} processes; nothing was written"
     )
     for note in site.notes:
         click.echo(f"note: {note}")
@@ -484,7 +494,8 @@ def _plain_progress(total: int) -> Callable[[CaseResult], None]:
 
 
 def _count_findings(error: SiteDataError) -> str:
-    return f"{len(error.findings)} findings; nothing was written"
+    count = len(error.findings)
+    return f"{count} finding{'s' if count != 1 else ''}; nothing was written"
 
 
 def _own_command() -> str:
@@ -498,5 +509,10 @@ def _now() -> str:
     from datetime import UTC, datetime
 
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
-    time = datetime.fromtimestamp(int(epoch), UTC) if epoch else datetime.now(UTC)
+    try:
+        time = datetime.fromtimestamp(int(epoch), UTC) if epoch else datetime.now(UTC)
+    except (ValueError, OverflowError, OSError):
+        raise click.UsageError(
+            f"SOURCE_DATE_EPOCH = {epoch!r}: must be whole seconds since 1970"
+        ) from None
     return time.isoformat(timespec="seconds")

@@ -42,13 +42,20 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
             waiting.append((Path(name), path))
             _fill(handle, content)
         for temporary, path in waiting:
-            temporary.chmod(0o644)
+            temporary.chmod(_usual_mode())
             temporary.replace(path)
     except OSError as error:
         raise OutputError(f"cannot write: {error}") from error
     finally:
         for temporary, _ in waiting:
             temporary.unlink(missing_ok=True)
+
+
+def _usual_mode() -> int:
+    """Mode of a new file under the user's umask, which can only be read by setting."""
+    umask = os.umask(0o077)
+    os.umask(umask)
+    return 0o666 & ~umask
 
 
 def _fill(handle: int, content: bytes) -> None:

@@ -67,7 +67,7 @@ def test_commands_run_as_printed(tmp_path):
 
 
 def test_python_block_prints_what_is_shown(capsys):
-    exec(compile(blocks("python")[0], "README.md", "exec"), {})  # noqa: S102
+    exec(compile(blocks("python")[0], "README.md", "exec"), {})
     assert capsys.readouterr().out == blocks("text")[1]
 
 

@@ -76,7 +76,7 @@ def check_member(
     strength = _design_resistance(resistance, on_resistance)
     utilisation = demand.over(strength) if demand and strength else None
     gaps = [gap] if gap else []
-    gaps += _missing(resistance, on_action, on_resistance)
+    gaps += _missing(resistance, standard, on_action, on_resistance)
     is_slack = action is not None and action.high == 0.0 and not gap
     if is_slack:  # nothing to resist: the utilisation is 0 of any resistance
         utilisation, gaps = action, []
@@ -122,6 +122,7 @@ def _is_usable(resistance: float) -> bool:
 
 def _missing(
     resistance: GivenResistance,
+    standard: Standard,
     on_action: StandardValue | None,
     on_resistance: StandardValue | None,
 ) -> list[str]:
@@ -135,10 +136,18 @@ def _missing(
         lacks.append(f"the resistance {resistance.value!r} N is not usable for {what}")
     if on_action is None:
         lacks.append(f"the profile has no factor {ACTION_FACTOR}")
-    if on_resistance is None and resistance.value is not None:
+    if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
         basis = f" with basis {resistance.basis!r}" if resistance.basis else ""
         lacks.append(f"the profile has no factor resistance.{resistance.mode}{basis}")
     return lacks
+
+
+def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -> bool:
+    """Without a resistance there is no basis yet, and no factor to miss."""
+    prefix = f"resistance.{resistance.mode}."
+    return not resistance.basis and any(
+        value.id.startswith(prefix) for value in standard.values
+    )
 
 
 def _explain(verdict: Verdict, gaps: list[str], *, is_slack: bool) -> str:

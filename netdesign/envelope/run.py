@@ -12,7 +12,7 @@ from multiprocessing import get_context
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve_steady
 from netdesign.envelope.grid import Case
 from netdesign.errors import ModelError
@@ -106,16 +106,31 @@ def run_cases(
             min(jobs, len(tasks)), mp_context=get_context("spawn")
         ) as pool,
     ):
-        futures = {pool.submit(solve_case, task): task for task in tasks}
         try:
-            done = {}
-            for future in as_completed(futures):
-                done[future] = _collect(future, futures[future])
-                notify(done[future])
+            return _gather(pool, tasks, notify)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return [done[future] for future in futures]
+
+
+def _gather(
+    pool: ProcessPoolExecutor,
+    tasks: Sequence[CaseTask],
+    notify: Callable[[CaseResult], None],
+) -> list[CaseResult]:
+    results: dict[int, CaseResult] = {}
+    places: dict[Future[CaseResult], int] = {}
+    for place, task in enumerate(tasks):
+        try:
+            places[pool.submit(solve_case, task)] = place
+        except BrokenProcessPool:
+            results[place] = _lose(task)
+            notify(results[place])
+    for future in as_completed(places):
+        place = places[future]
+        results[place] = _collect(future, tasks[place])
+        notify(results[place])
+    return [results[place] for place in range(len(tasks))]
 
 
 def solve_case(task: CaseTask) -> CaseResult:
@@ -132,7 +147,7 @@ def solve_case(task: CaseTask) -> CaseResult:
 
 
 def _resolve_support(task: CaseTask, solution: Solution) -> CaseResult:
-    anchors = _anchor_forces(task, solution, (0.0, 0.0))
+    anchors = _anchor_forces(task, solution)
     if isinstance(anchors, FailedSupport):
         return _failed(task, anchors.outcome, anchors.reason)
     bands = _force_bands(task, solution, anchors)
@@ -148,19 +163,25 @@ def _resolve_support(task: CaseTask, solution: Solution) -> CaseResult:
 
 
 def _anchor_forces(
-    task: CaseTask, solution: Solution, shift: tuple[float, float]
+    task: CaseTask, solution: Solution, shift: Sequence[float] = (0.0, 0.0, 0.0, 0.0)
 ) -> AnchorForces | FailedSupport:
-    """Anchor forces with both end pulls moved by ``shift`` times their error."""
+    """Anchor forces with the end pulls moved by ``shift`` times their error.
+
+    The four shares are for x and y of the foot's pull, x and y of the head's.
+    """
+    foot, head = solution.foot, solution.head
     return compute_anchor_forces(
         place_support(task.layout, solution.head_point),
-        foot_pull_per_m=_shifted(solution.foot, shift),
-        head_pull_per_m=_shifted(solution.head, shift),
+        foot_pull_per_m=(
+            foot.x + shift[0] * foot.error,
+            foot.y + shift[1] * foot.error,
+        ),
+        head_pull_per_m=(
+            head.x + shift[2] * head.error,
+            head.y + shift[3] * head.error,
+        ),
         post_spacing=task.layout.post_spacing,
     )
-
-
-def _shifted(pull: EndPull, shift: tuple[float, float]) -> tuple[float, float]:
-    return pull.x + shift[0] * pull.error, pull.y + shift[1] * pull.error
 
 
 def _force_bands(
@@ -169,14 +190,15 @@ def _force_bands(
     """Member forces with the band that the error of the end pulls can cause.
 
     Within one set of working members the forces are linear in the pulls, so moving
-    the pulls by their error along each axis, and adding the changes, bounds them.
+    each component by its error, and adding the changes, bounds them.
     """
     values = anchors.member_forces
     spread = dict.fromkeys(values, 0.0)
-    for axis in ((1.0, 0.0), (0.0, 1.0)):
+    for component in range(4):
         change = dict.fromkeys(values, 0.0)
-        for sign in (-1.0, 1.0):
-            moved = _anchor_forces(task, solution, (sign * axis[0], sign * axis[1]))
+        for share in (-1.0, 1.0):
+            shift = [share if place == component else 0.0 for place in range(4)]
+            moved = _anchor_forces(task, solution, shift)
             if isinstance(moved, FailedSupport):
                 return moved
             for member, force in moved.member_forces.items():
@@ -214,8 +236,11 @@ def _collect(future: Future[CaseResult], task: CaseTask) -> CaseResult:
     try:
         return future.result()
     except BrokenProcessPool:
-        reason = "a worker process ended abruptly"
-        return _failed(task, Outcome.WORKER_FAILED, reason)
+        return _lose(task)
+
+
+def _lose(task: CaseTask) -> CaseResult:
+    return _failed(task, Outcome.WORKER_FAILED, "a worker process ended abruptly")
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:

@@ -10,7 +10,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from netdesign.errors import OutputError
+from netdesign.output import require_free, write_files
 from netdesign.resources import find_resource
 from netdesign.site.columns import (
     PROJECT,
@@ -71,8 +71,7 @@ def write_site_workbook(
     """
     import xlsxwriter
 
-    if path.exists() and not overwrite:
-        raise OutputError(f"{path} exists already: choose another name or overwrite it")
+    require_free([path], overwrite=overwrite)
     lines = load_example() if example else _starting_lines()
     content = BytesIO()
     workbook = xlsxwriter.Workbook(content, _OPTIONS)
@@ -84,11 +83,7 @@ def write_site_workbook(
     for plan in SHEETS:
         _write_sheet(workbook, plan, lines.get(plan.name, ()), formats)
     workbook.close()
-    try:
-        path.write_bytes(content.getvalue())
-    except OSError as error:
-        message = f"{path} cannot be written ({error.strerror}): choose another place"
-        raise OutputError(message) from error
+    write_files({path: content.getvalue()})
 
 
 def load_example() -> dict[str, _Lines]:

@@ -1,0 +1,239 @@
+"""The source paper's own cable: linearised increments of tension.
+
+Kept as the record of the paper's method and to compare with; ``sliding`` is the exact
+form. The paper leaves open how to find the nodes that glide; here it is block
+principal pivoting: every node that breaks its condition changes over, one at a time
+where that does not help. Theory: cable/THEORY.md, eqs (C18) to (C20).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.tension import compute_tensions, require_lengths
+from netdesign.errors import ModelError
+from netdesign.guards import require_positive, require_within
+from netdesign.outcome import Outcome
+
+Floats = NDArray[np.float64]
+Signs = NDArray[np.int8]
+Flags = NDArray[np.bool_]
+
+_PATIENCE = 3  # rounds without fewer broken conditions before nodes change singly
+_ROUNDING = 1e-12  # breach of a condition, over its terms, that counts as none
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CableState:
+    """The cable at one time.
+
+    Attributes
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i, the sum of the increments so far [N/m].
+    """
+
+    final_lengths: Floats
+    unstressed_lengths: Floats
+    tensions: Floats
+
+    def __post_init__(self) -> None:
+        """Refuse lengths that no segment has."""
+        require_lengths("final length", self.final_lengths)
+        require_lengths("unstressed length", self.unstressed_lengths)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IncrementalStep:
+    """End of one increment; usable only if converged.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Converged; max_iterations if the gliding nodes were not found; out_of_validity
+        if a segment would push: the increments have no rule for a slack net.
+    state : CableState
+        The cable at the end.
+    glide : ndarray, shape (n,)
+        1 net glides towards the foot, -1 towards the head, 0 sticks.
+    rounds : int
+        Sets of gliding nodes that were tried.
+    """
+
+    outcome: Outcome
+    state: CableState
+    glide: Signs
+    rounds: int
+
+
+def build_cable_state(
+    final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
+) -> CableState:
+    """State whose tensions are those of (C10): where a run of increments begins."""
+    return CableState(
+        final_lengths=final_lengths,
+        unstressed_lengths=unstressed_lengths,
+        tensions=compute_tensions(final_lengths, unstressed_lengths, stiffness),
+    )
+
+
+def advance_increment(
+    state: CableState,
+    final_lengths: Floats,
+    turning_angles: Floats,
+    *,
+    friction: float,
+    stiffness: float,
+    max_rounds: int = 1000,
+) -> IncrementalStep:
+    """One increment of the paper's cable, its Eqs 5 to 14.
+
+    Parameters
+    ----------
+    state : CableState
+        At time t.
+    final_lengths : ndarray, shape (n + 1,)
+        l_i at t + tau [m].
+    turning_angles : ndarray, shape (n,)
+        beta_i at t + tau, positive where the net presses [rad].
+    friction : float
+        Tan phi [-].
+    stiffness : float
+        ES [N/m].
+    max_rounds : int
+        Sets of gliding nodes that may be tried. A gliding stretch grows by about one
+        node a round.
+
+    Returns
+    -------
+    IncrementalStep
+        Agrees with ``solve_sliding`` to first order in the increment.
+
+    Raises
+    ------
+    ModelError
+        If a length is not above 0 or the shapes do not match.
+
+    Source
+    ------
+    The paper's section "The cable"; |R_t| for R_t in its Eqs 12 and 13. Pivoting:
+    Judice and Pires (1994), Computers Ops Res. 21, 587-596.
+    """
+    _require_matching(state, final_lengths, turning_angles)
+    require_positive("net stiffness", stiffness, "N/m")
+    require_within("friction", friction, 0.0, np.inf)
+    increment = _linearise(state, final_lengths, turning_angles, friction, stiffness)
+    glide = np.zeros(turning_angles.size, dtype=np.int8)
+    fewest, patience = glide.size + 1, _PATIENCE
+    for rounds in range(1, max_rounds + 1):
+        tensions = _solve_tensions(increment, glide)
+        wanted = _revise_glide(increment, tensions, glide)
+        broken = np.flatnonzero(wanted != glide)
+        if broken.size == 0:
+            return _end(Outcome.CONVERGED, increment, tensions, glide, rounds)
+        if broken.size < fewest:
+            fewest, patience = broken.size, _PATIENCE
+        else:
+            patience -= 1
+        changing = broken if patience > 0 else broken[-1:]
+        glide = glide.copy()
+        glide[changing] = wanted[changing]
+    return _end(Outcome.MAX_ITERATIONS, increment, tensions, glide, max_rounds)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Increment:
+    """Coefficients of the linear equations of one increment."""
+
+    final: Floats  # l_i at t + tau
+    unstressed: Floats  # lo_i at t
+    stuck: Floats  # tensions if nothing glides
+    softening: Floats  # loss of tension per increase of lo
+    across: Floats  # cos(beta / 2): R_t per difference of tensions
+    grip: Floats  # tan(phi) sin(beta / 2): friction per sum of tensions
+
+
+def _linearise(
+    state: CableState,
+    final: Floats,
+    angles: Floats,
+    friction: float,
+    stiffness: float,
+) -> _Increment:
+    """Coefficients of (C18) and (C19)."""
+    unstressed = state.unstressed_lengths
+    lengthening = final - state.final_lengths
+    return _Increment(
+        final=final,
+        unstressed=unstressed,
+        stuck=state.tensions + stiffness / unstressed * lengthening,
+        softening=stiffness * final / unstressed**2,
+        across=np.cos(angles / 2.0),
+        grip=friction * np.sin(np.maximum(angles, 0.0) / 2.0),
+    )
+
+
+def _solve_tensions(increment: _Increment, glide: Signs) -> Floats:
+    """Tensions at t + tau, block by block between nodes that do not glide.
+
+    In a block (C19) gives every tension as a multiple of the first, and (C20) that.
+    """
+    tensions = np.empty_like(increment.stuck)
+    edges = np.flatnonzero(glide == 0) + 1
+    ratios = _gliding_ratios(increment, glide)
+    for block in np.split(np.arange(tensions.size), edges):
+        multiples = np.cumprod(np.concatenate([[1.0], ratios[block[:-1]]]))
+        softening = increment.softening[block]
+        first = (increment.stuck[block] / softening).sum()
+        tensions[block] = multiples * first / (multiples / softening).sum()
+    return tensions
+
+
+def _gliding_ratios(increment: _Increment, glide: Signs) -> Floats:
+    """T_i / T_{i-1} of nodes that glide, (C19); 1 at the others, which do not ask."""
+    grip = glide * increment.grip
+    return (increment.across - grip) / (increment.across + grip)
+
+
+def _revise_glide(increment: _Increment, tensions: Floats, glide: Signs) -> Signs:
+    """What each node would do under these tensions; ``glide`` where that holds."""
+    lower, upper = tensions[:-1], tensions[1:]
+    pull = increment.across * (upper - lower)  # R_t
+    hold = increment.grip * (upper + lower)  # R_n tan phi
+    margin = _ROUNDING * increment.across * (np.abs(upper) + np.abs(lower))
+    starts = (glide == 0) & (np.abs(pull) > hold + margin)
+    lengthening = (increment.stuck - tensions) / increment.softening
+    slides = np.cumsum(lengthening)[:-1]
+    stops = glide * slides < -_ROUNDING * increment.unstressed.sum()
+    towards = np.where(upper < lower, 1, -1).astype(np.int8)
+    return np.where(starts, towards, np.where(stops, 0, glide)).astype(np.int8)
+
+
+def _end(
+    outcome: Outcome,
+    increment: _Increment,
+    tensions: Floats,
+    glide: Signs,
+    rounds: int,
+) -> IncrementalStep:
+    lengthening = (increment.stuck - tensions) / increment.softening
+    if outcome is Outcome.CONVERGED and tensions.min() < 0.0:
+        outcome = Outcome.OUT_OF_VALIDITY
+    state = CableState(
+        final_lengths=increment.final,
+        unstressed_lengths=increment.unstressed + lengthening,
+        tensions=tensions,
+    )
+    return IncrementalStep(outcome=outcome, state=state, glide=glide, rounds=rounds)
+
+
+def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:
+    require_lengths("final length", final)
+    if not (final.shape == state.final_lengths.shape == (angles.size + 1,)):
+        sizes = f"{state.final_lengths.size} old, {final.size} new lengths"
+        raise ModelError(f"{sizes}, {angles.size} angles: must be n + 1, n + 1 and n")

@@ -1,0 +1,389 @@
+"""Friction of the net that slides through its nodes, for one step.
+
+Which nodes glide, and how far, follows from one strictly convex function of the
+material coordinates S_i of the nodes. Each Newton step keeps the friction as it is,
+kinks included, and solves the step's own problem exactly by a sweep from foot to
+head and back; so nothing is guessed about which nodes glide, and nothing stalls.
+Theory: cable/THEORY.md, eqs (C13) to (C17).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.tension import compute_tensions, require_lengths
+from netdesign.errors import ModelError
+from netdesign.outcome import Outcome
+
+Floats = NDArray[np.float64]
+Signs = NDArray[np.int8]
+
+_ACCEPTED_CLIMB = 0.5
+_SHORTEST_STEP = 1e-12
+_TO_BOUNDARY = 0.9  # part of the way to T = 0 that one step may go
+_TIGHTEST_START = 0.1  # least elongation of a start, over that of uniform strain
+_ROUNDING = float(np.finfo(float).eps)
+
+
+class NetState(StrEnum):
+    """Whether the net carries."""
+
+    TIGHT = "tight"
+    PARTLY_SLACK = "partly_slack"
+    SLACK = "slack"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SlidingStep:
+    """The net after a step; usable only if converged.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Converged, or why not.
+    state : NetState
+        Slack: the net is longer than its polygon, all tensions are 0.
+    lengths : ndarray, shape (n + 1,)
+        Unstressed lengths lo_i; their sum is that of before [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i, at least 0 [N/m].
+    slides : ndarray, shape (n,)
+        S_i - S_old_i; exactly 0 where the net sticks [m].
+    residual : float
+        Largest breach of (C14) over the nodes of tight parts [-].
+    iterations : int
+        Newton steps, of the part of the net that took most.
+    """
+
+    outcome: Outcome
+    state: NetState
+    lengths: Floats
+    tensions: Floats
+    slides: Floats
+    residual: float
+    iterations: int
+
+    @property
+    def glide(self) -> Signs:
+        """Direction at each node, shape (n,): 1 net to foot, -1 to head, 0 sticks."""
+        return np.sign(self.slides).astype(np.int8)
+
+
+def solve_sliding(
+    final_lengths: Floats,
+    old_lengths: Floats,
+    bounds: Floats,
+    *,
+    stiffness: float,
+    start: Floats | None = None,
+    tolerance: float = 1e-10,
+    max_iterations: int = 60,
+) -> SlidingStep:
+    """Slide the net through its nodes as far as friction asks, (C13) and (C14).
+
+    Parameters
+    ----------
+    final_lengths : ndarray, shape (n + 1,)
+        l_i, lengths of the segments between the nodes as the snow has placed them [m].
+    old_lengths : ndarray, shape (n + 1,)
+        Unstressed lengths before the step [m].
+    bounds : ndarray, shape (n,)
+        kappa_i of ``compute_ratio_bounds``; infinite where nothing can slide [-].
+    stiffness : float
+        ES [N/m].
+    start : ndarray, shape (n + 1,), optional
+        Guess of the unstressed lengths; its scale does not matter. Default is
+        uniform strain, the answer without friction [m].
+    tolerance : float
+        Breach of (C14), a difference of logarithms of tensions, that counts as none.
+        What rounding makes of the smallest elongation is added.
+    max_iterations : int
+        Newton steps allowed; 3 to 8 are taken whatever the friction and the mesh.
+
+    Returns
+    -------
+    SlidingStep
+        Never raises for a failed iteration; see its outcome.
+
+    Raises
+    ------
+    ModelError
+        If a length is not above 0, a bound is below 0, or the shapes do not match.
+
+    Verified by
+    -----------
+    tests/verification/test_sliding_cable.py
+    """
+    _require_matching(final_lengths, old_lengths, bounds)
+    guess = final_lengths if start is None else start
+    cuts = np.flatnonzero(np.isinf(bounds)) + 1
+    parts = []
+    for first, end in pairwise([0, *cuts.tolist(), final_lengths.size]):
+        problem = _Problem(
+            final=final_lengths[first:end],
+            old=old_lengths[first:end],
+            bounds=bounds[first : end - 1],
+        )
+        parts.append(_solve_part(problem, guess[first:end], tolerance, max_iterations))
+    return _join_parts(parts, final_lengths, stiffness)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Problem:
+    """A part of the net that exchanges no length with its neighbours."""
+
+    final: Floats
+    old: Floats
+    bounds: Floats
+
+    @property
+    def elongation(self) -> float:
+        """What is left to stretch; the part is slack without it."""
+        return float(self.final.sum() - self.old.sum())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Point:
+    """An iterate. Elongations l - lo, not lengths, keep the digits of tensions."""
+
+    elongations: Floats
+    slides: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Part:
+    """End of the solve of one part."""
+
+    outcome: Outcome
+    is_slack: bool
+    lengths: Floats
+    slides: Floats
+    residual: float = 0.0
+    iterations: int = 0
+
+
+def _solve_part(
+    problem: _Problem, guess: Floats, tolerance: float, max_iterations: int
+) -> _Part:
+    if problem.elongation <= 0.0:
+        return _slacken(problem)
+    point = _place_start(problem, guess)
+    for iteration in range(max_iterations + 1):
+        log_tensions = _log_tensions(problem, point)
+        residual = _find_breach(problem, point, log_tensions)
+        if residual <= tolerance + _find_rounding(problem, point):
+            return _end(Outcome.CONVERGED, problem, point, residual, iteration)
+        if iteration == max_iterations:
+            break
+        following = _take_step(problem, point, log_tensions)
+        if following is None:
+            return _end(Outcome.DIVERGED, problem, point, residual, iteration)
+        point = following
+    return _end(Outcome.MAX_ITERATIONS, problem, point, residual, max_iterations)
+
+
+def _slacken(problem: _Problem) -> _Part:
+    """All tensions 0; what segments lack is drawn from the others' surplus."""
+    surplus = np.maximum(problem.old - problem.final, 0.0)
+    lack = np.maximum(problem.final - problem.old, 0.0)
+    drawn = float(lack.sum() / surplus.sum()) if lack.any() else 0.0
+    lengths = np.maximum(problem.old + lack - drawn * surplus, problem.final)
+    return _Part(
+        outcome=Outcome.CONVERGED,
+        is_slack=True,
+        lengths=lengths,
+        slides=np.cumsum(lengths - problem.old)[:-1],
+    )
+
+
+def _place_start(problem: _Problem, guess: Floats) -> _Point:
+    """The guess, drawn towards uniform strain until every segment is tight."""
+    total = problem.old.sum()
+    uniform = problem.final * (problem.elongation / problem.final.sum())
+    elongations = problem.final - guess * (total / guess.sum())
+    least = float((elongations / uniform).min())
+    if least < _TIGHTEST_START:
+        blend = (_TIGHTEST_START - least) / (1.0 - least)
+        elongations = elongations + blend * (uniform - elongations)
+    slides = np.cumsum(problem.final - elongations - problem.old)[:-1]
+    return _Point(elongations=elongations, slides=slides)
+
+
+def _log_tensions(problem: _Problem, point: _Point) -> Floats:
+    """Log (T_i / ES), shape (n + 1,)."""
+    elongations = point.elongations
+    logs: Floats = np.log(elongations / (problem.final - elongations))
+    return logs
+
+
+def _find_breach(problem: _Problem, point: _Point, log_tensions: Floats) -> float:
+    """Largest residual of (C14)."""
+    steps = np.diff(log_tensions)
+    gliding = np.abs(steps + problem.bounds * np.sign(point.slides))
+    sticking = np.maximum(np.abs(steps) - problem.bounds, 0.0)
+    return float(np.where(point.slides != 0.0, gliding, sticking).max(initial=0.0))
+
+
+def _find_rounding(problem: _Problem, point: _Point) -> float:
+    """What the last digit of a length is to an elongation, at worst."""
+    lengths = np.maximum(problem.final, problem.old)
+    return _ROUNDING * float((lengths / point.elongations).max())
+
+
+def _take_step(problem: _Problem, point: _Point, log_tensions: Floats) -> _Point | None:
+    """Newton step on (C13), halved while it climbs; None if it never descends."""
+    lengths = problem.final - point.elongations
+    compliances = lengths * point.elongations / problem.final
+    unslid = log_tensions + (lengths - problem.old) / compliances
+    solution, side = _sweep(unslid, compliances, problem.bounds)
+    stretch = compliances * (solution - log_tensions)
+    travel = -np.cumsum(stretch)[:-1]
+    slides = point.slides + travel
+    slides = np.where(slides * side > 0.0, slides, 0.0)
+    step = min(1.0, _TO_BOUNDARY * _step_to_boundary(point, stretch, lengths))
+    descent = -_slope(problem, log_tensions, point.slides, travel, leaving=True)
+    while step > _SHORTEST_STEP:
+        candidate = _Point(
+            elongations=point.elongations + step * stretch,
+            slides=slides if step == 1.0 else point.slides + step * travel,
+        )
+        logs = _log_tensions(problem, candidate)
+        climb = _slope(problem, logs, candidate.slides, travel, leaving=False)
+        if climb <= _ACCEPTED_CLIMB * abs(descent):
+            return candidate
+        step /= 2.0
+    return None
+
+
+def _step_to_boundary(point: _Point, stretch: Floats, lengths: Floats) -> float:
+    """Largest step that leaves every elongation and every length above 0."""
+    shrinking = (-stretch / point.elongations).max()
+    lengthening = (stretch / lengths).max()
+    return 1.0 / max(float(shrinking), float(lengthening), _ROUNDING)
+
+
+def _slope(
+    problem: _Problem,
+    log_tensions: Floats,
+    slides: Floats,
+    travel: Floats,
+    *,
+    leaving: bool,
+) -> float:
+    """Slope of (C13) along the travel; at a kink on its far side, else its near."""
+    kink = np.sign(travel) if leaving else -np.sign(travel)
+    signs = np.where(slides != 0.0, np.sign(slides), kink)
+    return float(travel @ (np.diff(log_tensions) + problem.bounds * signs))
+
+
+def _sweep(
+    unslid: Floats, compliances: Floats, bounds: Floats
+) -> tuple[Floats, Floats]:
+    """Exact solution of the linearised problem (C16), by the sweep (C17).
+
+    Parameters
+    ----------
+    unslid : ndarray, shape (n + 1,)
+        a_i, logarithms of tensions if nothing had slid [-].
+    compliances : ndarray, shape (n + 1,)
+        c_i [m].
+    bounds : ndarray, shape (n,)
+        kappa_i, finite [-].
+
+    Returns
+    -------
+    solution : ndarray, shape (n + 1,)
+        Logarithms of tensions [-].
+    side : ndarray, shape (n,)
+        Sign of the slide at each node, 0 where it sticks.
+    """
+    below: list[tuple[float, float]] = []
+    above: list[tuple[float, float]] = []
+    best: list[float] = []
+    limits = bounds.tolist()
+    shift = 0.0
+    for target, compliance, limit in zip(
+        unslid.tolist(), compliances.tolist(), [*limits, 0.0], strict=True
+    ):
+        root, slope = _walk(-target, compliance, below, above, shift)
+        root, slope = _walk(-root, slope, above, below, shift)
+        best.append(root)
+        # the zero opens into a flat of half width kappa; all kinks move outward
+        below.append((-root - shift, slope))
+        above.append((root - shift, slope))
+        shift += limit
+    solution = best.copy()
+    for i in range(len(limits) - 1, -1, -1):
+        upper = solution[i + 1]
+        solution[i] = min(max(best[i], upper - limits[i]), upper + limits[i])
+    result = np.array(solution)
+    return result, np.sign(np.array(best) - result)[:-1]
+
+
+def _walk(
+    root: float,
+    slope: float,
+    ahead: list[tuple[float, float]],
+    behind: list[tuple[float, float]],
+    shift: float,
+) -> tuple[float, float]:
+    """Follow a piecewise linear function past the kinks ahead, to where it is zero.
+
+    Kinks are (place less ``shift``, increase of slope beyond), the nearest last, with
+    places counted outward; passed ones are mirrored onto the stack behind.
+    """
+    least = slope
+    while ahead and ahead[-1][0] + shift < root:
+        place, increase = ahead.pop()
+        behind.append((-place - 2.0 * shift, -increase))
+        rest = slope * (root - place - shift)
+        slope = max(slope + increase, least)
+        root = place + shift + rest / slope
+    return root, slope
+
+
+def _end(
+    outcome: Outcome, problem: _Problem, point: _Point, residual: float, iterations: int
+) -> _Part:
+    """Lengths of the last iterate; to the digit the old ones where nothing slid."""
+    moved = np.diff(point.slides, prepend=0.0, append=0.0) != 0.0
+    return _Part(
+        outcome=outcome,
+        is_slack=False,
+        lengths=np.where(moved, problem.final - point.elongations, problem.old),
+        slides=point.slides,
+        residual=residual,
+        iterations=iterations,
+    )
+
+
+def _join_parts(parts: list[_Part], final: Floats, stiffness: float) -> SlidingStep:
+    failed = [p.outcome for p in parts if p.outcome is not Outcome.CONVERGED]
+    slack = [part.is_slack for part in parts]
+    state = NetState.PARTLY_SLACK if any(slack) else NetState.TIGHT
+    between = [piece for part in parts for piece in ([0.0], part.slides)][1:]
+    lengths = np.concatenate([part.lengths for part in parts])
+    return SlidingStep(
+        outcome=failed[0] if failed else Outcome.CONVERGED,
+        state=NetState.SLACK if all(slack) else state,
+        lengths=lengths,
+        tensions=compute_tensions(final, lengths, stiffness),
+        slides=np.concatenate(between),
+        residual=max(part.residual for part in parts),
+        iterations=max(part.iterations for part in parts),
+    )
+
+
+def _require_matching(final: Floats, old: Floats, bounds: Floats) -> None:
+    require_lengths("final length", final)
+    require_lengths("old unstressed length", old)
+    if not (old.shape == final.shape == (bounds.size + 1,)):
+        sizes = f"{final.size} final, {old.size} old lengths, {bounds.size} bounds"
+        raise ModelError(f"{sizes}: must be n + 1, n + 1 and n")
+    if not (bounds >= 0.0).all():
+        raise ModelError(f"ratio bounds {bounds!r}: must be at least 0")

@@ -1,0 +1,191 @@
+"""The net as a polygon through given nodes: tensions and forces on the nodes.
+
+The snow prescribes the nodes, foot to head; n nodes lie between the two ends, and
+n + 1 segments join them. Theory: cable/THEORY.md, eqs (C10) to (C12).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.errors import ModelError
+from netdesign.guards import require_positive, require_within
+
+Floats = NDArray[np.float64]
+
+_LARGEST_FRICTION = np.tan(np.radians(89.0))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NodeForces:
+    """What the net does to the snow at its nodes, and to its two ends; they sum to 0.
+
+    Attributes
+    ----------
+    normal : ndarray, shape (n,)
+        R_n along the bisector of the node, positive where the net presses [N/m].
+    tangential : ndarray, shape (n,)
+        R_t across it, positive towards the head [N/m].
+    vector : ndarray, shape (2, n)
+        The same force along X and Y [N/m].
+    foot_pull, head_pull : ndarray, shape (2,)
+        What the net pulls with on foot and head [N/m].
+    """
+
+    normal: Floats
+    tangential: Floats
+    vector: Floats
+    foot_pull: Floats
+    head_pull: Floats
+
+
+def compute_segment_lengths(points: Floats) -> Floats:
+    """Final lengths of the segments.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        l_i [m].
+
+    Raises
+    ------
+    ModelError
+        If two neighbours coincide or a coordinate is not finite.
+    """
+    lengths: Floats = np.hypot(*np.diff(points))
+    require_lengths("segment length", lengths)
+    return lengths
+
+
+def compute_turning_angles(points: Floats) -> Floats:
+    """Angles by which the net turns around the snow at its nodes.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head; X downslope, snow on the side of negative X [m].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        beta_i, from -pi to pi, positive where the net is convex to the valley [rad].
+
+    Examples
+    --------
+    >>> bulge = np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 2.0]])
+    >>> np.degrees(compute_turning_angles(bulge))
+    array([90.])
+    """
+    x, y = np.diff(points)
+    cross = x[:-1] * y[1:] - y[:-1] * x[1:]
+    dot = x[:-1] * x[1:] + y[:-1] * y[1:]
+    angles: Floats = np.arctan2(cross, dot)
+    return angles
+
+
+def compute_tensions(
+    final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
+) -> Floats:
+    """Tensions of elastic segments, eq. (C10); a slack segment has none.
+
+    Parameters
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i [m].
+    stiffness : float
+        ES, force per width at unit strain [N/m].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        T_i, at least 0 [N/m].
+    """
+    require_lengths("unstressed length", unstressed_lengths)
+    require_positive("net stiffness", stiffness, "N/m")
+    strains = (final_lengths - unstressed_lengths) / unstressed_lengths
+    tensions: Floats = stiffness * np.maximum(strains, 0.0)
+    return tensions
+
+
+def compute_node_forces(points: Floats, tensions: Floats) -> NodeForces:
+    """Forces of the net on its nodes, eq. (C11).
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    tensions : ndarray, shape (n + 1,)
+        T_i [N/m].
+
+    Returns
+    -------
+    NodeForces
+        [N/m].
+
+    Source
+    ------
+    The paper's Eq. 11, whose angle theta_{i-1} - theta_i is beta_i here.
+    """
+    half = compute_turning_angles(points) / 2.0
+    pulls = tensions * np.diff(points) / compute_segment_lengths(points)
+    return NodeForces(
+        normal=(tensions[1:] + tensions[:-1]) * np.sin(half),
+        tangential=(tensions[1:] - tensions[:-1]) * np.cos(half),
+        vector=np.diff(pulls),
+        foot_pull=pulls[:, 0],
+        head_pull=-pulls[:, -1],
+    )
+
+
+def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
+    """Logarithms of the largest tension ratios that friction holds, eq. (C12).
+
+    Exact for a node; their sum tends to tan(phi) times the wrap angle as nodes are
+    refined, see ``compute_capstan_ratio``.
+
+    Parameters
+    ----------
+    turning_angles : ndarray, shape (n,)
+        beta_i, positive where the net presses [rad].
+    friction : float
+        Tan phi of snow on net [-].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
+        Infinite where beta / 2 + phi reaches a right angle: no tensions slide there.
+
+    Validity
+    --------
+    One bound per node: nodes must carry comparable shares of the pressure. Corner
+    nodes of quadratic elements do, midpoints (1 : 2) do not.
+
+    Verified by
+    -----------
+    tests/verification/test_sliding_cable.py
+    """
+    require_within("friction", friction, 0.0, float(_LARGEST_FRICTION))
+    half = np.maximum(turning_angles, 0.0) / 2.0
+    hold = np.minimum(friction * np.tan(half), 1.0)
+    with np.errstate(divide="ignore"):
+        bounds: Floats = 2.0 * np.arctanh(hold)
+    return bounds
+
+
+def require_lengths(name: str, lengths: Floats) -> None:
+    """Refuse an array unless all its entries are finite and above zero."""
+    sound = np.isfinite(lengths) & (lengths > 0.0)
+    if not sound.all():
+        first = int(np.argmin(sound))
+        raise ModelError(
+            f"{name} {first} = {lengths[first]!r}: must be a finite number above 0 in m"
+        )

@@ -1,0 +1,92 @@
+"""Weak forms of the creep problem, written to be read beside the theory.
+
+The reference for ``snow/kernel.py``: the same integrals over the same six-node
+triangles and quadrature points, in the idiom of scikit-fem and in the slope's axes
+throughout. No solve calls it; tests compare the two to rounding. Plane tensors are
+(xx, yy, xy), strain rates with the engineering shear. Theory: snow/THEORY.md.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sparse
+import skfem
+from skfem.element import DiscreteField
+from skfem.helpers import dot, grad
+
+from netdesign.snow.kernel import QUADRATURE_DEGREE, PlacedMesh
+from netdesign.snow.mesh import Floats
+
+
+def build_basis(mesh: PlacedMesh) -> skfem.Basis:
+    """Quadratic velocities on a placed mesh, its net edges parabolas.
+
+    Components are numbered as in the kernel: (X, Y) of node 0, of node 1, ...
+    """
+    curved = skfem.MeshTri2(doflocs=mesh.nodes, t=mesh.template.triangles[:3])
+    velocity = skfem.ElementVector(skfem.ElementTriP2())
+    return skfem.Basis(curved, velocity, intorder=QUADRATURE_DEGREE)
+
+
+def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
+    """Integral of eps(w) . C eps(v): matrix of the tangent, eq. (F4).
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    moduli : ndarray, shape (n_triangles, n_points, 3, 3)
+        C at the quadrature points [-].
+
+    Returns
+    -------
+    sparse matrix, shape (n_dofs, n_dofs)
+        In the slope's axes, no boundary condition applied.
+
+    Verified by
+    -----------
+    tests/snow/test_forms.py
+    """
+    form = skfem.BilinearForm(_tangent)
+    return sparse.csr_matrix(form.assemble(build_basis(mesh), moduli=_field(moduli)))
+
+
+def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
+    """Integral of eps(w) . sigma: internal nodal forces (n_dofs,), slope's axes.
+
+    The stress has the shape (n_triangles, n_points, 3). It is in equilibrium, (F1),
+    where these forces equal those of ``assemble_gravity_form``.
+    """
+    form = skfem.LinearForm(_internal_power)
+    return np.asarray(form.assemble(build_basis(mesh), stress=_field(stress)))
+
+
+def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Floats:
+    """Integral of w . g / |g|: nodal forces of gravity (n_dofs,), slope's axes."""
+    form = skfem.LinearForm(_gravity_power)
+    return np.asarray(form.assemble(build_basis(mesh), x=gravity[0], y=gravity[1]))
+
+
+def _tangent(v: Any, w: Any, at: Any) -> Any:
+    return dot(_strain_rate(w), np.einsum("ijeq,jeq->ieq", at.moduli, _strain_rate(v)))
+
+
+def _internal_power(w: Any, at: Any) -> Any:
+    return dot(_strain_rate(w), at.stress)
+
+
+def _gravity_power(w: Any, at: Any) -> Any:
+    return at.x * w[0] + at.y * w[1]
+
+
+def _strain_rate(v: Any) -> Any:
+    """(eps_xx, eps_yy, 2 eps_xy) of a velocity."""
+    (xx, xy), (yx, yy) = grad(v)
+    return np.array([xx, yy, xy + yx])
+
+
+def _field(values: Floats) -> DiscreteField:
+    """Values at (triangle, point, ...) in scikit-fem's order (..., triangle, point)."""
+    return DiscreteField(np.moveaxis(values, (0, 1), (-2, -1)))

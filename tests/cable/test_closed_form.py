@@ -1,0 +1,66 @@
+"""Closed forms against the equations that they claim to solve, and their limits."""
+
+import math
+
+import pytest
+
+from netdesign.cable.closed_form import compute_capstan_ratio, compute_parabola_sag
+from netdesign.errors import ModelError
+
+
+def test_sag_of_a_taut_cable():
+    """physics.md 7.8 by hand: q 10 kN/m, c 4 m, ES 20 MN give f = 0.1817 m."""
+    sag = compute_parabola_sag(10e3, 4.0, 20e6, 0.0)
+    assert sag == pytest.approx((3 * 10e3 * 4.0**4 / (64 * 20e6)) ** (1 / 3), rel=1e-14)
+    assert sag == pytest.approx(0.1817, abs=5e-5)  # printed to four places
+
+
+def test_sag_of_an_inextensible_cable():
+    """(8/3)(f/c)^2 = slack; what stretching adds is below q c / ES."""
+    sag = compute_parabola_sag(1.0, 2.0, 1e12, 0.06)
+    assert sag == pytest.approx(2.0 * math.sqrt(3 * 0.06 / 8), rel=1e-10)
+
+
+@pytest.mark.parametrize("load", [1e-6, 1.0, 1e3])
+@pytest.mark.parametrize("slack", [0.0, 1e-9, 1e-3, 0.1, 1.0])
+def test_sag_satisfies_its_equation(load, slack):
+    chord, stiffness = 3.0, 50.0
+    sag = compute_parabola_sag(load, chord, stiffness, slack)
+    stretch = load * chord**2 / (8 * sag * stiffness)
+    assert 8 / 3 * (sag / chord) ** 2 == pytest.approx(slack + stretch, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        ((0.0, 1.0, 1.0, 0.0), "load"),
+        ((math.nan, 1.0, 1.0, 0.0), "load"),
+        ((1.0, 0.0, 1.0, 0.0), "chord"),
+        ((1.0, math.inf, 1.0, 0.0), "chord"),
+        ((1.0, 1.0, 0.0, 0.0), "stiffness"),
+        ((1.0, 1.0, math.inf, 0.0), "stiffness"),
+        ((1.0, 1.0, 1.0, -1e-12), "slack"),
+        ((1.0, 1.0, 1.0, 1.0 + 1e-12), "slack"),
+        ((1.0, 1.0, 1.0, math.nan), "slack"),
+    ],
+)
+def test_sag_refuses(arguments, name):
+    with pytest.raises(ModelError, match=f"{name} = "):
+        compute_parabola_sag(*arguments)
+
+
+def test_capstan_ratio():
+    """Half a turn with a coefficient of 0.5: exp(pi / 2), the textbook case."""
+    ratio = compute_capstan_ratio(math.pi, math.atan(0.5))
+    assert ratio == pytest.approx(math.exp(math.pi / 2), rel=1e-14)
+
+
+@pytest.mark.parametrize(("wrap", "friction"), [(0.0, 0.7), (1.0, 0.0)])
+def test_capstan_ratio_without_contact_or_friction(wrap, friction):
+    assert compute_capstan_ratio(wrap, friction) == 1.0
+
+
+def test_capstan_ratios_multiply():
+    whole = compute_capstan_ratio(0.9, 0.4)
+    parts = compute_capstan_ratio(0.3, 0.4) * compute_capstan_ratio(0.6, 0.4)
+    assert whole == pytest.approx(parts, rel=1e-14)

@@ -1,0 +1,89 @@
+"""The net's geometry, and its guards at their bounds."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.cable.net import (
+    LARGEST_FRICTION_ANGLE,
+    LARGEST_INCLINATION,
+    LARGEST_SLACK,
+    Net,
+)
+from netdesign.errors import ModelError
+
+SOUND = {
+    "height_normal": 3.0,
+    "inclination": math.radians(30.0),
+    "stiffness_per_m": 2e7,
+    "slack": 0.05,
+    "friction_angle": math.radians(25.0),
+}
+
+
+def a_net(**changes) -> Net:
+    return Net(**{**SOUND, **changes})
+
+
+def test_geometry():
+    net = a_net()
+    # cos 30 = sqrt(3)/2, tan 30 = 1/sqrt(3)
+    assert net.chord == pytest.approx(2.0 * math.sqrt(3.0), rel=1e-15)
+    np.testing.assert_allclose(net.head, [math.sqrt(3.0), 3.0], rtol=1e-15)
+    assert np.hypot(*net.head) == pytest.approx(net.chord, rel=1e-15)
+    assert net.unstressed_length == pytest.approx(1.05 * net.chord, rel=1e-15)
+
+
+def test_head_leans_downslope():
+    assert a_net().head[0] > 0.0
+    assert a_net(inclination=0.0).head[0] == 0.0
+
+
+def test_friction_is_the_tangent():
+    assert a_net(friction_angle=math.pi / 4).friction == pytest.approx(1.0, rel=1e-15)
+    assert a_net(friction_angle=0.0).friction == 0.0
+
+
+ACCEPTED = [
+    ("height_normal", 1e-9),
+    ("inclination", 0.0),
+    ("inclination", LARGEST_INCLINATION),
+    ("stiffness_per_m", 1e-9),
+    ("slack", 0.0),
+    ("slack", LARGEST_SLACK),
+    ("friction_angle", 0.0),
+    ("friction_angle", LARGEST_FRICTION_ANGLE),
+]
+
+
+@pytest.mark.parametrize(("field", "value"), ACCEPTED)
+def test_bounds_are_accepted(field, value):
+    assert getattr(a_net(**{field: value}), field) == value
+
+
+REFUSED = [
+    ("height_normal", 0.0, "net height"),
+    ("height_normal", -1.0, "net height"),
+    ("inclination", -1e-12, "net inclination"),
+    ("inclination", math.nextafter(LARGEST_INCLINATION, 2.0), "net inclination"),
+    ("stiffness_per_m", 0.0, "net stiffness"),
+    ("slack", -1e-12, "slack"),
+    ("slack", math.nextafter(LARGEST_SLACK, 1.0), "slack"),
+    ("friction_angle", -1e-12, "friction angle"),
+    ("friction_angle", math.nextafter(LARGEST_FRICTION_ANGLE, 2.0), "friction angle"),
+    ("friction_angle", 30.0, "friction angle"),  # degrees taken for radians
+]
+
+
+@pytest.mark.parametrize(("field", "value", "name"), REFUSED)
+def test_beyond_the_bounds_is_refused(field, value, name):
+    with pytest.raises(ModelError, match=rf"{name} = .*: must"):
+        a_net(**{field: value})
+
+
+@pytest.mark.parametrize("field", SOUND)
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_nonfinite_is_refused(field, value):
+    with pytest.raises(ModelError, match=str(value)):
+        a_net(**{field: value})

@@ -1,0 +1,152 @@
+"""Builders shared by the tests; the defaults are the reference scene of the paper.
+
+BLAS threads are pinned before numpy is imported: the matrices are small, and the
+order of a threaded sum must not decide a last digit.
+"""
+
+from __future__ import annotations
+
+import os
+
+for _library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ[f"{_library}_NUM_THREADS"] = "1"
+
+import math  # noqa: E402  (all of these after the environment)
+from collections.abc import Callable  # noqa: E402
+from functools import cache  # noqa: E402
+
+import numpy as np  # noqa: E402
+import pytest  # noqa: E402
+
+from netdesign.cable.net import Net  # noqa: E402
+from netdesign.coupling.scene import (  # noqa: E402
+    MESH_LEVELS,
+    Scene,
+    SolverSettings,
+)
+from netdesign.coupling.solution import Solution  # noqa: E402
+from netdesign.coupling.steady import solve_steady  # noqa: E402
+from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
+from netdesign.snow.flow import FlowLaw  # noqa: E402
+from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
+from netdesign.snow.kernel import PlacedMesh, build_placed_mesh  # noqa: E402
+from netdesign.snow.mesh import (  # noqa: E402
+    MeshSize,
+    build_template,
+    place_nodes,
+)
+from netdesign.snow.snowpack import GravityMode, Snowpack  # noqa: E402
+
+ICE = 917.0  # [kg/m3]
+
+
+def _build_scene(
+    *,
+    slope_deg: float = 40.0,
+    thickness_m: float = 4.0,
+    length_m: float = 20.0,
+    relative_density: float = 0.4,
+    gravity: GravityMode = "full",
+    ground: GroundKind = "free",
+    slip_length_m: float = 0.0,
+    inclination_deg: float = 0.0,
+    height_m: float | None = None,
+    stiffness_kN_per_m: float = 2e4,
+    slack: float = 0.0,
+    friction_deg: float = 30.0,
+    creep_law: CreepLaw = BOUTILLIER_2004,
+) -> Scene:
+    return Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(slope_deg),
+            thickness=thickness_m,
+            upslope_length=length_m,
+            density=ICE * relative_density,
+            gravity=gravity,
+        ),
+        ground=GroundLaw(kind=ground, slip_length=slip_length_m),
+        net=Net(
+            height_normal=thickness_m if height_m is None else height_m,
+            inclination=math.radians(inclination_deg),
+            stiffness_per_m=1e3 * stiffness_kN_per_m,
+            slack=slack,
+            friction_angle=math.radians(friction_deg),
+        ),
+        creep_law=creep_law,
+    )
+
+
+def _build_flow_law(
+    *,
+    exponent: float = 3.0,
+    bulk_ratio: float = 1.8,
+    slope_deg: float = 40.0,
+    ground: GroundKind = "free",
+    slip_ratio: float = 0.0,
+    friction: float = 0.5,
+) -> FlowLaw:
+    slope = math.radians(slope_deg)
+    return FlowLaw(
+        exponent=exponent,
+        bulk_ratio=bulk_ratio,
+        gravity=(math.sin(slope), -math.cos(slope)),
+        ground=ground,
+        slip_ratio=slip_ratio,
+        friction=friction,
+    )
+
+
+def _build_mesh(
+    *,
+    inclination_deg: float = 0.0,
+    sag: float = 0.0,
+    aspect: float = 5.0,
+    size: MeshSize = MESH_LEVELS[0],
+) -> PlacedMesh:
+    """Mesh against a parabola of this sag, over the thickness, across the chord."""
+    template = build_template(aspect, size)
+    along = template.net_fractions
+    head_x = math.tan(math.radians(inclination_deg))
+    chord = math.hypot(head_x, 1.0)
+    offset = 4.0 * sag * along * (1.0 - along) / chord
+    curve = np.array([along * head_x + offset, along - offset * head_x])
+    return build_placed_mesh(template, place_nodes(template, curve))
+
+
+@cache
+def _solve(first_level: int = 0, **scene: object) -> Solution:
+    """Solution on two mesh levels, the coarsest unless told otherwise."""
+    settings = SolverSettings(
+        accuracy=0.1, levels=MESH_LEVELS[first_level : first_level + 2]
+    )
+    solution = solve_steady(
+        _build_scene(**scene),  # type: ignore[arg-type]
+        settings,
+        on_failure="raise",
+    )
+    assert isinstance(solution, Solution)
+    return solution
+
+
+@pytest.fixture(scope="session")
+def a_scene() -> Callable[..., Scene]:
+    """Scene from engineer's units: ``a_scene(inclination_deg=30)``."""
+    return _build_scene
+
+
+@pytest.fixture(scope="session")
+def a_flow_law() -> Callable[..., FlowLaw]:
+    """Dimensionless law of one instant: ``a_flow_law(exponent=1.0)``."""
+    return _build_flow_law
+
+
+@pytest.fixture(scope="session")
+def a_mesh() -> Callable[..., PlacedMesh]:
+    """Placed mesh: ``a_mesh(inclination_deg=30, sag=0.1)``."""
+    return _build_mesh
+
+
+@pytest.fixture(scope="session")
+def solved() -> Callable[..., Solution]:
+    """Converged solution of ``a_scene(...)`` on two coarse levels; solved once."""
+    return _solve

@@ -1,0 +1,154 @@
+"""Balances: measured on faulty states, refused at their bounds."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.cable.funicular import Funicular
+from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.interface import SupportForces
+from netdesign.coupling.solution import Balance
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+
+TOLERANCE = 1e-8
+
+SOUND = Balance(
+    weight_along_slope=1e5,
+    relative_residual=TOLERANCE,
+    friction_excess=TOLERANCE,
+    smallest_tension=1e-9,
+    suction_share=0.0,
+    ground_tension_share=0.0,
+)
+
+
+def test_bounds_are_accepted():
+    check_balance(SOUND, TOLERANCE)
+
+
+REFUSED = [
+    ("relative_residual", math.nextafter(TOLERANCE, 1.0), "force missing"),
+    ("relative_residual", math.nan, "force missing"),
+    ("relative_residual", math.inf, "force missing"),
+    ("friction_excess", math.nextafter(TOLERANCE, 1.0), "shear beyond the friction"),
+    ("friction_excess", math.nan, "shear beyond the friction"),
+    ("smallest_tension", 0.0, "would have to push"),
+    ("smallest_tension", -1.0, "would have to push"),
+    ("smallest_tension", math.nan, "would have to push"),
+]
+
+
+@pytest.mark.parametrize(("field", "value", "reason"), REFUSED)
+def test_breaches_are_refused(field, value, reason):
+    with pytest.raises(SolveError, match=reason) as raised:
+        check_balance(replace(SOUND, **{field: value}), TOLERANCE)
+    assert raised.value.outcome is Outcome.BALANCE_VIOLATED
+
+
+# --- a state in balance by hand ----------------------------------------------
+
+SCALE = 2e4
+
+
+@pytest.fixture
+def state(a_mesh, a_flow_law):
+    """Weight carried by the ground along Y and by the net along X, half at each end."""
+    mesh, law = a_mesh(), a_flow_law(friction=0.5)
+    weight = mesh.area * np.array(law.gravity)
+    on_net = np.zeros((2, mesh.template.net.size))
+    on_net[0, 1:] = weight[0] / (on_net.shape[1] - 1)
+    half = np.array([weight[0] / 2, 0.0])
+    cable = Funicular(
+        outcome=Outcome.CONVERGED,
+        curve=mesh.nodes[:, mesh.template.net],
+        pull=half,
+        tension=np.full((2, mesh.template.net.size // 2), 0.7),
+        foot_pull=half,
+        head_pull=half,
+    )
+    forces = SupportForces(
+        on_net=on_net,
+        on_ground=np.array([0.0, weight[1]]),
+        ground_normal=np.full(4, -weight[1] / 4),
+        unbalanced=0.0,
+    )
+    return law, mesh, forces, cable
+
+
+def measure(state, **changes):
+    law, mesh, forces, cable = state
+    return measure_balance(law, mesh, replace(forces, **changes), cable, SCALE)
+
+
+def test_state_in_balance(state):
+    law, mesh, _, _ = state
+    balance = measure(state)
+    assert balance.relative_residual <= 1e-15
+    assert balance.friction_excess == 0.0
+    assert balance.smallest_tension == pytest.approx(0.7 * SCALE, rel=1e-15)
+    weight = mesh.area * law.gravity[0] * SCALE
+    assert balance.weight_along_slope == pytest.approx(weight, rel=1e-15)
+    assert (balance.suction_share, balance.ground_tension_share) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_force_missing_along_either_axis(state, axis):
+    _, mesh, forces, _ = state
+    on_ground = forces.on_ground.copy()
+    on_ground[axis] += 1e-3 * mesh.area  # gravity is 1: a thousandth of the weight
+    found = measure(state, on_ground=on_ground).relative_residual
+    assert found == pytest.approx(1e-3, rel=1e-9)
+
+
+def test_force_left_on_a_free_node(state):
+    _, mesh, _, _ = state
+    found = measure(state, unbalanced=1e-5 * mesh.area).relative_residual
+    assert found == pytest.approx(1e-5, rel=1e-12)
+
+
+def test_shear_beyond_friction(state):
+    """A straight upright net: normal along X, shear along Y."""
+    _, mesh, forces, _ = state
+    on_net = forces.on_net.copy()
+    on_net[1, 3] = 0.5 * on_net[0, 3] + 2e-4 * mesh.area
+    found = measure(state, on_net=on_net).friction_excess
+    assert found == pytest.approx(2e-4, rel=1e-9)
+    on_net[1, 3] = 0.5 * on_net[0, 3]
+    assert measure(state, on_net=on_net).friction_excess <= 1e-17
+
+
+def test_shear_where_the_net_does_not_press(state):
+    """Friction is not adhesion: all of it is in excess."""
+    _, mesh, forces, _ = state
+    on_net = forces.on_net.copy()
+    on_net[:, 3] = -1e-3, -1e-4
+    found = measure(state, on_net=on_net).friction_excess
+    assert found == pytest.approx(1e-4 / mesh.area, rel=1e-12)
+
+
+def test_shares_of_suction_and_of_pulling_ground(state):
+    _, _, forces, _ = state
+    on_net = forces.on_net.copy()
+    pressed = float(on_net[0, 2:].sum())
+    on_net[0, 1] = -0.1 * pressed
+    balance = measure(state, on_net=on_net, ground_normal=np.array([3.0, -1.0, 1.0]))
+    assert balance.suction_share == pytest.approx(0.1, rel=1e-12)
+    assert balance.ground_tension_share == pytest.approx(1 / 4, rel=1e-15)
+
+
+def test_ground_that_only_pulls(state):
+    balance = measure(state, ground_normal=np.array([-1.0]))
+    assert balance.ground_tension_share == math.inf
+
+
+def test_smallest_tension_is_looked_for_everywhere(state):
+    law, mesh, forces, cable = state
+    tension = np.array(cable.tension)
+    tension[1, 2] = 0.1
+    balance = measure_balance(
+        law, mesh, forces, replace(cable, tension=tension), force_scale=SCALE
+    )
+    assert balance.smallest_tension == pytest.approx(0.1 * SCALE, rel=1e-15)

@@ -1,0 +1,85 @@
+"""Forces of the snow on net and ground, and the corner that both hold."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.interface import compute_support_forces
+from netdesign.snow.flow import solve_flow
+
+GROUNDS = [("free", 0.0), ("sliding", 0.5), ("no-slip", 0.0)]
+
+
+@pytest.fixture(params=GROUNDS, ids=lambda ground: ground[0])
+def case(request, a_mesh, a_flow_law):
+    kind, slip_ratio = request.param
+    law = a_flow_law(ground=kind, slip_ratio=slip_ratio, friction=0.3)
+    mesh = a_mesh(inclination_deg=20.0, sag=0.08)
+    flow = solve_flow(law, mesh, tolerance=1e-9, max_iterations=60)
+    return law, mesh, flow.state, compute_support_forces(law, mesh, flow.state)
+
+
+def test_supports_carry_the_weight(case):
+    law, mesh, _, forces = case
+    weight = mesh.area * np.array(law.gravity)
+    carried = forces.on_net.sum(axis=1) + forces.on_ground
+    np.testing.assert_allclose(carried, weight, atol=1e-10)
+    assert forces.unbalanced <= 1e-10
+
+
+def test_signs(case):
+    """Snow pushes the net downslope and the ground down."""
+    law, _, _, forces = case
+    assert forces.on_net[0].sum() > 0.0
+    assert forces.on_ground[1] < 0.0
+    assert forces.ground_normal.sum() > 0.0
+    if law.ground == "free":
+        assert forces.on_ground[0] == 0.0
+    else:
+        assert forces.on_ground[0] > 0.0
+
+
+def test_drag_of_a_sliding_ground_is_its_integrated_shear(case):
+    law, mesh, state, forces = case
+    if law.ground == "sliding":
+        drag = (mesh.base.weights * state.base_shear).sum()
+        assert forces.on_ground[0] == pytest.approx(drag, rel=1e-14)
+
+
+def test_corner_is_shared(case):
+    """A quarter of the next midpoint; along a ground without reactions all of it."""
+    law, mesh, state, forces = case
+    quarter = forces.on_net[:, 1] / 4.0
+    assert forces.on_net[1, 0] == pytest.approx(quarter[1], rel=1e-14)
+    foot = mesh.template.net[0]
+    reaction = state.reaction[2 * foot]
+    if law.ground == "no-slip":
+        assert forces.on_net[0, 0] == pytest.approx(quarter[0], rel=1e-14)
+    else:
+        assert forces.on_net[0, 0] == pytest.approx(-reaction, rel=1e-6)
+
+
+def test_corner_carries_little(case):
+    """Its triangle is 4e-3 d wide: the choice of shares cannot matter much."""
+    _, _, _, forces = case
+    total = np.hypot(*forces.on_net.sum(axis=1))
+    assert np.hypot(*forces.on_net[:, 0]) <= 1e-2 * total
+
+
+def test_friction_on_the_net_is_not_counted_as_missing(case):
+    _, mesh, _, forces = case
+    x, y = forces.on_net[:, 1:]
+    normal_x, normal_y = mesh.net_normal[:, 1:]
+    shear = normal_x * y - normal_y * x
+    assert np.abs(shear).max() > 1e3 * forces.unbalanced
+
+
+def test_uneven_state_is_noticed(case):
+    """Stress changed in one triangle: forces stay on nodes that nothing holds."""
+    law, mesh, state, _ = case
+    stress = state.stress.copy()
+    furthest_upslope = int(np.argmin(mesh.nodes[0, mesh.template.triangles[0]]))
+    stress[furthest_upslope] += 0.01
+    faulty = compute_support_forces(law, mesh, replace(state, stress=stress))
+    assert faulty.unbalanced > 1e-5

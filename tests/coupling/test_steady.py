@@ -1,0 +1,308 @@
+"""The coupled solve: outcomes, freeboard, error. Truth: tests/verification."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling import steady
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.steady import ERROR_FLOOR, solve_steady
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow import flow
+
+COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+
+ENDS = ("foot", "head")
+
+
+def pull(end) -> np.ndarray:
+    return np.array([end.x, end.y])
+
+
+def fails_with(outcome, result, reason: str) -> None:
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is outcome
+    assert reason in result.reason
+
+
+# --- outcomes ----------------------------------------------------------------
+
+
+def test_converged(solved):
+    solution = solved(inclination_deg=30.0)
+    assert isinstance(solution, Solution)
+    assert solution.method == "steady"
+    assert solution.balance.relative_residual <= 1e-8
+    assert solution.balance.friction_excess <= 1e-8
+    assert 0.0 < solution.tension_min <= solution.head.size
+    assert solution.foot.size <= solution.tension_max
+
+
+def test_net_that_touches_the_ground(a_scene):
+    scene = a_scene(slack=0.15, inclination_deg=60.0)
+    result = solve_steady(scene, COARSE)
+    fails_with(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
+
+
+def test_net_that_folds_the_mesh(a_scene):
+    scene = a_scene(slack=0.5, inclination_deg=20.0)
+    result = solve_steady(scene, COARSE)
+    fails_with(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
+
+
+def test_too_few_rounds(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_rounds=2))
+    fails_with(Outcome.MAX_ITERATIONS, result, "the net still moves by")
+    assert "after 2 rounds" in result.reason
+
+
+def test_too_few_newton_steps(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_iterations=2))
+    fails_with(Outcome.MAX_ITERATIONS, result, "snow flow")
+
+
+def test_net_without_equilibrium(a_scene, monkeypatch):
+    def without_equilibrium(*arguments):
+        cable = solve_funicular(*arguments)
+        return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
+
+    solve_funicular = steady.solve_funicular
+    monkeypatch.setattr(steady, "solve_funicular", without_equilibrium)
+    result = solve_steady(a_scene(), COARSE)
+    fails_with(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_force_lost_between_snow_and_ground(a_scene, monkeypatch, axis):
+    """A millionth of rho g d^2 is enough to be refused."""
+
+    def lose_some(*arguments):
+        forces = compute(*arguments)
+        lost = np.zeros(2)
+        lost[axis] = 1e-6
+        return replace(forces, on_ground=forces.on_ground + lost)
+
+    compute = steady.compute_support_forces
+    monkeypatch.setattr(steady, "compute_support_forces", lose_some)
+    result = solve_steady(a_scene(), COARSE)
+    fails_with(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+
+
+def test_snow_that_sticks_beyond_its_friction(a_scene, monkeypatch):
+    """A contact that never slips: equilibrium is met, Coulomb is not."""
+
+    def never_slip(law, mesh, state):
+        return replace(state.contact, sign=np.zeros_like(state.contact.sign))
+
+    monkeypatch.setattr(flow, "_update_contact", never_slip)
+    result = solve_steady(a_scene(inclination_deg=30.0, friction_deg=5.0), COARSE)
+    fails_with(Outcome.BALANCE_VIOLATED, result, "shear beyond the friction limit")
+
+
+def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
+    """A flow whose last stress is off by a millionth."""
+
+    def disturb(*arguments, **options):
+        result = solve(*arguments, **options)
+        rng = np.random.default_rng(1)
+        noise = 1e-6 * rng.normal(size=result.state.stress.shape)
+        state = replace(result.state, stress=result.state.stress + noise)
+        return replace(result, state=state)
+
+    solve = steady.solve_flow
+    monkeypatch.setattr(steady, "solve_flow", disturb)
+    settings = replace(COARSE, shape_tolerance=1e-4)
+    result = solve_steady(a_scene(), settings)
+    fails_with(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+
+
+def test_failure_is_raised_when_asked(a_scene):
+    scene = a_scene(slack=0.15, inclination_deg=60.0)
+    with pytest.raises(SolveError, match="touch the ground") as raised:
+        solve_steady(scene, COARSE, on_failure="raise")
+    assert raised.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+@pytest.mark.xfail(
+    raises=ZeroDivisionError,
+    strict=True,
+    reason="snow without weight: relative change of a stress that is zero",
+)
+@pytest.mark.parametrize("ground", ["free", "no-slip"])
+def test_no_load_at_all(a_scene, ground):
+    """Parallel gravity on level ground: a scene that the guards let through."""
+    scene = a_scene(slope_deg=0.0, gravity="parallel", ground=ground)
+    assert isinstance(solve_steady(scene, COARSE), FailedSolution)
+
+
+def test_same_scene_twice(a_scene):
+    first, second = (solve_steady(a_scene(), COARSE) for _ in range(2))
+    assert first.foot == second.foot
+    assert first.cost == second.cost
+    np.testing.assert_array_equal(first.net_curve, second.net_curve)
+
+
+# --- geometry of the result --------------------------------------------------
+
+
+def test_net_hangs_from_foot_to_head(solved):
+    solution = solved(inclination_deg=30.0)
+    np.testing.assert_array_equal(solution.net_curve[:, 0], 0.0)
+    np.testing.assert_allclose(
+        solution.net_curve[:, -1], solution.scene.net.head, atol=1e-10
+    )
+    assert not solution.net_slides[0]
+
+
+def test_sag_is_the_distance_from_the_chord(solved):
+    """Upright net: simply X, and the mesh bulges by as much."""
+    solution = solved()
+    assert solution.sag == solution.net_curve[0].max()
+    assert solution.mesh_nodes[0].max() == pytest.approx(solution.sag, abs=1e-6)
+
+
+def test_pulls_are_along_the_net(solved):
+    """T t at the foot, -T t at the head; the end elements are 4e-3 d long or less."""
+    solution = solved(inclination_deg=30.0)
+    curve = solution.net_curve
+    for end, step in (
+        (solution.foot, curve[:, 1] - curve[:, 0]),
+        (solution.head, curve[:, -2] - curve[:, -1]),
+    ):
+        direction = step / np.hypot(*step)
+        # turned by the pressure on one small element
+        np.testing.assert_allclose(pull(end) / end.size, direction, atol=5e-3)
+
+
+def test_node_forces_add_up_to_the_pulls(solved):
+    for ground in ("free", "no-slip"):
+        solution = solved(ground=ground, friction_deg=10.0)
+        total = solution.net_forces.sum(axis=1)
+        np.testing.assert_allclose(
+            pull(solution.foot) + pull(solution.head), total, rtol=1e-10
+        )
+
+
+# --- freeboard ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_freeboard_is_straight_and_above_the_snow(solved, inclination):
+    solution = solved(inclination_deg=inclination, height_m=5.0, slack=0.02)
+    last = solution.net_curve[:, -3:]
+    assert last[1, 0] == pytest.approx(4.0, abs=1e-9)  # contact ends at the surface
+    np.testing.assert_allclose(last[:, 1], (last[:, 0] + last[:, 2]) / 2, rtol=1e-12)
+    np.testing.assert_allclose(last[:, 2], solution.scene.net.head, atol=1e-9)
+    free = last[:, 0] - last[:, 2]
+    direction = free / np.hypot(*free)
+    # no load on it: the head is pulled along it, exactly
+    np.testing.assert_allclose(
+        pull(solution.head) / solution.head.size, direction, atol=1e-9
+    )
+    assert solution.net_forces.shape[1] == solution.net_curve.shape[1] - 2
+
+
+def test_freeboard_keeps_the_unstressed_length(solved):
+    """Stretched length of the free end from its tension, of the rest from its own."""
+    solution = solved(height_m=5.0, slack=0.02)
+    net = solution.scene.net
+    free = np.hypot(*(solution.net_curve[:, -1] - solution.net_curve[:, -3]))
+    unstressed_free = free / (1.0 + solution.head.size / net.stiffness_per_m)
+    steps = np.hypot(*np.diff(solution.net_curve[:, :-2]))
+    # tension varies by some per cent along the snow: its mean stretch is known to
+    # that share of a stretch of one per cent; chords for arcs cost about 1e-4
+    stretch = 1.0 + (solution.tension_min + solution.tension_max) / (
+        2 * net.stiffness_per_m
+    )
+    length = unstressed_free + steps.sum() / stretch
+    assert length == pytest.approx(net.unstressed_length, rel=1e-3)
+
+
+def test_little_freeboard_changes_little(solved):
+    plain, raised = (
+        solved(inclination_deg=30.0),
+        solved(inclination_deg=30.0, height_m=4.0 * (1 + 1e-6)),
+    )
+    for end in ENDS:
+        np.testing.assert_allclose(
+            pull(getattr(raised, end)), pull(getattr(plain, end)), rtol=1e-5
+        )
+
+
+# --- error -------------------------------------------------------------------
+
+
+SCENES = [
+    {},
+    {"inclination_deg": 30.0},
+    {"inclination_deg": 30.0, "friction_deg": 0.0},
+    {"inclination_deg": 30.0, "friction_deg": 5.0},
+    {"inclination_deg": 30.0, "ground": "no-slip"},
+    {
+        "inclination_deg": 30.0,
+        "ground": "sliding",
+        "slip_length_m": 2.0,
+        "friction_deg": 5.0,
+    },
+]
+LOOSE = [
+    {"ground": "sliding", "slip_length_m": 2.0, "friction_deg": 5.0},
+    {"inclination_deg": 20.0, "slack": 0.1},
+    {"inclination_deg": 20.0, "slack": 0.1, "friction_deg": 10.0, "height_m": 4.8},
+]
+BEYOND = pytest.mark.xfail(
+    strict=True,
+    reason="on the two coarsest meshes the true error, some 0.15 %, is 1.2 to 1.4 "
+    "times the stated one",
+)
+
+
+def true_over_stated(solved, first_level, scene):
+    """Of both pulls, the finest mesh being four or eight times as fine."""
+    coarse, fine = solved(first_level, **scene), solved(2, **scene)
+    return max(
+        np.hypot(*(pull(getattr(coarse, end)) - pull(getattr(fine, end))))
+        / getattr(coarse, end).error
+        for end in ENDS
+    )
+
+
+@pytest.mark.parametrize(
+    "scene", SCENES + [pytest.param(scene, marks=BEYOND) for scene in LOOSE], ids=str
+)
+def test_stated_error_holds(solved, scene):
+    assert true_over_stated(solved, 0, scene) <= 1.0
+
+
+@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
+def test_stated_error_holds_on_the_next_mesh(solved, scene):
+    assert true_over_stated(solved, 1, scene) <= 1.0
+
+
+def test_error_is_never_below_its_floor(solved):
+    solution = solved(ground="no-slip")
+    for end in ENDS:
+        found = getattr(solution, end)
+        assert found.error >= ERROR_FLOOR * found.size
+
+
+def test_mesh_is_refined_until_accurate(a_scene):
+    scene = a_scene(inclination_deg=30.0)
+    loose = solve_steady(scene, SolverSettings(accuracy=0.01))
+    tight = solve_steady(scene, SolverSettings(accuracy=1e-3))
+    assert loose.cost.elements < tight.cost.elements
+    for solution, accuracy in ((loose, 0.01), (tight, 1e-3)):
+        for end in ENDS:
+            found = getattr(solution, end)
+            assert found.error <= accuracy * found.size
+
+
+def test_accuracy_that_is_not_reached_is_said(a_scene):
+    """Below the floor of any claim: all meshes are used, the error stays stated."""
+    settings = SolverSettings(accuracy=1e-4, levels=MESH_LEVELS[:3])
+    solution = solve_steady(a_scene(), settings)
+    assert isinstance(solution, Solution)
+    assert solution.foot.error > 1e-4 * solution.foot.size

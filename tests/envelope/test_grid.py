@@ -1,0 +1,71 @@
+import math
+
+import pytest
+
+from netdesign.envelope.grid import Case, Interval, Ranges, build_cases
+from netdesign.errors import ModelError
+
+
+def test_samples_are_equally_spaced_and_hold_both_ends_exactly():
+    samples = Interval(low=0.1, high=0.7, count=4).samples
+    assert samples == pytest.approx((0.1, 0.3, 0.5, 0.7), rel=1e-15)
+    assert (samples[0], samples[-1]) == (0.1, 0.7)
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_a_single_value_is_sampled_once_whatever_the_count(count):
+    assert Interval(low=0.5, high=0.5, count=count).samples == (0.5,)
+
+
+def test_a_range_needs_two_samples():
+    assert Interval(low=0.0, high=1.0, count=2).samples == (0.0, 1.0)
+    with pytest.raises(ModelError, match="at least 2 are needed"):
+        Interval(low=0.0, high=1.0, count=1)
+
+
+@pytest.mark.parametrize("count", [0, -1])
+def test_no_sample_at_all_is_refused(count):
+    with pytest.raises(ModelError, match=f"with {count} samples"):
+        Interval(low=0.5, high=0.5, count=count)
+
+
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [
+        (1.0, math.nextafter(1.0, 0.0)),
+        (math.nan, 1.0),
+        (0.0, math.nan),
+        (0.0, math.inf),
+        (-math.inf, 0.0),
+        (math.inf, math.inf),
+    ],
+)
+def test_reversed_and_endless_ranges_are_refused(low, high):
+    with pytest.raises(ModelError, match=r"from a finite low end to a finite high"):
+        Interval(low=low, high=high, count=3)
+
+
+def test_cases_are_the_full_grid_with_the_inclination_fastest():
+    ranges = Ranges(
+        density=Interval(low=250.0, high=450.0, count=3),
+        friction_angle=Interval(low=0.2, high=0.4, count=2),
+        inclination=Interval(low=0.5, high=0.6, count=2),
+    )
+    cases = build_cases(ranges)
+    assert cases == tuple(
+        Case(density=d, friction_angle=f, inclination=i)
+        for d in (250.0, 350.0, 450.0)
+        for f in (0.2, 0.4)
+        for i in (0.5, 0.6)
+    )
+
+
+def test_cases_come_in_ascending_order():
+    ranges = Ranges(
+        density=Interval(low=250.0, high=450.0, count=2),
+        friction_angle=Interval(low=0.2, high=0.4, count=3),
+        inclination=Interval(low=0.5, high=0.5, count=1),
+    )
+    cases = build_cases(ranges)
+    assert list(cases) == sorted(set(cases))
+    assert len(cases) == 2 * 3 * 1

@@ -1,0 +1,234 @@
+import math
+import multiprocessing
+import os
+import pickle
+from dataclasses import fields
+from itertools import product
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import Scene
+from netdesign.envelope import run
+from netdesign.envelope.run import run_cases, solve_case
+from netdesign.outcome import Outcome
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.layout import SupportLayout, place_support
+
+MEMBERS = {
+    "foot_anchor",
+    "uphill_guy",
+    "uphill_anchor",
+    "downhill_guy",
+    "downhill_anchor",
+    "post",
+}
+
+
+class DyingScene(Scene):
+    """Takes its whole process down as soon as somebody solves it."""
+
+    @property
+    def flow_law(self):
+        os._exit(9)
+
+
+class FaultyScene(Scene):
+    """Raises what no case may raise: a bug."""
+
+    @property
+    def flow_law(self):
+        message = "spoilt"
+        raise ZeroDivisionError(message)
+
+
+def sizes(result):
+    return {member: band.value for member, band in result.member_forces.items()}
+
+
+def densities(results):
+    return [result.case.density for result in results]
+
+
+@pytest.fixture
+def threads_asked_for(monkeypatch):
+    """Thread counts as a user may have set them."""
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    monkeypatch.delenv("MKL_NUM_THREADS", raising=False)
+
+
+def test_a_solved_case_names_every_member_with_its_band(task):
+    result = solve_case(task(300.0))
+    assert result.is_converged
+    assert result.reason == ""
+    assert set(result.member_forces) == MEMBERS
+    for band in result.member_forces.values():
+        assert 0.0 <= band.low <= band.value <= band.high
+    assert sizes(result) == result.anchors.member_forces
+    foot = result.member_forces["foot_anchor"]
+    assert foot.low < foot.value < foot.high
+
+
+def test_foot_force_is_the_net_tension_over_the_post_spacing(task):
+    one = task(300.0)
+    result = solve_case(one)
+    expected = result.solution.foot.size * one.layout.post_spacing
+    assert sizes(result)["foot_anchor"] == pytest.approx(expected, rel=1e-12)
+
+
+def forces_of_moved_pulls(one, solution, foot_angle, head_angle):
+    """Member forces with each end pull moved by its error in some direction."""
+    foot, head = (
+        (
+            pull.x + pull.error * math.cos(angle),
+            pull.y + pull.error * math.sin(angle),
+        )
+        for pull, angle in ((solution.foot, foot_angle), (solution.head, head_angle))
+    )
+    return compute_anchor_forces(
+        place_support(one.layout, tuple(solution.scene.net.head)),
+        foot_pull_per_m=foot,
+        head_pull_per_m=head,
+        post_spacing=one.layout.post_spacing,
+    ).member_forces
+
+
+def assert_bands_hold_moved_pulls(one):
+    """Each end pull goes round a circle of its error, whatever the other does."""
+    result = solve_case(one)
+    angles = np.linspace(0.0, 2.0 * math.pi, 16, endpoint=False)
+    for foot_angle, head_angle in product(angles, angles):
+        moved = forces_of_moved_pulls(one, result.solution, foot_angle, head_angle)
+        for member, force in moved.items():
+            band = result.member_forces[member]
+            rounding = 1e-12 * band.high
+            assert band.low - rounding <= force <= band.high + rounding, member
+
+
+def test_bands_hold_every_pull_within_its_error(task):
+    assert_bands_hold_moved_pulls(task(300.0))
+
+
+def test_bands_hold_where_foot_and_guy_share_an_anchor(task):
+    layout = SupportLayout(
+        post_spacing=3.5,
+        post_tilt=math.radians(20.0),
+        uphill_anchor_distance=0.0,
+        downhill_anchor_distance=3.0,
+    )
+    assert_bands_hold_moved_pulls(task(300.0, layout=layout))
+
+
+def test_results_come_in_the_order_of_the_tasks(task):
+    wanted = [400.0, 250.0, 325.0]
+    seen = []
+    results = run_cases([task(density) for density in wanted], on_done=seen.append)
+    assert densities(results) == wanted
+    assert seen == results
+
+
+def test_a_refused_scene_is_a_named_failure_not_a_gap(task):
+    """Ice has no creep law of snow: the scene cannot even be built."""
+    refused = task(917.0)
+    assert refused.scene is None
+    results = run_cases([task(300.0), refused, task(350.0)])
+    assert densities(results) == [300.0, 917.0, 350.0]
+    outcomes = [result.outcome for result in results]
+    assert outcomes == [
+        Outcome.CONVERGED,
+        Outcome.OUT_OF_VALIDITY,
+        Outcome.CONVERGED,
+    ]
+    assert "snow density = 917.0" in results[1].reason
+    assert results[1].member_forces == {}
+    assert results[1].solution is None
+
+
+def test_a_support_that_cannot_stand_fails_by_name(task):
+    """Post leaning far over, guys at the net's foot and the post's base."""
+    layout = SupportLayout(
+        post_spacing=3.5,
+        post_tilt=math.radians(-30.0),
+        uphill_anchor_distance=0.0,
+        downhill_anchor_distance=0.0,
+    )
+    result = solve_case(task(300.0, layout=layout))
+    assert result.outcome is Outcome.NO_EQUILIBRIUM
+    assert "no equilibrium" in result.reason
+    assert result.member_forces == {}
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_bug_in_one_case_spares_the_others(task, jobs):
+    tasks = [task(250.0), task(300.0, kind=FaultyScene), task(350.0)]
+    results = run_cases(tasks, jobs=jobs)
+    assert densities(results) == [250.0, 300.0, 350.0]
+    assert [result.is_converged for result in results] == [True, False, True]
+    assert results[1].outcome is Outcome.WORKER_FAILED
+    assert results[1].reason == "ZeroDivisionError: spoilt"
+
+
+def test_one_process_or_two_give_the_same_results(task, threads_asked_for):
+    wanted = [250.0, 917.0, 300.0, 400.0]
+    alone = run_cases([task(density) for density in wanted], jobs=1)
+    seen = []
+    shared = run_cases(
+        [task(density) for density in wanted], jobs=2, on_done=seen.append
+    )
+    assert sorted(densities(seen)) == sorted(wanted)
+    for one, other in zip(alone, shared, strict=True):
+        assert one.case == other.case
+        assert (one.outcome, one.reason) == (other.outcome, other.reason)
+        # threads may add in another order; nothing else may differ
+        assert sizes(other) == pytest.approx(sizes(one), rel=1e-10, abs=1e-6)
+    assert os.environ["OMP_NUM_THREADS"] == "3"
+    assert "MKL_NUM_THREADS" not in os.environ
+
+
+def test_a_worker_that_dies_leaves_named_failures(task):
+    tasks = [task(250.0), task(300.0, kind=DyingScene), task(350.0), task(400.0)]
+    results = run_cases(tasks, jobs=2)
+    assert densities(results) == [250.0, 300.0, 350.0, 400.0]
+    assert results[1].outcome is Outcome.WORKER_FAILED
+    for result in results:
+        if not result.is_converged:  # others may have been lost with the pool
+            assert result.outcome is Outcome.WORKER_FAILED
+            assert result.reason == "a worker process ended abruptly"
+            assert result.member_forces == {}
+    assert multiprocessing.active_children() == []
+
+
+def test_an_interrupt_leaves_no_process_behind(task):
+    def interrupt(_):
+        raise KeyboardInterrupt
+
+    tasks = [task(250.0 + 10.0 * k) for k in range(6)]
+    with pytest.raises(KeyboardInterrupt):
+        run_cases(tasks, jobs=2, on_done=interrupt)
+    for child in multiprocessing.active_children():
+        child.join(timeout=60.0)  # each ends its case at most
+    assert multiprocessing.active_children() == []
+
+
+def test_an_interrupt_is_no_failed_case(task, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run, "solve_steady", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_cases([task(250.0)])
+
+
+def test_no_task_gives_no_result():
+    assert run_cases([], jobs=2) == []
+
+
+def test_tasks_and_results_survive_the_way_to_a_worker_and_back(task):
+    one = task(300.0)
+    copy = pickle.loads(pickle.dumps(one))
+    assert copy == one
+    result = solve_case(one)
+    back = pickle.loads(pickle.dumps(result))
+    assert back.member_forces == result.member_forces
+    assert {f.name for f in fields(back)} == {f.name for f in fields(result)}
+    assert np.array_equal(back.solution.net_curve, result.solution.net_curve)

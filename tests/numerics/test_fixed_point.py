@@ -1,0 +1,72 @@
+"""Anderson mixing on maps whose fixed points are known."""
+
+import numpy as np
+import pytest
+
+from netdesign.numerics.fixed_point import mix_anderson
+
+SHIFT = np.array([1.0, -2.0, 0.5])
+
+
+def affine_map(matrix):
+    return lambda point: matrix @ point + SHIFT
+
+
+def iterate(image_of, rounds: int, depth: int = 12):
+    points, images = [], []
+    point = np.zeros(3)
+    for _ in range(rounds):
+        points.append(point)
+        images.append(image_of(point))
+        point = mix_anderson(points, images, depth)
+    return point
+
+
+def test_first_round_is_the_plain_step():
+    points, images = [np.zeros(3)], [SHIFT]
+    np.testing.assert_array_equal(mix_anderson(points, images), SHIFT)
+
+
+def test_depth_one_is_the_plain_iteration():
+    matrix = np.diag([0.5, -0.3, 0.1])
+    point = np.zeros(3)
+    for _ in range(6):
+        point = affine_map(matrix)(point)
+    np.testing.assert_allclose(iterate(affine_map(matrix), 6, depth=1), point)
+
+
+@pytest.mark.parametrize("factor", [0.9, 3.0])
+def test_affine_map_ends_in_one_round_more_than_unknowns(factor):
+    """Equivalent to GMRES: contracting or not, three unknowns need four rounds."""
+    rng = np.random.default_rng(4)
+    matrix = factor * rng.normal(size=(3, 3))
+    fixed_point = np.linalg.solve(np.eye(3) - matrix, SHIFT)
+    # differences of iterates are conditioned like the square of the matrix
+    np.testing.assert_allclose(iterate(affine_map(matrix), 4), fixed_point, rtol=1e-8)
+
+
+def test_secant_of_a_scalar():
+    """With two entries: the zero of the line through both residuals."""
+    x0, x1, g0, g1 = 1.0, 2.0, 3.0, 2.5
+    r0, r1 = g0 - x0, g1 - x1
+    expected = g1 - (g1 - g0) * r1 / (r1 - r0)
+    mixed = mix_anderson(
+        [np.array([x0]), np.array([x1])], [np.array([g0]), np.array([g1])]
+    )
+    assert mixed[0] == pytest.approx(expected, rel=1e-14)
+
+
+def test_history_beyond_the_depth_is_forgotten():
+    rng = np.random.default_rng(5)
+    points, images = list(rng.normal(size=(2, 6, 3)))
+    short = mix_anderson(list(points[-3:]), list(images[-3:]), depth=3)
+    np.testing.assert_array_equal(
+        mix_anderson(list(points), list(images), depth=3), short
+    )
+
+
+def test_two_equal_iterates_do_not_break_it():
+    """Without a difference to learn from it takes the plain step."""
+    points = [np.zeros(3), np.zeros(3)]
+    images = [SHIFT, SHIFT]
+    np.testing.assert_allclose(mix_anderson(points, images), SHIFT)

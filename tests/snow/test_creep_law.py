@@ -1,0 +1,109 @@
+"""Coefficients of the creep law. Its closed forms: tests/verification/test_slab.py."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.snow.creep_law import (
+    BOUTILLIER_2004,
+    CREEP_LAWS,
+    compute_bulk_factor,
+    compute_shear_factor,
+)
+
+LAW = BOUTILLIER_2004
+
+
+# standards-facts.md 7.4, computed there from the printed coefficients; four digits.
+@pytest.mark.parametrize(
+    ("density", "shear", "bulk"),
+    [
+        (0.25, 7.442e4, 6.768e4),
+        (0.30, 2.842e4, 2.196e4),
+        (0.40, 4146.0, 2312.0),
+        (0.50, 604.9, 243.5),
+        (0.60, 88.23, 25.64),
+    ],
+)
+def test_low_density_fit(density, shear, bulk):
+    assert compute_shear_factor(LAW, density) == pytest.approx(shear, rel=2e-4)
+    assert compute_bulk_factor(LAW, density) == pytest.approx(bulk, rel=2e-4)
+
+
+def test_dense_branch_is_duva_and_crow():
+    """(N4) at D = 0.9, n = 3: 2n/(n+1) = 3/2, (1-D)^(1/n) = 0.1^(1/3)."""
+    void = 0.1 ** (1 / 3)
+    assert compute_shear_factor(LAW, 0.9) == pytest.approx(
+        (1 + 0.2 / 3) / 0.9**1.5, rel=1e-14
+    )
+    assert compute_bulk_factor(LAW, 0.9) == pytest.approx(
+        0.75 * (void / (3 * (1 - void))) ** 1.5, rel=1e-13
+    )
+
+
+def test_branches_meet():
+    """The fit was made to: physics.md, section 2 (a 1.549 / 1.5455)."""
+    below = math.nextafter(LAW.branch, 0.0)
+    for compute in (compute_shear_factor, compute_bulk_factor):
+        step = compute(LAW, below) / compute(LAW, LAW.branch) - 1.0
+        assert abs(step) < 3e-3  # of a fit to two decimals
+
+
+def test_branch_itself_is_dense():
+    expected = (1 + 2 * 0.19 / 3) / 0.81**1.5
+    assert compute_shear_factor(LAW, 0.81) == pytest.approx(expected, rel=1e-14)
+
+
+def test_ice_is_the_limit():
+    """a = 1, b = 0: incompressible."""
+    almost = 1.0 - 1e-12
+    assert compute_shear_factor(LAW, almost) == pytest.approx(1.0, abs=1e-11)
+    # b ~ (3/4) ((1-D)^(1/3) / 3)^(3/2)
+    expected = 0.75 * (1e-4 / 3) ** 1.5
+    assert compute_bulk_factor(LAW, almost) == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
+def test_uniaxial_compression_does_not_shrink_the_section(density):
+    """3 a >= 2 b: standards-facts.md 7.4; the fit fulfils it above D = 0.097."""
+    shear, bulk = compute_shear_factor(LAW, density), compute_bulk_factor(LAW, density)
+    assert 3 * shear >= 2 * bulk
+
+
+def test_both_fall_with_density():
+    densities = [0.05 * k for k in range(1, 20)]
+    for compute in (compute_shear_factor, compute_bulk_factor):
+        values = [compute(LAW, density) for density in densities]
+        assert values == sorted(values, reverse=True)
+
+
+@pytest.mark.parametrize("density", [0.0, -0.1, 1.0, 1.1, math.nan, math.inf])
+@pytest.mark.parametrize("compute", [compute_shear_factor, compute_bulk_factor])
+def test_density_that_is_not_snow(compute, density):
+    with pytest.raises(ModelError, match=r"relative density = .* below 917 kg/m3"):
+        compute(LAW, density)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 3.0, 10.0])
+def test_exponent_is_accepted(exponent):
+    assert replace(LAW, exponent=exponent).exponent == exponent
+
+
+@pytest.mark.parametrize(
+    "exponent", [math.nextafter(1.0, 0.0), 10.1, math.nan, math.inf]
+)
+def test_exponent_is_refused(exponent):
+    with pytest.raises(ModelError, match="creep exponent"):
+        replace(LAW, exponent=exponent)
+
+
+@pytest.mark.parametrize("branch", [0.0, math.nan, math.inf])
+def test_branch_is_refused(branch):
+    with pytest.raises(ModelError, match="branch density"):
+        replace(LAW, branch=branch)
+
+
+def test_laws_go_by_their_own_names():
+    assert all(name == law.name for name, law in CREEP_LAWS.items())

@@ -1,0 +1,158 @@
+"""Reference mesh and its placing against a net's curve."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.errors import ModelError
+from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+
+COARSE = MESH_LEVELS[0]
+ASPECTS = [0.25, 0.3, 0.7, 1.0, 2.5, 5.0, 20.0]
+
+
+def areas(nodes, triangles):
+    (x0, y0), (x1, y1), (x2, y2) = (nodes[:, triangles[k]] for k in range(3))
+    return ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2
+
+
+@pytest.mark.parametrize("size", MESH_LEVELS)
+@pytest.mark.parametrize("aspect", ASPECTS)
+def test_triangles_fill_the_rectangle(aspect, size):
+    template = build_template(aspect, size)
+    sizes = np.abs(areas(template.nodes, template.triangles))
+    assert sizes.min() > 0.0
+    assert sizes.sum() == pytest.approx(aspect, rel=1e-12)
+    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
+    # Euler's formula for a disc: vertices - edges + triangles = 1
+    assert n_vertices - template.edges.shape[1] + template.triangles.shape[1] == 1
+
+
+@pytest.mark.parametrize("size", MESH_LEVELS)
+def test_net_and_ground_are_chains_from_the_foot(size):
+    template = build_template(5.0, size)
+    for chain, axis in ((template.net, 1), (template.ground, 0)):
+        places = template.nodes[:, chain]
+        assert places[axis, 0] == 0.0
+        assert np.abs(places[1 - axis]).max() == 0.0
+        assert (np.diff(places[axis]) > 0.0).all()
+        # vertices and midpoints alternate
+        middles = (places[axis, :-2:2] + places[axis, 2::2]) / 2
+        np.testing.assert_allclose(places[axis, 1::2], middles, rtol=1e-14)
+    assert template.net[0] == template.ground[0]
+    assert template.net_fractions[-1] == 1.0
+    assert template.nodes[0, template.ground[-1]] == 5.0
+
+
+@pytest.mark.parametrize("size", MESH_LEVELS)
+def test_smallest_edges_stand_at_both_ends_of_the_net(size):
+    vertices = build_template(5.0, size).net_fractions[::2]
+    assert vertices[1] == pytest.approx(size.corner, rel=1e-9)
+    assert 1.0 - vertices[-2] == pytest.approx(size.corner, rel=1e-9)
+    assert np.diff(vertices).max() <= 2.0 * size.net_spacing
+
+
+def test_midpoints_follow_the_vertices():
+    template = build_template(5.0, COARSE)
+    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
+    middles = template.nodes[:, template.edges].mean(axis=1)
+    np.testing.assert_allclose(template.nodes[:, n_vertices:], middles, atol=1e-15)
+
+
+def test_template_is_shared_and_read_only():
+    template = build_template(5.0, COARSE)
+    assert build_template(5.0, COARSE) is template
+    with pytest.raises(ValueError, match="read-only"):
+        template.nodes[0, 0] = 1.0
+
+
+def test_straight_net_normal_to_the_slope_mirrors_the_reference():
+    """Distance upslope becomes -X."""
+    template = build_template(5.0, COARSE)
+    curve = np.array([np.zeros_like(template.net_fractions), template.net_fractions])
+    placed = place_nodes(template, curve)
+    np.testing.assert_allclose(placed, [[-1.0], [1.0]] * template.nodes, atol=1e-15)
+
+
+def test_placing_keeps_ground_surface_and_far_end():
+    template = build_template(5.0, COARSE)
+    fractions = template.net_fractions
+    curve = np.array([0.6 * fractions + 0.2 * fractions * (1 - fractions), fractions])
+    placed = place_nodes(template, curve)
+    xi, eta = template.nodes
+    np.testing.assert_array_equal(placed[:, template.net], curve)
+    np.testing.assert_allclose(placed[1, eta == 0.0], 0.0, atol=1e-15)
+    np.testing.assert_allclose(placed[1, eta == 1.0], 1.0, rtol=1e-15)
+    far = xi >= 3.0
+    np.testing.assert_allclose(placed[0, far], -xi[far], rtol=1e-14)
+
+
+def test_only_edges_on_the_net_are_curved():
+    template = build_template(5.0, COARSE)
+    fractions = template.net_fractions
+    curve = np.array([fractions * (1 - fractions), fractions])
+    placed = place_nodes(template, curve)
+    n_vertices = template.nodes.shape[1] - template.edges.shape[1]
+    bow = np.abs(placed[:, n_vertices:] - placed[:, template.edges].mean(axis=1))
+    curved = np.flatnonzero(bow.max(axis=0) > 1e-12) + n_vertices
+    assert set(curved) <= set(template.net[1::2])
+    assert curved.size > 0
+
+
+@pytest.mark.parametrize("aspect", [0.25, 200.0])
+def test_bounds_of_the_aspect_are_accepted(aspect):
+    assert build_template(aspect, COARSE).aspect == aspect
+
+
+@pytest.mark.parametrize(
+    "aspect",
+    [math.nextafter(0.25, 0.0), math.nextafter(200.0, 999.0), math.nan, math.inf],
+)
+def test_aspect_is_refused(aspect):
+    with pytest.raises(ModelError, match="upslope length over thickness"):
+        build_template(aspect, COARSE)
+
+
+SOUND = {"net_spacing": 0.2, "corner": 0.01, "sectors": 2, "upslope_spacing": 1.0}
+
+SIZES_ACCEPTED = [
+    {"net_spacing": 0.34},
+    {"net_spacing": 1e-3, "corner": 1e-3},
+    {"corner": 1e-9},
+    {"corner": 0.2},
+    {"sectors": 1},
+    {"sectors": 64},
+    {"upslope_spacing": 1e-2},
+    {"upslope_spacing": 10.0},
+]
+
+
+@pytest.mark.parametrize("changes", SIZES_ACCEPTED, ids=str)
+def test_bounds_of_sizes_are_accepted(changes):
+    MeshSize(**{**SOUND, **changes})
+
+
+SIZES_REFUSED = [
+    ("net_spacing", math.nextafter(0.34, 1.0), "net spacing"),
+    ("net_spacing", 0.9e-3, "net spacing"),
+    ("corner", 0.0, "corner size"),
+    ("corner", 0.9e-9, "corner size"),
+    ("corner", math.nextafter(0.2, 1.0), "corner size"),
+    ("sectors", 0, "sectors"),
+    ("sectors", 65, "sectors"),
+    ("upslope_spacing", 0.9e-2, "upslope spacing"),
+    ("upslope_spacing", 10.1, "upslope spacing"),
+]
+NONFINITE = [
+    (field, value, field.split("_")[0])
+    for field in SOUND
+    for value in (math.nan, math.inf)
+]
+
+
+@pytest.mark.parametrize(("field", "value", "name"), SIZES_REFUSED + NONFINITE)
+def test_sizes_are_refused(field, value, name):
+    with pytest.raises(ModelError, match=name):
+        MeshSize(**{**SOUND, field: value})

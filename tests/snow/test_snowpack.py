@@ -1,0 +1,102 @@
+"""Snowpack: thickness against height, direction of gravity, guards."""
+
+import math
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.snow.snowpack import (
+    GRAVITY,
+    STEEPEST_SLOPE,
+    Snowpack,
+    compute_thickness,
+)
+
+SOUND = {
+    "slope_angle": math.radians(30.0),
+    "thickness": 2.0,
+    "upslope_length": 10.0,
+    "density": 300.0,
+}
+
+
+def a_pack(**changes) -> Snowpack:
+    return Snowpack(**{**SOUND, **changes})
+
+
+def test_gravity_points_downslope_and_into_the_ground():
+    x, y = a_pack().gravity_direction
+    assert x == pytest.approx(0.5, rel=1e-15)
+    assert y == pytest.approx(-math.sqrt(3) / 2, rel=1e-15)
+
+
+def test_parallel_gravity_has_no_normal_part():
+    assert a_pack(gravity="parallel").gravity_direction == (
+        pytest.approx(0.5, rel=1e-15),
+        0.0,
+    )
+
+
+def test_level_ground():
+    assert a_pack(slope_angle=0.0).gravity_direction == (0.0, -1.0)
+
+
+def test_scales():
+    assert a_pack().relative_density == pytest.approx(300 / 917, rel=1e-15)
+    assert a_pack().stress_scale == pytest.approx(300 * GRAVITY * 2, rel=1e-15)
+
+
+def test_thickness_is_less_than_vertical_height():
+    """d = H cos psi: 60 degrees halve it."""
+    assert compute_thickness(3.0, math.pi / 3) == pytest.approx(1.5, rel=1e-15)
+    assert compute_thickness(3.0, 0.0) == 3.0
+
+
+ACCEPTED = [
+    ("slope_angle", 0.0),
+    ("slope_angle", STEEPEST_SLOPE),
+    ("density", 1e-9),
+    ("density", math.nextafter(917.0, 0.0)),
+    ("gravity", "full"),
+    ("gravity", "parallel"),
+]
+
+
+@pytest.mark.parametrize(("field", "value"), ACCEPTED)
+def test_bounds_are_accepted(field, value):
+    assert getattr(a_pack(**{field: value}), field) == value
+
+
+REFUSED = [
+    ("slope_angle", -1e-12, "slope angle"),
+    ("slope_angle", math.nextafter(STEEPEST_SLOPE, 2.0), "slope angle"),
+    ("slope_angle", 30.0, "slope angle"),  # degrees taken for radians
+    ("thickness", 0.0, "snow thickness"),
+    ("thickness", -2.0, "snow thickness"),
+    ("upslope_length", 0.0, "upslope length"),
+    ("density", 0.0, "snow density"),
+    ("density", 917.0, "snow density"),
+    ("gravity", "normal", "gravity mode"),
+]
+
+
+@pytest.mark.parametrize(("field", "value", "name"), REFUSED)
+def test_beyond_the_bounds_is_refused(field, value, name):
+    with pytest.raises(ModelError, match=f"{name} = .*must"):
+        a_pack(**{field: value})
+
+
+@pytest.mark.parametrize("field", SOUND)
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_nonfinite_is_refused(field, value):
+    with pytest.raises(ModelError, match=str(value)):
+        a_pack(**{field: value})
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [(0.0, 0.5), (math.nan, 0.5), (1.0, -0.1), (1.0, math.nan), (1.0, 30.0)],
+)
+def test_thickness_refuses(arguments):
+    with pytest.raises(ModelError, match="must"):
+        compute_thickness(*arguments)

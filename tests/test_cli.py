@@ -1,0 +1,695 @@
+"""The command line in real processes: exit codes, streams, files.
+
+One run of a tiny site feeds most tests; the rest starts only what it needs.
+"""
+
+import copy
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from netdesign import __version__, cli
+from netdesign.resources import find_resource
+from netdesign.site.reader import read_site
+from netdesign.site.template import load_example
+
+PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
+PROFILE = "nf-p-95-304-style"
+QUICK = ("--accuracy", "0.1", "--jobs", "1")
+
+# One net row; two densities, one friction angle, one inclination.
+SHEETS = {
+    "Nets": [
+        [
+            "id",
+            "slope angle [deg]",
+            "snow thickness [m]",
+            "upslope length [m]",
+            "ground law",
+            "net height [m]",
+            "net stiffness [kN/m]",
+            "post spacing [m]",
+            "foot anchor",
+            "uphill anchor",
+            "downhill anchor",
+            "uphill guy",
+            "downhill guy",
+            "post",
+        ],
+        ["R1", 38, 2.5, 6, "free", 2.5, 8000, 3, *["A1"] * 3, *["G1"] * 2, "P1"],
+    ],
+    "Ranges": [
+        ["quantity", "low", "high", "samples"],
+        ["density [kg/m3]", 270, 400, 2],
+        ["friction angle [deg]", 30, 30, 1],
+        ["net inclination [deg]", 30, 30, 1],
+    ],
+    "Anchors": [
+        ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],
+        ["A1", 4000, 3000, "tested"],
+    ],
+    "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 2500]],
+    "Posts": [["id", "compression resistance [kN]"], ["P1", 3800]],
+}
+
+SCENE = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+[net]
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+[solve]
+accuracy = 0.1
+"""
+
+
+def run(*arguments, cwd, program=PROGRAM, stdout=subprocess.PIPE, **environment):
+    return subprocess.run(
+        [*program, *(str(argument) for argument in arguments)],
+        cwd=cwd,
+        env={**os.environ, "COLUMNS": "100", **environment},
+        stdin=subprocess.DEVNULL,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
+def spoilt_program(preparation):
+    """The same program in a fresh interpreter, after some lines of Python."""
+    return (sys.executable, "-c", f"{preparation}\nimport netdesign.cli as c\nc.main()")
+
+
+def write_site(path, edit=None):
+    """Workbook of the tiny site; ``edit`` may change its sheets before."""
+    sheets = copy.deepcopy(SHEETS)
+    if edit:
+        edit(sheets)
+    workbook = openpyxl.Workbook()
+    workbook.remove(workbook.active)
+    for name, rows in sheets.items():
+        sheet = workbook.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+    workbook.save(path)
+    workbook.close()
+    return path
+
+
+def listing(folder):
+    return {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory):
+    """Folder with the tiny site, checked once into ``out``."""
+    folder = tmp_path_factory.mktemp("home")
+    write_site(folder / "site.xlsx")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def checked(home):
+    return run(
+        *("check", "site.xlsx", "--out", "out", *QUICK),
+        cwd=home,
+        SOURCE_DATE_EPOCH="86400",
+    )
+
+
+@pytest.fixture(scope="module")
+def study(home, checked):
+    return json.loads((home / "out" / "study.json").read_text(encoding="utf-8"))
+
+
+# --- check: verdicts ---------------------------------------------------------------
+
+
+def test_a_pass_ends_with_0(checked, study):
+    assert checked.returncode == 0, checked.stderr
+    assert study["verdict"] == "pass"
+    assert "PASS" in checked.stdout.upper()
+
+
+def test_a_fail_ends_with_1(tmp_path):
+    def weaken(sheets):
+        sheets["Anchors"][1][1:3] = [2, 2]
+
+    write_site(tmp_path / "site.xlsx", weaken)
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 1, result.stderr
+    assert json.loads(result.stdout)["verdict"] == "fail"
+
+
+def test_a_missing_resistance_ends_with_4(tmp_path):
+    def forget(sheets):
+        sheets["Anchors"][1][2:4] = [None, None]
+
+    write_site(tmp_path / "site.xlsx", forget)
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 4, result.stderr
+    assert json.loads(result.stdout)["verdict"] == "not_proven"
+
+
+def test_a_net_overtopped_by_snow_ends_with_4_and_says_why(tmp_path):
+    def bury(sheets):
+        sheets["Nets"][1][5] = 2.4
+
+    write_site(tmp_path / "site.xlsx", bury)
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 4, result.stderr
+    (row,) = json.loads(result.stdout)["rows"]
+    assert {case["outcome"] for case in row["cases"]} == {"out_of_validity"}
+    assert "overtops the net" in row["reasons"][0]
+
+
+# --- check: outputs ----------------------------------------------------------------
+
+
+def test_outputs_are_in_their_folder_and_nothing_else_is(home, checked):
+    outputs = {path.name for path in (home / "out").iterdir()}
+    assert outputs == {"study.json", "report.html", "report.xlsx"}
+    for name in outputs:
+        assert f"wrote {Path('out') / name}" in checked.stderr
+
+
+def test_progress_and_messages_go_to_stderr(checked):
+    assert "2 of 2 cases" in checked.stderr
+    assert "of 2 cases" not in checked.stdout
+    assert "wrote" not in checked.stdout
+
+
+def test_study_says_how_it_was_made(study):
+    provenance = study["provenance"]
+    assert provenance["version"] == __version__
+    assert provenance["command"].startswith("netdesign check site.xlsx --out out")
+    assert provenance["started"] == "1970-01-02T00:00:00+00:00"
+    assert provenance["site_file"] == "site.xlsx"
+    assert provenance["settings"]["accuracy"] == "0.1"
+
+
+def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
+    write_site(tmp_path / "site.xlsx")
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert listing(tmp_path) == {"site.xlsx"}
+    assert "2 of 2 cases" in result.stderr
+    for part in ("verdict", "rows", "profile", "range_inputs", "notes"):
+        assert document[part] == study[part]
+
+
+def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
+    write_site(tmp_path / "site.xlsx")
+    options = ("--accuracy", "0.1", "--jobs", "2", "--quiet", "--no-html")
+    result = run(
+        *("check", "site.xlsx", "--out", "o", "--no-excel", *options), cwd=tmp_path
+    )
+    assert result.returncode == 0, result.stderr
+    assert result.stderr == ""
+    assert listing(tmp_path) == {"site.xlsx", str(Path("o") / "study.json")}
+    other = json.loads((tmp_path / "o" / "study.json").read_text(encoding="utf-8"))
+    for row, expected in zip(other["rows"], study["rows"], strict=True):
+        for case, known in zip(row["cases"], expected["cases"], strict=True):
+            assert case["case"] == known["case"]
+            # threads may add in another order
+            assert case["foot_anchor_kN"] == pytest.approx(
+                known["foot_anchor_kN"], rel=1e-9
+            )
+
+
+def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
+    result = run("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "1 net rows, 2 cases" in result.stdout
+    assert "nothing was written" in result.stdout
+    assert listing(tmp_path) == set()
+
+
+def test_existing_outputs_are_refused_before_solving(home, checked):
+    before = (home / "out" / "study.json").read_bytes()
+    result = run("check", "site.xlsx", "--out", "out", *QUICK, cwd=home)
+    assert result.returncode == 2
+    assert "exists already" in result.stderr
+    assert "--force" in result.stderr
+    assert "cases" not in result.stderr
+    assert (home / "out" / "study.json").read_bytes() == before
+
+
+def test_force_replaces_outputs(home, checked, tmp_path):
+    shutil.copytree(home / "out", tmp_path / "out")
+    (tmp_path / "out" / "report.html").write_text("old")
+    result = run(
+        *("report", tmp_path / "out" / "study.json", "--out", "out", "--force"),
+        cwd=tmp_path,
+    )
+    assert result.returncode == 0, result.stderr
+    expected = (home / "out" / "report.html").read_bytes()
+    assert (tmp_path / "out" / "report.html").read_bytes() == expected
+
+
+def test_several_profiles_get_a_folder_each(home, checked, tmp_path):
+    own = tmp_path / "mine"
+    shutil.copytree(find_resource("standards") / PROFILE, own)
+    document = own / "document.toml"
+    document.write_text(document.read_text().replace(PROFILE, "mine", 1))
+    result = run(
+        *("check", home / "site.xlsx", "--standard", PROFILE, "--standard", "mine"),
+        *("--out", "out", "--no-html", "--no-excel", "--json", *QUICK),
+        cwd=tmp_path,
+    )
+    assert result.returncode == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["schema"] == "netdesign.studies/1"
+    ids = [one["profile"]["id"] for one in document["studies"]]
+    assert ids == [PROFILE, "mine"]
+    for name in ids:
+        assert (tmp_path / "out" / name / "study.json").is_file()
+
+
+# --- check: refusals ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["check"], "give a site workbook, or --example"),
+        (["check", "site.xlsx", "--example"], "give a site workbook, or --example"),
+        (["check", "site.xlsx", "--colour"], "No such option"),
+        (["check", "site.xlsx", "--accuracy", "0.5"], "is not in the range"),
+        (["check", "site.xlsx", "--jobs", "0"], "is not in the range"),
+        (["check", "site.xlsx", "--method", "guess"], "is not 'steady'"),
+        (["check", "a.xlsx", "b.xlsx"], "unexpected extra argument"),
+        (
+            [*("check", "--example", "--dry-run"), *("--standard", PROFILE) * 2],
+            "two of the profiles have the same id",
+        ),
+        (["chek"], "No such command"),
+        ([], "Usage:"),
+        (["solve"], "Missing argument"),
+    ],
+)
+def test_wrong_usage_ends_with_2(home, tmp_path, arguments, message):
+    result = run(*arguments, cwd=tmp_path)
+    assert result.returncode == 2, result.stderr
+    assert message in result.stderr
+    assert result.stdout == ""
+    assert listing(tmp_path) == set()
+
+
+def test_an_accuracy_that_is_no_number_ends_with_3(tmp_path):
+    arguments = ("check", "--example", "--dry-run", "--accuracy", "nan")
+    result = run(*arguments, cwd=tmp_path)
+    assert result.returncode == 3
+    assert "accuracy = nan" in result.stderr
+
+
+def test_an_unknown_profile_ends_with_3_and_a_guess(home, tmp_path):
+    result = run("check", home / "site.xlsx", "--standard", "nf-p-95-303", cwd=tmp_path)
+    assert result.returncode == 3
+    assert f"did you mean {PROFILE}?" in result.stderr
+    assert result.stdout == ""
+    assert listing(tmp_path) == set()
+
+
+def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
+    def spoil(sheets):
+        sheets["Nets"][1][1] = 95  # slope
+        sheets["Nets"][1][8] = "A9"  # no such anchor
+        sheets["Ranges"][1][2] = "4OO"
+
+    write_site(tmp_path / "site.xlsx", spoil)
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 3
+    for place in ('Nets › B2: "95"', 'Nets › I2: "A9"', 'Ranges › C2: "4OO"'):
+        assert f"site.xlsx › {place}" in result.stderr
+    assert "3 findings; nothing was written" in result.stderr
+    assert result.stdout == ""
+    assert listing(tmp_path) == {"site.xlsx"}
+
+
+@pytest.mark.parametrize("content", [None, b"", b"PK\x03\x04 not a workbook"])
+def test_what_is_no_workbook_ends_with_3(tmp_path, content):
+    if content is not None:
+        (tmp_path / "site.xlsx").write_bytes(content)
+    result = run("check", "site.xlsx", cwd=tmp_path)
+    assert result.returncode == 3
+    assert "site.xlsx" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+# --- bugs, interrupts, closed pipes ------------------------------------------------
+
+BUG = """
+import netdesign.check_site
+def solve_site(*_):
+    raise ZeroDivisionError("spoilt")
+netdesign.check_site.solve_site = solve_site
+"""
+
+
+def test_a_bug_ends_with_5_and_no_outputs(home, tmp_path):
+    result = run("check", home / "site.xlsx", cwd=tmp_path, program=spoilt_program(BUG))
+    assert result.returncode == 5
+    assert "internal error, please report it: ZeroDivisionError: spoilt" in (
+        result.stderr
+    )
+    assert "Traceback" not in result.stderr
+    assert result.stdout == ""
+    assert listing(tmp_path) == set()
+
+
+def test_a_traceback_is_there_for_the_asking(home, tmp_path):
+    result = run(
+        *("check", home / "site.xlsx"),
+        cwd=tmp_path,
+        program=spoilt_program(BUG),
+        NETDESIGN_TRACEBACK="1",
+    )
+    assert result.returncode not in (0, 4, 130)
+    assert "Traceback" in result.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a POSIX signal")
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_an_interrupt_ends_with_130_and_no_outputs(tmp_path, jobs):
+    def enlarge(sheets):
+        sheets["Ranges"][2] = ["friction angle [deg]", 15, 45, 12]
+        sheets["Ranges"][1] = ["density [kg/m3]", 270, 400, 4]
+
+    write_site(tmp_path / "site.xlsx", enlarge)
+    # A shell that runs tests in the background lets its children ignore SIGINT.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    with subprocess.Popen(
+        [*spoilt_program(heed), "check", "site.xlsx", "--jobs", jobs],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stderr.readline() == "12 of 48 cases\n"
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate()
+    assert process.returncode == 130, stderr
+    assert "interrupted; run the same command again" in stderr
+    assert "48 of 48 cases" not in stderr
+    assert "Traceback" not in stderr
+    assert stdout == ""
+    assert listing(tmp_path) == {"site.xlsx"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX pipes")
+@pytest.mark.parametrize("arguments", [["standards", "list"], ["--help"]])
+def test_a_closed_pipe_does_not_look_like_a_verdict(tmp_path, arguments):
+    reading, writing = os.pipe()
+    os.close(reading)
+    try:
+        result = run(*arguments, cwd=tmp_path, stdout=writing)
+    finally:
+        os.close(writing)
+    assert result.returncode == 5
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("step", ["fsync", "replace"])
+def test_a_full_disk_ends_with_2_and_leaves_no_trace(
+    home, checked, tmp_path, monkeypatch, capsys, step
+):
+    def fail(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    arguments = ["netdesign", "report", str(home / "out" / "study.json")]
+    monkeypatch.setattr(sys, "argv", [*arguments, "--out", str(tmp_path)])
+    monkeypatch.setattr(os if step == "fsync" else Path, step, fail)
+    with pytest.raises(SystemExit) as caught:
+        cli.main()
+    assert caught.value.code == 2
+    assert "No space left on device" in capsys.readouterr().err
+    assert listing(tmp_path) == set()
+
+
+# --- the built-in example ----------------------------------------------------------
+
+STUDY_KEYS = {"schema", "verdict", "rows", "provenance"}
+ROW_KEYS = {"id", "verdict", "checks"}
+CHECK_KEYS = {
+    "id",
+    "clause",
+    "member",
+    "demand_kN",
+    "demand_low_kN",
+    "demand_high_kN",
+    "resistance_kN",
+    "utilisation",
+    "verdict",
+    "case",
+    "reason",
+}
+
+
+def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
+    result = run(
+        *("check", "--example", "--json", "--accuracy", "0.1", "--jobs", "2"),
+        cwd=tmp_path,
+    )
+    assert result.returncode == 1, result.stderr
+    document = json.loads(result.stdout)
+    assert document["schema"] == "netdesign.study/1"
+    assert document["verdict"] == "fail"
+    assert set(document) >= STUDY_KEYS
+    verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
+    assert verdicts["R6"] == "not_proven"
+    assert verdicts["R7"] == "fail"
+    for row in document["rows"]:
+        assert set(row) >= ROW_KEYS
+        assert {case["outcome"] for case in row["cases"]} == {"converged"}
+        for check in row["checks"]:
+            assert set(check) >= CHECK_KEYS
+            assert check["verdict"] in ("pass", "fail", "not_proven")
+            assert check["reason"]
+    assert listing(tmp_path) == set()
+
+
+# --- init --------------------------------------------------------------------------
+
+
+def test_init_example_reads_back_as_the_example(tmp_path):
+    result = run("init", "site.xlsx", "--example", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "wrote site.xlsx" in result.stderr
+    site = read_site(tmp_path / "site.xlsx")
+    assert [row.id for row in site.rows] == [
+        line["id"] for line in load_example()["Nets"]
+    ]
+    counted = run("check", "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert counted.returncode == 0
+    assert "site.xlsx: 7 net rows, 189 cases" in counted.stdout
+
+
+def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):
+    assert run("init", "site.xlsx", cwd=tmp_path).returncode == 0
+    result = run("check", "site.xlsx", cwd=tmp_path)
+    assert result.returncode == 3
+    assert "nothing was written" in result.stderr
+
+
+def test_init_never_overwrites_unasked(tmp_path):
+    path = tmp_path / "site.xlsx"
+    path.write_bytes(b"mine")
+    result = run("init", "site.xlsx", cwd=tmp_path)
+    assert result.returncode == 2
+    assert "exists already" in result.stderr
+    assert path.read_bytes() == b"mine"
+    assert run("init", "site.xlsx", "--force", cwd=tmp_path).returncode == 0
+    assert path.read_bytes().startswith(b"PK")
+
+
+# --- report ------------------------------------------------------------------------
+
+
+def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path):
+    without = "import sys\nsys.modules['netdesign.coupling.steady'] = None"
+    result = run(
+        *("report", home / "out" / "study.json", "--out", "again"),
+        cwd=tmp_path,
+        program=spoilt_program(without),
+    )
+    assert result.returncode == 0, result.stderr
+    for name in ("report.html", "report.xlsx"):
+        expected = (home / "out" / name).read_bytes()
+        assert (tmp_path / "again" / name).read_bytes() == expected
+    assert {path.name for path in (tmp_path / "again").iterdir()} == {
+        "report.html",
+        "report.xlsx",
+    }
+
+
+@pytest.mark.parametrize(("verdict", "code"), [("fail", 1), ("not_proven", 4)])
+def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, code):
+    """A study whose parts agree on the verdict; the report refuses any other."""
+    document = copy.deepcopy(study)
+    check = document["rows"][0]["checks"][-1]
+    assert check["id"] == "geometry.inclination"
+    check["verdict"] = verdict
+    document["verdict"] = document["rows"][0]["verdict"] = verdict
+    document["rows"][0]["reasons"] = [f"{check['id']}: {check['reason']}"]
+    path = tmp_path / "study.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    result = run("report", path, "--no-html", "--no-excel", cwd=tmp_path)
+    assert result.returncode == code, result.stderr
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "cannot be read"),
+        (b"\xff\xfe", "cannot be read"),
+        (b"{}", "schema: "),
+        (b"no json", "Invalid JSON"),
+    ],
+)
+def test_report_refuses_what_is_no_study(tmp_path, content, message):
+    if content is not None:
+        (tmp_path / "study.json").write_bytes(content)
+    result = run("report", "study.json", cwd=tmp_path)
+    assert result.returncode == 3
+    assert message in result.stderr
+    assert listing(tmp_path) <= {"study.json"}
+
+
+# --- standards ---------------------------------------------------------------------
+
+
+def test_standards_lists_ids_and_titles(tmp_path):
+    result = run("standards", "list", cwd=tmp_path)
+    assert result.returncode == 0
+    assert re.search(rf"(?m)^{PROFILE} +\S", result.stdout)
+
+
+def test_standards_shows_every_value_with_its_status(tmp_path, study):
+    result = run("standards", "show", PROFILE, cwd=tmp_path)
+    assert result.returncode == 0
+    assert study["profile"]["sha256"] in result.stdout
+    for value in study["profile"]["values"]:
+        line = f"{value['id']} = {value['value']:g} {value['unit']}"
+        assert f"{line}  [{value['status']}]" in result.stdout
+
+
+def test_standards_validates_a_folder(tmp_path):
+    own = tmp_path / "mine"
+    shutil.copytree(find_resource("standards") / PROFILE, own)
+    result = run("standards", "validate", "mine", cwd=tmp_path)
+    assert result.returncode == 0
+    assert "8 values" in result.stdout
+    factors = own / "factors.toml"
+    text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
+    factors.write_text(text + "colour = 1\n", encoding="utf-8")
+    refused = run("standards", "validate", "mine", cwd=tmp_path)
+    assert refused.returncode == 3
+    assert "-1.35" in refused.stderr
+    assert "colour" in refused.stderr
+
+
+@pytest.mark.parametrize("command", ["show", "validate"])
+def test_standards_refuses_the_unknown(tmp_path, command):
+    result = run("standards", command, "nothing-like-it", cwd=tmp_path)
+    assert result.returncode == 3
+    assert PROFILE in result.stderr
+
+
+# --- solve -------------------------------------------------------------------------
+
+SOLUTION_KEYS = {
+    "schema",
+    "outcome",
+    "method",
+    "anchor_forces",
+    "wall",
+    "tension_kN_per_m",
+    "sag_m",
+    "balance",
+    "nodes",
+    "history",
+    "cost",
+    "provenance",
+}
+
+
+def test_solve_prints_the_solution_of_the_interface(tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert set(document) == SOLUTION_KEYS
+    assert document["schema"] == "netdesign.solution/1"
+    assert document["outcome"] == "converged"
+    node = {"x_m", "y_m", "force_x_kN_per_m", "force_y_kN_per_m", "sliding"}
+    assert all(set(one) == node for one in document["nodes"])
+    assert document["balance"]["relative_residual"] < 1e-8
+    assert listing(tmp_path) == {"scene.toml"}
+
+
+def test_solve_shows_both_ends_in_words(tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    result = run("solve", "scene.toml", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert re.search(r"(?m)^foot +[0-9.]+ kN/m", result.stdout)
+    assert re.search(r"(?m)^head +[0-9.]+ kN/m", result.stdout)
+
+
+def test_solve_without_a_solution_ends_with_4(tmp_path):
+    """A net with half its length to spare would lie on the ground."""
+    scene = SCENE.replace("slack = 0.05", "slack = 0.5\ninclination_deg = 70")
+    (tmp_path / "scene.toml").write_text(scene)
+    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.returncode == 4
+    document = json.loads(result.stdout)
+    assert document["outcome"] == "out_of_validity"
+    assert "touch the ground" in document["reason"]
+    assert "anchor_forces" not in document
+
+
+def test_solve_tells_every_fault_and_ends_with_3(tmp_path):
+    scene = SCENE.replace("38", "95").replace("300", "917").replace("[net]", "[nets]")
+    (tmp_path / "scene.toml").write_text(scene)
+    result = run("solve", "scene.toml", "--json", cwd=tmp_path)
+    assert result.returncode == 3
+    for key in ("slope.angle_deg = 95", "snow.density_kg_m3 = 917", "net", "nets"):
+        assert f"scene.toml: {key}" in result.stderr
+    assert result.stdout == ""
+
+
+# --- the rest ----------------------------------------------------------------------
+
+
+def test_version_and_help_end_with_0(tmp_path):
+    version = run("--version", cwd=tmp_path)
+    assert version.returncode == 0
+    assert __version__ in version.stdout
+    for command in ([], ["check"], ["solve"], ["standards", "show"]):
+        result = run(*command, "-h", cwd=tmp_path)
+        assert result.returncode == 0
+        assert result.stdout.startswith(f"Usage: {' '.join(['netdesign', *command])}")
+
+
+def test_help_tells_the_exit_codes(tmp_path):
+    text = " ".join(run("--help", cwd=tmp_path).stdout.split())
+    for code in ("0 pass", "1 fail", "2 usage", "3 input refused", "4 not proven"):
+        assert code in text
+    assert "5 internal error" in text
+    assert "130 interrupted" in text

@@ -1,0 +1,116 @@
+import os
+from pathlib import Path
+
+import pytest
+
+from netdesign.errors import OutputError
+from netdesign.output import require_free, write_files
+
+
+def listing(folder):
+    return sorted(path.name for path in folder.rglob("*") if path.is_file())
+
+
+def test_files_are_written_with_their_folders(tmp_path):
+    contents = {
+        tmp_path / "new" / "deep" / "a.json": b"{}",
+        tmp_path / "new" / "b.html": b"<p>\r\n",
+    }
+    write_files(contents)
+    assert {path: path.read_bytes() for path in contents} == contents
+    assert listing(tmp_path) == ["a.json", "b.html"]
+
+
+def test_written_files_are_as_readable_as_others(tmp_path):
+    write_files({tmp_path / "a": b""})
+    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o644
+
+
+def test_existing_files_are_replaced_whole(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(b"long old content")
+    write_files({path: b"new"})
+    assert path.read_bytes() == b"new"
+
+
+@pytest.mark.parametrize("step", ["fsync", "chmod", "replace"])
+def test_a_failing_write_leaves_no_trace(tmp_path, monkeypatch, step):
+    """A full disk, seen at three places: old files stay, nothing new appears."""
+    old = tmp_path / "old.html"
+    old.write_bytes(b"old")
+    failures = []
+
+    def fail(*_, **__):
+        failures.append(step)
+        raise OSError(28, "No space left on device")
+
+    owner = os if step == "fsync" else Path
+    monkeypatch.setattr(owner, step, fail)
+    with pytest.raises(OutputError, match=r"cannot write: .*No space left"):
+        write_files({old: b"new", tmp_path / "other.xlsx": b"new"})
+    assert failures == [step]
+    assert listing(tmp_path) == ["old.html"]
+    assert old.read_bytes() == b"old"
+
+
+def test_nothing_is_put_in_place_before_all_is_written(tmp_path, monkeypatch):
+    """The second of two files fails: the first must not appear alone."""
+    calls = []
+    real = os.fsync
+
+    def fail_at_second(handle):
+        calls.append(handle)
+        if len(calls) == 2:
+            raise OSError(28, "No space left on device")
+        real(handle)
+
+    monkeypatch.setattr(os, "fsync", fail_at_second)
+    with pytest.raises(OutputError, match="No space left"):
+        write_files({tmp_path / "a": b"1", tmp_path / "b": b"2"})
+    assert len(calls) == 2
+    assert listing(tmp_path) == []
+
+
+def test_a_file_in_the_place_of_a_folder_is_told(tmp_path):
+    (tmp_path / "out").write_bytes(b"")
+    with pytest.raises(OutputError, match="cannot write"):
+        write_files({tmp_path / "out" / "a": b"1"})
+    assert listing(tmp_path) == ["out"]
+
+
+def test_free_places_are_accepted(tmp_path):
+    require_free([tmp_path / "new" / "deep" / "a"], overwrite=False)
+    require_free([], overwrite=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_taken_place_is_named(tmp_path):
+    taken = [tmp_path / "a", tmp_path / "c"]
+    for path in taken:
+        path.write_bytes(b"")
+    with pytest.raises(OutputError) as caught:
+        require_free([taken[0], tmp_path / "b", taken[1]], overwrite=False)
+    message = str(caught.value)
+    assert f"{taken[0]}, {taken[1]};" in message
+    assert str(tmp_path / "b") not in message
+    assert "--force" in message
+
+
+def test_taken_places_are_accepted_if_asked(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(b"kept")
+    require_free([path], overwrite=True)
+    assert path.read_bytes() == b"kept"
+
+
+@pytest.mark.parametrize("overwrite", [True, False])
+def test_a_file_in_the_way_is_refused_before_any_work(tmp_path, overwrite):
+    (tmp_path / "out").write_bytes(b"")
+    with pytest.raises(OutputError, match="out is not a folder"):
+        require_free([tmp_path / "out" / "deep" / "a"], overwrite=overwrite)
+
+
+def test_a_place_without_leave_to_write_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.raises(OutputError, match="cannot be written to"):
+        require_free([tmp_path / "new" / "a"], overwrite=False)

@@ -1,0 +1,135 @@
+"""A wheel of this checkout, installed in a new environment, works elsewhere."""
+
+import importlib.util
+import os
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+VERSION_LINE = "version = "
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("hatchling") is None, reason="hatchling is not installed"
+)
+
+
+def call(*command, cwd):
+    """Standard output of a command that has to succeed."""
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    result = subprocess.run(
+        [str(part) for part in command],
+        cwd=cwd,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+def pip(*arguments, cwd):
+    quiet = ("--disable-pip-version-check", "--quiet")
+    return call(sys.executable, "-m", "pip", *quiet, *arguments, cwd=cwd)
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    offline = ("--no-deps", "--no-build-isolation", "--no-index")
+    pip("wheel", *offline, "--wheel-dir", folder, ROOT, cwd=folder)
+    (built,) = folder.glob("*.whl")
+    return built
+
+
+@pytest.fixture(scope="module")
+def names(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        return set(archive.namelist())
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory):
+    """Folder of the programs of a new environment that has the wheel."""
+    home = tmp_path_factory.mktemp("environment") / "venv"
+    venv.create(home, system_site_packages=True, with_pip=False)
+    programs = home / ("Scripts" if sys.platform == "win32" else "bin")
+    python = programs / Path(sys.executable).name
+    # Of the environment that runs the tests, the new one shall see what the wheel
+    # needs. A path file does not start the path files there: an editable install of
+    # this project stays out of sight.
+    own = Path(call(python, "-c", WHERE, cwd=home).strip())
+    theirs = sysconfig.get_path("purelib")
+    (own / "dependencies.pth").write_text(f"{theirs}\n", encoding="utf-8")
+    pip("--python", python, "install", "--no-deps", "--no-index", wheel, cwd=home)
+    return programs
+
+
+WHERE = "import sysconfig; print(sysconfig.get_path('purelib'))"
+
+
+def files_below(folder):
+    return {
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts
+    }
+
+
+def test_wheel_holds_every_module(names):
+    modules = {
+        f"netdesign/{name}"
+        for name in files_below(ROOT / "netdesign")
+        if name.endswith(".py")
+    }
+    assert len(modules) > 50
+    assert modules <= names
+
+
+@pytest.mark.parametrize("folder", ["standards", "templates"])
+def test_wheel_holds_the_files_that_the_program_reads(names, folder):
+    files = {f"netdesign/_data/{folder}/{f}" for f in files_below(ROOT / folder)}
+    assert files
+    assert files == {n for n in names if n.startswith(f"netdesign/_data/{folder}/")}
+
+
+def test_wheel_holds_nothing_else(names):
+    tops = {name.split("/")[0] for name in names}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {"netdesign"}
+    assert not [name for name in names if "test" in Path(name).name]
+
+
+def test_installed_program_runs_from_anywhere(installed, tmp_path):
+    place = call(
+        *(installed / "python", "-c", "import netdesign; print(netdesign.__file__)"),
+        cwd=tmp_path,
+    )
+    assert Path(place.strip()).is_relative_to(installed.parent)
+    profiles = call(installed / "netdesign", "standards", "list", cwd=tmp_path)
+    assert profiles.startswith("nf-p-95-304-style ")
+    version = call(installed / "netdesign", "--version", cwd=tmp_path)
+    (stated,) = (
+        line.removeprefix(VERSION_LINE).strip('"')
+        for line in (ROOT / "pyproject.toml").read_text(encoding="utf-8").splitlines()
+        if line.startswith(VERSION_LINE)
+    )
+    assert stated in version
+
+
+def test_installed_program_has_its_templates(installed, tmp_path):
+    call(installed / "netdesign", "init", "site.xlsx", "--example", cwd=tmp_path)
+    counted = call(
+        *(installed / "netdesign", "check", "site.xlsx", "--dry-run"), cwd=tmp_path
+    )
+    assert "7 net rows" in counted
+    report = (
+        "from netdesign.resources import find_resource;"
+        "print((find_resource('templates') / 'report.html').is_file())"
+    )
+    assert call(installed / "python", "-c", report, cwd=tmp_path) == "True\n"

@@ -1,0 +1,358 @@
+import copy
+import json
+import math
+import tomllib
+
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.steady import solve_steady
+from netdesign.errors import ModelError, SceneFileError
+from netdesign.outcome import Outcome
+from netdesign.scene_file import (
+    SceneFile,
+    build_scene,
+    read_scene,
+    write_solution_document,
+)
+from netdesign.snow.ground import build_ground_from_glide_factor
+
+SOUND = """
+[slope]
+angle_deg = 40
+[snow]
+thickness_m = 4.0
+upslope_length_m = 20
+density_kg_m3 = 366.8
+[net]
+stiffness_kN_per_m = 20000
+friction_deg = 30
+"""
+
+FULL = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+creep_law = "boutillier-2004"
+creep_exponent = 3
+fluidity_per_MPa3_a = 20
+temperature_C = -5
+[ground]
+law = "sliding"
+slip_length_m = 1.5
+contact = "two-sided"
+[net]
+kind = "cable"
+inclination_deg = 25
+height_m = 3.0
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+[gravity]
+mode = "parallel"
+[solve]
+method = "steady"
+accuracy = 0.1
+start = "straight"
+horizon_days = 10
+"""
+
+
+@pytest.fixture
+def tables():
+    return tomllib.loads(SOUND)
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read_text(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return read_scene(path)
+
+    return read_text
+
+
+def build(tables):
+    return build_scene(SceneFile.model_validate(tables))[0]
+
+
+def test_units_of_the_edge_become_si(read):
+    scene, settings = read(FULL)
+    assert scene.snowpack.slope_angle == math.radians(38)
+    assert scene.snowpack.thickness == 2.5
+    assert scene.snowpack.upslope_length == 6.0
+    assert scene.snowpack.density == 300.0
+    assert scene.snowpack.gravity == "parallel"
+    assert (scene.ground.kind, scene.ground.slip_length) == ("sliding", 1.5)
+    assert scene.net.inclination == math.radians(25)
+    assert scene.net.height_normal == 3.0
+    assert scene.net.stiffness_per_m == 8e6
+    assert scene.net.slack == 0.05
+    assert scene.net.friction_angle == math.radians(30)
+    assert scene.creep_law.name == "boutillier-2004"
+    assert settings == SolverSettings(accuracy=0.1)
+
+
+def test_defaults_are_those_of_the_interface(read):
+    scene, settings = read(SOUND)
+    assert scene.net.height_normal == scene.snowpack.thickness == 4.0
+    assert scene.net.inclination == math.radians(30)
+    assert scene.net.slack == 0.0
+    assert scene.ground.kind == "free"
+    assert scene.snowpack.gravity == "full"
+    assert settings.accuracy == 0.005
+
+
+def test_vertical_height_is_turned_to_the_normal(tables):
+    del tables["snow"]["thickness_m"]
+    tables["snow"]["height_vertical_m"] = 4.0
+    scene = build(tables)
+    assert scene.snowpack.thickness == pytest.approx(
+        4.0 * math.cos(math.radians(40)), rel=1e-14
+    )
+    assert scene.net.height_normal == scene.snowpack.thickness
+
+
+def test_glide_factor_becomes_a_slip_length(tables):
+    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
+    assert build(tables).ground == build_ground_from_glide_factor(1.5, 4.0)
+    tables["ground"] = {"law": "sliding", "glide_factor": 1.0}
+    assert build(tables).ground.kind == "no-slip"
+
+
+@pytest.mark.parametrize(
+    ("table", "changes", "message"),
+    [
+        ("snow", {"height_vertical_m": 5.0}, "give exactly one of them"),
+        ("snow", {"thickness_m": None}, "give exactly one of them"),
+        ("snow", {"creep_law": "zwinger"}, "known are boutillier-2004"),
+        ("ground", {"slip_length_m": 1.0}, "belong to a sliding ground"),
+        ("ground", {"law": "no-slip", "glide_factor": 2.0}, "law is 'no-slip'"),
+        ("ground", {"law": "sliding"}, "needs exactly one of them"),
+        (
+            "ground",
+            {"law": "sliding", "slip_length_m": 1.0, "glide_factor": 2.0},
+            "needs exactly one of them",
+        ),
+        ("ground", {"law": "sliding", "glide_factor": 3.0}, "glide factor = 3.0"),
+        ("net", {"height_m": 3.9}, "overtops the net"),
+        ("net", {"inclination_deg": 85}, "net inclination = "),
+        ("snow", {"upslope_length_m": 0.5}, "upslope length over snow thickness"),
+    ],
+)
+def test_contradictions_are_refused(tables, table, changes, message):
+    target = tables.setdefault(table, {})
+    target |= changes
+    for key in [key for key, value in target.items() if value is None]:
+        del target[key]
+    with pytest.raises(ModelError, match=message):
+        build(tables)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value"),
+    [
+        ("slope", "angle_deg", -0.1),
+        ("slope", "angle_deg", 80.1),
+        ("slope", "angle_deg", math.nan),
+        ("slope", "angle_deg", "40"),
+        ("slope", "angle_deg", True),
+        ("slope", "angle_degrees", 40),
+        ("snow", "thickness_m", 0.0),
+        ("snow", "thickness_m", math.inf),
+        ("snow", "thickness_m", math.nan),
+        ("snow", "density_kg_m3", 0.0),
+        ("snow", "density_kg_m3", 917.0),
+        ("snow", "density_kg_m3", math.nan),
+        ("snow", "upslope_length_m", -20.0),
+        ("snow", "creep_exponent", 2.9),
+        ("snow", "creep_exponent", 3.1),
+        ("snow", "fluidity_per_MPa3_a", 0.0),
+        ("snow", "temperature_C", 0.1),
+        ("snow", "layers", []),
+        ("ground", "law", "rough"),
+        ("ground", "slip_length_m", 0.0),
+        ("ground", "glide_factor", 0.9),
+        ("ground", "contact", "one-sided"),
+        ("net", "kind", "rigid"),
+        ("net", "inclination_deg", -1.0),
+        ("net", "inclination_deg", 90.0),
+        ("net", "height_m", 0.0),
+        ("net", "stiffness_kN_per_m", 0.0),
+        ("net", "stiffness_kN_per_m", math.inf),
+        ("net", "slack", -0.01),
+        ("net", "slack", 0.51),
+        ("net", "slack", False),
+        ("net", "friction_deg", -0.1),
+        ("net", "friction_deg", 60.1),
+        ("gravity", "mode", "none"),
+        ("solve", "method", "transient"),
+        ("solve", "accuracy", 0.00009),
+        ("solve", "accuracy", 0.11),
+        ("solve", "accuracy", math.nan),
+        ("solve", "start", "slack"),
+        ("solve", "horizon_days", 0.0),
+        ("wind", "speed", 3.0),
+    ],
+)
+def test_a_value_that_is_not_accepted_is_refused(tables, table, key, value):
+    tables.setdefault(table, {})[key] = value
+    with pytest.raises(ValueError, match=rf"(?m)^{table}"):
+        build(tables)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value"),
+    [
+        ("slope", "angle_deg", 0),
+        ("slope", "angle_deg", 80.0),
+        ("net", "inclination_deg", 0.0),
+        ("net", "slack", 0.5),
+        ("net", "friction_deg", 0.0),
+        ("net", "friction_deg", 60),
+        ("snow", "temperature_C", -60.0),
+        ("solve", "accuracy", 0.1),
+        ("solve", "accuracy", 0.0001),
+    ],
+)
+def test_the_bounds_themselves_are_accepted(tables, table, key, value):
+    tables.setdefault(table, {})[key] = value
+    scene = build(tables)
+    assert scene.snowpack.density == 366.8
+
+
+@pytest.mark.parametrize(
+    ("table", "key"),
+    [
+        ("slope", "angle_deg"),
+        ("snow", "upslope_length_m"),
+        ("snow", "density_kg_m3"),
+        ("net", "stiffness_kN_per_m"),
+        ("net", "friction_deg"),
+        ("slope", None),
+        ("snow", None),
+        ("net", None),
+    ],
+)
+def test_what_has_no_default_must_be_given(tables, table, key):
+    spoilt = copy.deepcopy(tables)
+    if key is None:
+        del spoilt[table]
+    else:
+        del spoilt[table][key]
+    place = table if key is None else rf"{table}\.{key}"
+    with pytest.raises(ValueError, match=rf"(?m)^{place}"):
+        build(spoilt)
+
+
+def test_every_fault_is_told_with_its_key_and_value(read, tmp_path):
+    with pytest.raises(SceneFileError) as caught:
+        read(SOUND.replace("40", "95").replace("366.8", "'heavy'") + "colour = 1\n")
+    lines = str(caught.value).splitlines()
+    file = tmp_path / "scene.toml"
+    assert len(lines) == 3
+    assert lines[0].startswith(f"{file}: slope.angle_deg = 95: ")
+    assert lines[1].startswith(f"{file}: snow.density_kg_m3 = 'heavy': ")
+    assert lines[2].startswith(f"{file}: net.colour = 1: ")
+
+
+def test_a_contradiction_is_told_with_its_file(read):
+    with pytest.raises(SceneFileError, match=r"scene\.toml: ground\.slip_length_m and"):
+        read(SOUND + "[ground]\nlaw = 'sliding'\n")
+
+
+@pytest.mark.parametrize("text", ["[slope", "a = 1\na = 2", "x = 2026-13-45"])
+def test_what_is_not_toml_is_refused(read, text):
+    with pytest.raises(SceneFileError, match="cannot be read as TOML"):
+        read(text)
+
+
+def test_unreadable_files_are_refused(tmp_path):
+    with pytest.raises(SceneFileError, match="cannot be read"):
+        read_scene(tmp_path / "none.toml")
+    with pytest.raises(SceneFileError, match="cannot be read"):
+        read_scene(tmp_path)
+    path = tmp_path / "latin.toml"
+    path.write_bytes(b"# \xe9t\xe9\n")
+    with pytest.raises(SceneFileError, match="cannot be read"):
+        read_scene(path)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    scene, _ = build_scene(SceneFile.model_validate(tomllib.loads(FULL)))
+    settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+    solution = solve_steady(scene, settings)
+    return solution, write_solution_document(solution, settings, wall_s=1.5)
+
+
+def test_solution_document_has_the_keys_of_the_interface(solved):
+    _, document = solved
+    pull = {"x_kN_per_m", "y_kN_per_m", "size_kN_per_m", "error_kN_per_m"}
+    assert document["schema"] == "netdesign.solution/1"
+    assert (document["outcome"], document["method"]) == ("converged", "steady")
+    assert set(document["anchor_forces"]) == {"foot", "head"}
+    assert set(document["anchor_forces"]["foot"]) == pull
+    assert set(document["anchor_forces"]["head"]) == pull
+    assert document["wall"] is None
+    assert document["history"] is None
+    assert set(document["tension_kN_per_m"]) == {"foot", "head", "min", "max"}
+    assert {"weight_along_slope_kN_per_m", "relative_residual"} <= set(
+        document["balance"]
+    )
+    assert {"wall_s", "linear_solves", "elements", "degrees_of_freedom"} <= set(
+        document["cost"]
+    )
+    assert {"version", "creep_law", "settings"} == set(document["provenance"])
+    assert document["cost"]["wall_s"] == 1.5
+
+
+def test_solution_document_is_in_kilonewton(solved):
+    solution, document = solved
+    for end, pull in (("foot", solution.foot), ("head", solution.head)):
+        written = document["anchor_forces"][end]
+        assert written["x_kN_per_m"] == pull.x / 1000.0
+        assert written["y_kN_per_m"] == pull.y / 1000.0
+        assert written["error_kN_per_m"] == pull.error / 1000.0
+        assert written["size_kN_per_m"] == document["tension_kN_per_m"][end]
+    assert document["tension_kN_per_m"]["max"] == solution.tension_max / 1000.0
+    assert document["sag_m"] == solution.sag
+    balance = document["balance"]["weight_along_slope_kN_per_m"]
+    assert balance == solution.balance.weight_along_slope / 1000.0
+
+
+def test_nodes_of_the_document_carry_the_snow_on_the_net(solved):
+    """The net hangs in balance: node forces and end pulls sum to nothing."""
+    solution, document = solved
+    nodes = document["nodes"]
+    assert (nodes[0]["x_m"], nodes[0]["y_m"]) == (0.0, 0.0)
+    assert len(nodes) == solution.net_forces.shape[1]
+    for axis in ("x", "y"):
+        snow = sum(node[f"force_{axis}_kN_per_m"] for node in nodes)
+        ends = sum(
+            document["anchor_forces"][end][f"{axis}_kN_per_m"]
+            for end in ("foot", "head")
+        )
+        assert ends == pytest.approx(snow, rel=1e-6, abs=1e-6)
+    assert {node["sliding"] for node in nodes} <= {True, False}
+
+
+def test_solution_document_is_json_without_nan(solved):
+    _, document = solved
+    text = json.dumps(document, allow_nan=False)
+    assert json.loads(text) == document
+
+
+def test_a_failure_carries_its_reason_and_no_number():
+    failure = FailedSolution(outcome=Outcome.DIVERGED, reason="residual grew")
+    document = write_solution_document(failure, SolverSettings(), wall_s=1.0)
+    assert document == {
+        "schema": "netdesign.solution/1",
+        "outcome": "diverged",
+        "reason": "residual grew",
+    }

@@ -1,0 +1,57 @@
+import math
+
+import pytest
+
+from netdesign import units
+
+PAIRS = [
+    (units.newton_from_kilonewton, units.kilonewton_from_newton),
+    (units.radian_from_degree, units.degree_from_radian),
+    (units.second_from_day, units.day_from_second),
+    (units.kelvin_from_celsius, units.celsius_from_kelvin),
+]
+
+
+@pytest.mark.parametrize(
+    ("convert", "given", "expected"),
+    [
+        (units.newton_from_kilonewton, 2.5, 2500.0),
+        (units.kilonewton_from_newton, 2500.0, 2.5),
+        (units.radian_from_degree, 180.0, math.pi),
+        (units.degree_from_radian, math.pi / 6.0, 30.0),
+        (units.radian_from_percent, 100.0, math.pi / 4.0),
+        (units.radian_from_percent, 0.0, 0.0),
+        (units.second_from_day, 2.0, 2.0 * 24.0 * 3600.0),
+        (units.day_from_second, 3600.0, 1.0 / 24.0),
+        (units.celsius_from_kelvin, 273.15, 0.0),
+        (units.kelvin_from_celsius, -10.0, 263.15),
+    ],
+)
+def test_known_values(convert, given, expected):
+    assert convert(given) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(("there", "back"), PAIRS)
+@pytest.mark.parametrize("value", [-40.0, 0.0, 1e-9, 1.0, 366.8, 1e7])
+def test_there_and_back(there, back, value):
+    assert back(there(value)) == pytest.approx(value, rel=1e-12, abs=1e-12)
+    assert there(back(value)) == pytest.approx(value, rel=1e-12, abs=1e-12)
+
+
+def test_fluidity_of_the_paper():
+    """20 MPa^-3 a^-1: 1 MPa = 1e6 Pa, 1 a = 365.25 d."""
+    year = 365.25 * 24.0 * 3600.0
+    assert units.fluidity_from_mpa_year(20.0, 3.0) == pytest.approx(
+        20.0 / (1e6**3 * year), rel=1e-14
+    )
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.5, 3.0])
+def test_fluidity_there_and_back(exponent):
+    there = units.fluidity_from_mpa_year(20.0, exponent)
+    assert units.fluidity_to_mpa_year(there, exponent) == pytest.approx(20.0, rel=1e-14)
+
+
+def test_a_slope_in_per_cent_is_not_one_in_degrees():
+    assert units.radian_from_percent(45.0) == pytest.approx(math.atan(0.45), rel=1e-15)
+    assert units.radian_from_percent(45.0) < 0.6 * units.radian_from_degree(45.0)

@@ -1,0 +1,180 @@
+"""Cable solver against the exact elastic cable and two textbook limits.
+
+Truth: cable/THEORY.md (C9), the elastic catenary under a load per unstressed length;
+(C6) for slack 0; a triangle of forces for a point load.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import root
+
+from netdesign.cable.closed_form import compute_parabola_sag
+from netdesign.cable.funicular import solve_funicular
+from netdesign.outcome import Outcome
+
+STIFFNESS = 30.0
+
+
+def uniform_forces(load, lengths):
+    shares = np.zeros(2 * lengths.size + 1)
+    shares[1::2] = 4.0 / 6.0 * lengths
+    shares[:-1:2] += lengths / 6.0
+    shares[2::2] += lengths / 6.0
+    return np.outer(load, shares)
+
+
+def elastic_cable(S, across, along, load, stiffness):
+    """(C9) from any point: (x, y) at S, tension (H, V0 + q S), load along -y.
+
+    With V0 = 0 it is (C9) as printed.
+    """
+    end = along + load * S
+    x = across * S / stiffness + across / load * (
+        np.arcsinh(end / across) - math.asinh(along / across)
+    )
+    y = (along * S + load * S**2 / 2) / stiffness + (
+        np.hypot(across, end) - math.hypot(across, along)
+    ) / load
+    return np.array([x, y])
+
+
+def exact_pull(head, length, load, stiffness):
+    """Tension vector at the foot (H, V0) that ends the cable at the head; H > 0."""
+
+    def gap(unknowns):
+        across = math.exp(unknowns[0])
+        return elastic_cable(length, across, unknowns[1], load, stiffness) - head
+
+    solution = root(gap, [math.log(load), load * (head[1] - 0.5)], tol=1e-14)
+    assert np.abs(gap(solution.x)).max() < 1e-12
+    return np.array([math.exp(solution.x[0]), solution.x[1]])
+
+
+@pytest.mark.parametrize("slack", [0.0, 0.05, 0.4])
+@pytest.mark.parametrize("head", [(1.0, 0.0), (0.8, 0.6), (0.6, -0.8)])
+def test_uniform_load_converges_to_the_exact_cable(head, slack):
+    """Tension vectors are exact but for the pull, and that is of fourth order.
+
+    Two Gauss points integrate the cable's direction with an error of h^4.
+    """
+    head, load, length = np.array(head), 5.0, 1.0 + slack
+    foot = exact_pull(head, length, load, STIFFNESS)
+    end = -(foot + np.array([0.0, load * length]))
+    errors = []
+    for n in (16, 32, 64):
+        lengths = np.full(n, length / n)
+        forces = uniform_forces([0.0, -load], lengths)
+        cable = solve_funicular(forces, lengths, STIFFNESS, head, np.array([3.0, 0.1]))
+        assert cable.outcome is Outcome.CONVERGED
+        np.testing.assert_allclose(
+            cable.head_pull - end, -(cable.foot_pull - foot), atol=1e-12
+        )
+        errors.append(np.hypot(*(cable.foot_pull - foot)))
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders[-1] >= 3.9
+    assert errors[-1] <= 1e-7 * load
+
+
+def test_nodes_of_the_uniformly_loaded_cable():
+    head, load, length = np.array([0.8, 0.6]), 5.0, 1.1
+    pull = exact_pull(head, length, load, STIFFNESS)
+    errors = []
+    for n in (8, 16, 32):
+        lengths = np.full(n, length / n)
+        forces = uniform_forces([0.0, -load], lengths)
+        cable = solve_funicular(forces, lengths, STIFFNESS, head, np.array([3.0, 0.1]))
+        S = np.linspace(0.0, length, 2 * n + 1)
+        exact = elastic_cable(S, *pull, load, STIFFNESS)
+        errors.append(np.abs(cable.curve - exact).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders.min() >= 3.8  # of midpoints as of vertices
+
+
+def test_printed_form_of_the_elastic_parabola():
+    """(C9) from the lowest point, V = q S, for the start of a horizontal tangent."""
+    q, H, S = 2.0, 3.0, 1.7
+    x, y = elastic_cable(S, H, 0.0, q, STIFFNESS)
+    assert x == pytest.approx(H * S / STIFFNESS + H / q * math.asinh(q * S / H))
+    assert y == pytest.approx(
+        q * S**2 / (2 * STIFFNESS) + H / q * (math.sqrt(1 + (q * S / H) ** 2) - 1)
+    )
+    n = 64
+    lengths = np.full(n, S / n)
+    forces = uniform_forces([0.0, q], lengths) * -1.0
+    cable = solve_funicular(
+        forces, lengths, STIFFNESS, np.array([x, y]), np.array([2.0, 0.5])
+    )
+    np.testing.assert_allclose(cable.foot_pull, [H, 0.0], atol=1e-6 * H)
+
+
+def test_shallow_limit():
+    """f^3 = 3 q c^4 / (64 ES) and T^2 = (q c^2 / 8 f)^2 + (q c / 2)^2, both to (f/c)^2.
+
+    The parabola leaves out what is of the order of (f/c)^2: so the difference must
+    fall with the two thirds power of the load, and does.
+    """
+    chord, n = 1.0, 32
+    differences = []
+    for load in (1e-2, 1e-3, 1e-4):
+        lengths = np.full(n, chord / n)
+        sag = (3 * load * chord**4 / (64 * STIFFNESS)) ** (1 / 3)
+        assert compute_parabola_sag(load, chord, STIFFNESS, 0.0) == pytest.approx(sag)
+        pull = np.array([load * chord**2 / (8 * sag), load * chord / 2])
+        forces = uniform_forces([0.0, load], lengths)
+        cable = solve_funicular(
+            forces, lengths, STIFFNESS, np.array([chord, 0.0]), pull
+        )
+        found = np.array([cable.curve[1].max(), cable.foot_pull[0]])
+        expected = np.array([sag, load * chord**2 / (8 * sag)])
+        differences.append(np.abs(found / expected - 1).max() / (sag / chord) ** 2)
+        assert np.hypot(*cable.foot_pull) == pytest.approx(
+            math.hypot(load * chord**2 / (8 * sag), load * chord / 2),
+            rel=5 * (sag / chord) ** 2,
+        )
+    assert max(differences) <= 3.0
+    assert differences[2] == pytest.approx(differences[1], rel=0.1)
+
+
+def test_values_worked_by_hand():
+    """physics 7.8: q 10 kN/m, c 4 m, ES 20 MN: f 0.1817 m, H 110.1, T 111.9 kN."""
+    n = 32
+    lengths = np.full(n, 4.0 / n)
+    forces = uniform_forces([10.0, 0.0], lengths)
+    cable = solve_funicular(
+        forces, lengths, 20e3, np.array([0.0, 4.0]), np.array([20.0, 110.0])
+    )
+    # the shallow formula is good to three (f/c)^2, see above
+    shallow = 3 * (0.1817 / 4.0) ** 2
+    assert cable.curve[0].max() == pytest.approx(0.1817, rel=shallow)
+    assert cable.foot_pull[1] == pytest.approx(110.1, rel=shallow)
+    assert np.hypot(*cable.foot_pull) == pytest.approx(111.9, rel=shallow)
+
+
+@pytest.mark.parametrize("deflection", [0.01, 0.1, 0.5])
+@pytest.mark.parametrize("place", [0.25, 0.5, 0.7])
+def test_point_load_closes_a_triangle(place, deflection):
+    """Two straight halves: choose the deflected node, find the load, solve back.
+
+    Exact: straight elements under constant tension are in the space.
+    """
+    node, head = np.array([place, -deflection]), np.array([1.0, 0.0])
+    legs = (node, head - node)
+    unstressed = np.array([place, 1.0 - place]) * 0.98
+    vectors = [
+        STIFFNESS * (np.hypot(*leg) / rest - 1.0) * leg / np.hypot(*leg)
+        for leg, rest in zip(legs, unstressed, strict=True)
+    ]
+    load = vectors[0] - vectors[1]
+    forces = np.zeros((2, 5))
+    forces[:, 2] = load
+    cable = solve_funicular(forces, unstressed, STIFFNESS, head, vectors[0] * 1.5)
+    assert cable.outcome is Outcome.CONVERGED
+    np.testing.assert_allclose(cable.curve[:, 2], node, atol=1e-11)
+    np.testing.assert_allclose(cable.foot_pull, vectors[0], atol=1e-9)
+    np.testing.assert_allclose(cable.head_pull, -vectors[1], atol=1e-9)
+    for k in range(2):
+        np.testing.assert_allclose(
+            cable.tension[:, k], np.hypot(*vectors[k]), rtol=1e-9
+        )

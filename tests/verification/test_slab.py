@@ -1,0 +1,256 @@
+"""Creep law and flow against closed forms of homogeneous snow.
+
+Truth: closed forms of Gagliardini and Meyssonnier's law as given in the Elmer manual
+(standards-facts.md, 7.5), with its a, b and its printed values; below them the chain
+closed form -> law in three dimensions -> plane law of the program; then whole flows
+whose exact field is known, a confined level snowpack and an infinite slab.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.outcome import Outcome
+from netdesign.snow import flow
+from netdesign.snow.flow import FlowLaw, solve_flow
+from netdesign.snow.kernel import build_placed_mesh
+from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+
+# standards-facts.md, 7.5
+A, B_BULK = 206.2605, 129.1875
+N, FLUIDITY = 3.0, 20.0  # [-], [MPa^-3 a^-1]
+STRESS = 0.01  # [MPa]
+RATE_UNIT = FLUIDITY * A ** ((N + 1) / 2) * STRESS**N  # of the dimensionless law
+RATIO = A / B_BULK
+POISSON = (3 * A - 2 * B_BULK) / (6 * A + 2 * B_BULK)
+CONFINED = 4 / (3 * A) + 1 / B_BULK
+
+
+@pytest.fixture(autouse=True)
+def without_stress_floor(monkeypatch):
+    """The closed forms know of no linear creep at small stress."""
+    monkeypatch.setattr(flow, "STRESS_FLOOR", 1e-9)
+
+
+def a_law(**changes) -> FlowLaw:
+    values = {
+        "exponent": N,
+        "bulk_ratio": RATIO,
+        "gravity": (0.0, -1.0),
+        "ground": "free",
+        "slip_ratio": 0.0,
+        "friction": 0.0,
+    }
+    return FlowLaw(**{**values, **changes})
+
+
+def plane_strain_rate(stress, **changes):
+    """Strain rates (xx, yy, 2 xy) of the program's law, from its own tangent (F5)."""
+    law = a_law(**changes)
+    stress = np.array(stress, dtype=float)
+    moduli, kept = flow._linearise_creep(law, stress)
+    return np.linalg.solve(moduli, stress - kept)
+
+
+def strain_rate_in_space(stress, a=A, b=B_BULK, n=N):
+    """Inverse law in three dimensions, standards-facts.md 7.1, over the fluidity."""
+    pressure = -np.trace(stress) / 3
+    deviator = stress + pressure * np.eye(3)
+    size = math.sqrt(a * (deviator**2).sum() / 2 + b * pressure**2)
+    return size ** (n - 1) * (a / 2 * deviator - b / 3 * pressure * np.eye(3))
+
+
+# --- closed forms -> law in space --------------------------------------------
+
+
+def test_law_in_space_uniaxial():
+    rate = FLUIDITY * strain_rate_in_space(np.diag([0.0, 0.0, -STRESS]))
+    factor = A / 3 + B_BULK / 9
+    axial = -FLUIDITY * factor ** ((N + 1) / 2) * STRESS**N
+    lateral = -FLUIDITY / 18 * factor ** ((N - 1) / 2) * (2 * B_BULK - 3 * A)
+    assert rate[2, 2] == pytest.approx(axial, rel=1e-12)
+    assert rate[0, 0] == pytest.approx(lateral * STRESS**N, rel=1e-12)
+    # printed to four digits
+    assert rate[2, 2] == pytest.approx(-0.1381, rel=5e-4)
+    assert rate[0, 0] == pytest.approx(0.03328, rel=5e-4)
+
+
+def test_law_in_space_isotropic():
+    rate = FLUIDITY * strain_rate_in_space(-STRESS * np.eye(3))
+    expected = -FLUIDITY * B_BULK ** ((N + 1) / 2) * STRESS**N / 3
+    np.testing.assert_allclose(rate, expected * np.eye(3), atol=1e-16)
+    assert rate[0, 0] == pytest.approx(-0.1113, rel=5e-4)
+
+
+# --- law in space -> plane law of the program --------------------------------
+
+
+def close_with_no_strain_across(xx, yy, xy):
+    """Stress in space of plane strain: sigma_zz from e_zz = 0, linear in it."""
+    # (a/2)(zz - m) + (b/3) m = 0 with m = (xx + yy + zz) / 3
+    in_plane = (A / 2 - B_BULK / 3) * (xx + yy) / 3
+    zz = in_plane / (A / 2 - (A / 2 - B_BULK / 3) / 3)
+    return np.array([[xx, xy, 0.0], [xy, yy, 0.0], [0.0, 0.0, zz]])
+
+
+@pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_plane_law_is_the_law_in_space(seed, n):
+    stress = np.random.default_rng(seed).normal(size=3)
+    rate = strain_rate_in_space(close_with_no_strain_across(*stress), n=n)
+    assert rate[2, 2] == pytest.approx(0.0, abs=1e-9 * np.abs(rate).max())
+    expected = np.array([rate[0, 0], rate[1, 1], 2 * rate[0, 1]]) / A ** ((n + 1) / 2)
+    np.testing.assert_allclose(plane_strain_rate(stress, exponent=n), expected, 1e-10)
+
+
+def test_confined_compression():
+    """No strain along X: sigma_xx = nu / (1 - nu) sigma_yy."""
+    lateral = POISSON / (1 - POISSON)
+    rate = RATE_UNIT * plane_strain_rate([-lateral, -1.0, 0.0])
+    expected = -FLUIDITY * CONFINED ** (-(N + 1) / 2) * STRESS**N
+    assert rate[1] == pytest.approx(expected, rel=1e-10)
+    assert rate[1] == pytest.approx(-0.0991, rel=5e-4)
+    assert rate[0] == pytest.approx(0.0, abs=1e-12)
+    # printed deviator: tau_xx = 0.002275, tau_yy = -0.00455 MPa
+    mean = -STRESS * (1 + 2 * lateral) / 3
+    assert -STRESS * lateral - mean == pytest.approx(0.002275, rel=5e-4)
+    assert -STRESS - mean == pytest.approx(-0.00455, rel=5e-4)
+
+
+def test_plane_uniaxial_stress():
+    """Free sides, none across: 2 eps_xx / eps_yy as for an elastic solid of nu."""
+    rate = plane_strain_rate([0.0, -1.0, 0.0])
+    assert rate[0] / rate[1] == pytest.approx(-POISSON / (1 - POISSON), rel=1e-10)
+
+
+def test_simple_shear():
+    """2 eps_xy = B a^((n+1)/2) tau^n; nothing else moves."""
+    rate = RATE_UNIT * plane_strain_rate([0.0, 0.0, 1.0])
+    expected = FLUIDITY * A ** ((N + 1) / 2) * STRESS**N
+    np.testing.assert_allclose(rate, [0.0, 0.0, expected], atol=1e-12 * expected)
+
+
+# --- flows -------------------------------------------------------------------
+
+
+def uniform_mesh(aspect: float, step: float):
+    """Straight net normal to the slope; rings cost little and are left out."""
+    size = MeshSize(
+        net_spacing=min(step, 0.34), corner=step / 3, sectors=2, upslope_spacing=step
+    )
+    template = build_template(aspect, size)
+    fractions = template.net_fractions
+    curve = np.array([np.zeros_like(fractions), fractions])
+    return build_placed_mesh(template, place_nodes(template, curve))
+
+
+def flow_of(law, mesh):
+    result = solve_flow(law, mesh, tolerance=1e-9, max_iterations=80)
+    assert result.outcome is Outcome.CONVERGED
+    return mesh.to_slope_axes(result.state.velocity), result.state
+
+
+# With 3 a = 2 b confined snow does not press sideways. Then the confined column is
+# exact for the whole region: free upslope end, smooth ground, smooth net.
+NO_SIDE_PRESSURE = 2.0 / 3.0
+
+
+def settlement(height, n):
+    """w = -(4/(3a) + 1/b)^(-(n+1)/2) (rho g)^n (h^(n+1) - (h - y)^(n+1)) / (n + 1).
+
+    standards-facts.md 7.5, column under gravity; dimensionless with a out of it:
+    4/3 + r = 2.
+    """
+    return -(2.0 ** (-(n + 1) / 2)) * (1 - (1 - height) ** (n + 1)) / (n + 1)
+
+
+def test_settlement_of_level_snow_is_exact_for_linear_creep():
+    """Quadratic velocity, linear stress: both lie in the elements' space."""
+    law = a_law(exponent=1.0, bulk_ratio=NO_SIDE_PRESSURE)
+    mesh = uniform_mesh(1.0, 0.25)
+    velocity, state = flow_of(law, mesh)
+    expected = settlement(mesh.nodes[1], 1.0)
+    np.testing.assert_allclose(velocity[1], expected, atol=1e-12)
+    np.testing.assert_allclose(velocity[0], 0.0, atol=1e-12)
+    # stress at the points: (0, -(1 - y), 0); heights from the linear load of eps
+    strain = -state.stress[..., 1] / 2.0
+    total = (mesh.weights * strain).sum()  # integral of (1 - y) / 2
+    assert total == pytest.approx(1 / 4, rel=1e-12)
+    assert np.abs(state.stress[..., [0, 2]]).max() <= 1e-12
+
+
+def test_settlement_of_level_snow_converges_for_power_law_creep():
+    """Velocity of fourth degree; stress vanishes at the surface, n = 3."""
+    law = a_law(bulk_ratio=NO_SIDE_PRESSURE)
+    errors = []
+    for step in (0.25, 0.125, 0.0625):
+        mesh = uniform_mesh(1.0, step)
+        velocity, _ = flow_of(law, mesh)
+        expected = settlement(mesh.nodes[1], 3.0)
+        errors.append(np.abs(velocity[1] - expected).max() / np.abs(expected).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    # third order where the viscosity is smooth; it is unbounded at the surface
+    assert orders.min() >= 2.0
+    assert errors[-1] <= 2e-4
+
+
+def slab_surface_velocity(slope, n, bulk_ratio):
+    """Infinite slab on rough ground: (shear, settlement) rates over the height.
+
+    tau = (1 - y) sin psi, sigma_yy = -(1 - y) cos psi, no strain along X; both rates
+    go with S^(n-1), S^2 = tau^2 + sigma_yy^2 / (4/3 + r), and with (1 - y)^n.
+    """
+    stiff = 4 / 3 + bulk_ratio
+    size = math.hypot(math.sin(slope), math.cos(slope) / math.sqrt(stiff))
+    rates = np.array([math.sin(slope), -math.cos(slope) / stiff])
+    return size ** (n - 1) * rates / (n + 1)
+
+
+def surface_velocity_at_half_length(mesh, velocity):
+    surface = np.flatnonzero(np.abs(mesh.nodes[1] - 1.0) < 1e-12)
+    halfway = np.abs(mesh.nodes[0, surface] + mesh.template.aspect / 2)
+    return velocity[:, surface[np.argmin(halfway)]]
+
+
+@pytest.mark.parametrize("slope", [0.0, math.radians(40.0)])
+def test_infinite_slab_linear_creep(slope):
+    """The ends die out as exp(-0.9 x / d): thirty thicknesses away nothing is left.
+
+    The slowest end mode is a quarter sine over the height, longitudinal stiffness
+    2 + k against shear stiffness 1: rate (pi / 2) / sqrt(4/3 + r) per thickness.
+    """
+    law = a_law(
+        exponent=1.0, gravity=(math.sin(slope), -math.cos(slope)), ground="no-slip"
+    )
+    mesh = uniform_mesh(60.0, 0.5)
+    velocity, _ = flow_of(law, mesh)
+    found = surface_velocity_at_half_length(mesh, velocity)
+    expected = slab_surface_velocity(slope, 1.0, RATIO)
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+
+
+def test_infinite_slab_power_law_creep():
+    """n = 3: the stiff surface carries the ends' influence further, see the decay."""
+    slope = math.radians(40.0)
+    law = a_law(gravity=(math.sin(slope), -math.cos(slope)), ground="no-slip")
+    expected = slab_surface_velocity(slope, 3.0, RATIO)
+    errors = []
+    for aspect in (15.0, 30.0, 60.0):
+        mesh = uniform_mesh(aspect, 0.25)
+        found = surface_velocity_at_half_length(mesh, flow_of(law, mesh)[0])
+        errors.append(np.abs(found / expected - 1.0).max())
+    assert errors[1] <= errors[0] / 3
+    assert errors[2] <= errors[1] / 3
+    assert errors[2] <= 3e-3
+
+
+def test_column_of_the_elmer_manual():
+    """Printed for h = 1 m, rho = 450, n = 3: w(h) = -0.002132 m/a."""
+    law = a_law(ground="no-slip")
+    mesh = uniform_mesh(60.0, 0.25)
+    found = surface_velocity_at_half_length(mesh, flow_of(law, mesh)[0])
+    weight = 0.5 * 900 * 9.81 * 1e-6  # rho g h [MPa]
+    speed = FLUIDITY * A ** ((N + 1) / 2) * weight**N  # of one unit [m/a]
+    # four layers of elements, end effects as above
+    assert speed * found[1] == pytest.approx(-0.002132, rel=5e-3)
