@@ -9,7 +9,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -22,7 +22,6 @@ from netdesign.outcome import Verdict
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from netdesign.envelope.run import CaseResult
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -139,7 +138,7 @@ def check(
     kinds = _output_kinds(html=html, excel=excel, csv=csv)
     names = _output_names(folder, [p.id for p in profiles], ["study.json", *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with _progress(count_cases(site), quiet=quiet) as on_done:
+    with _bar(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
     studies = [judge_site(site, results, profile, run) for profile in profiles]
     write_files(_render(studies, names))
@@ -247,6 +246,30 @@ def glide() -> None:
         for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
             measured = measure_glide_factor(CREEP_LAWS[name], ratio)
             click.echo(f"{name:18} {ratio:15g} {stored:10.3f} {measured:12.3f}")
+
+
+@cli.command()
+@click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
+def verify(*, as_json: bool) -> None:
+    """Run the verification pack: closed forms, invariants, other codes.
+
+    \b
+    netdesign verify
+    netdesign verify --json
+    """
+    from netdesign.verification.pack import GROUPS, run_pack, write_pack
+
+    with _bar(len(GROUPS), "groups of cases", quiet=False) as advance:
+        cases = run_pack(advance)
+    if as_json:
+        click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
+    else:
+        from rich.console import Console
+
+        from netdesign.report.verification_table import print_cases
+
+        print_cases(cases, Console())
+    sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
 @cli.group()
@@ -461,9 +484,9 @@ def _exit_code(studies: Sequence[Study]) -> int:
 
 
 @contextmanager
-def _progress(
-    total: int, *, quiet: bool
-) -> Iterator[Callable[[CaseResult], None] | None]:
+def _bar(
+    total: int, what: str, *, quiet: bool
+) -> Iterator[Callable[[object], None] | None]:
     """Bar on a terminal, a few plain lines elsewhere; both on stderr."""
     if quiet:
         yield None
@@ -472,23 +495,22 @@ def _progress(
     from rich.progress import Progress
 
     console = Console(stderr=True)
-    with ExitStack() as stack:
-        if not console.is_terminal:
-            yield _plain_progress(total)
-            return
-        progress = stack.enter_context(Progress(console=console, transient=True))
-        task = progress.add_task("cases", total=total)
+    if not console.is_terminal:
+        yield _plain_progress(total, what)
+        return
+    with Progress(console=console, transient=True) as progress:
+        task = progress.add_task(what, total=total)
         yield lambda _: progress.advance(task)
 
 
-def _plain_progress(total: int) -> Callable[[CaseResult], None]:
+def _plain_progress(total: int, what: str) -> Callable[[object], None]:
     done = 0
 
-    def on_done(_: CaseResult) -> None:
+    def on_done(_: object) -> None:
         nonlocal done
         done += 1
         if done * 4 // total > (done - 1) * 4 // total:
-            click.echo(f"{done} of {total} cases", err=True)
+            click.echo(f"{done} of {total} {what}", err=True)
 
     return on_done
 

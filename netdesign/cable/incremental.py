@@ -1,9 +1,9 @@
 """The source paper's own cable: linearised increments of tension.
 
 Kept as the record of the paper's method and to compare with; ``sliding`` is the exact
-form. The paper leaves open how to find the nodes that glide; here it is block
-principal pivoting: every node that breaks its condition changes over, one at a time
-where that does not help. Theory: cable/THEORY.md, eqs (C18) to (C20).
+form. The paper leaves open how to find the nodes that glide. Here every node that
+breaks its condition changes over; where that no longer helps, wrong gliders stop
+first, then the worst offender starts. Theory: cable/THEORY.md, eqs (C18) to (C20).
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
-Flags = NDArray[np.bool_]
+Nodes = NDArray[np.intp]
 
-_PATIENCE = 3  # rounds without fewer broken conditions before nodes change singly
+_PATIENCE = 3  # rounds without fewer broken conditions before fewer nodes change
 _ROUNDING = 1e-12  # breach of a condition, over its terms, that counts as none
 
 
@@ -58,7 +58,7 @@ class IncrementalStep:
         Converged; max_iterations if the gliding nodes were not found; out_of_validity
         if a segment would push: the increments have no rule for a slack net.
     state : CableState
-        The cable at the end.
+        The cable at the end; as before the increment if not converged.
     glide : ndarray, shape (n,)
         1 net glides towards the foot, -1 towards the head, 0 sticks.
     rounds : int
@@ -74,7 +74,31 @@ class IncrementalStep:
 def build_cable_state(
     final_lengths: Floats, unstressed_lengths: Floats, stiffness: float
 ) -> CableState:
-    """State whose tensions are those of (C10): where a run of increments begins."""
+    """State whose tensions are those of (C10): where a run of increments begins.
+
+    Parameters
+    ----------
+    final_lengths, unstressed_lengths : ndarray, shape (n + 1,)
+        l_i and lo_i [m].
+    stiffness : float
+        ES [N/m].
+
+    Returns
+    -------
+    CableState
+        With tensions in N/m.
+
+    Raises
+    ------
+    ModelError
+        If a segment is slack, or a length is not above 0.
+    """
+    slack = final_lengths < unstressed_lengths * (1.0 - _ROUNDING)
+    if slack.any():
+        raise ModelError(
+            f"segment {int(np.argmax(slack))} is slack: increments of tension must "
+            "start from a net without slack; use solve_sliding"
+        )
     return CableState(
         final_lengths=final_lengths,
         unstressed_lengths=unstressed_lengths,
@@ -121,8 +145,7 @@ def advance_increment(
 
     Source
     ------
-    The paper's section "The cable"; |R_t| for R_t in its Eqs 12 and 13. Pivoting:
-    Judice and Pires (1994), Computers Ops Res. 21, 587-596.
+    The paper's section "The cable"; |R_t| for R_t in its Eqs 12 and 13.
     """
     _require_matching(state, final_lengths, turning_angles)
     require_positive("net stiffness", stiffness, "N/m")
@@ -132,18 +155,18 @@ def advance_increment(
     fewest, patience = glide.size + 1, _PATIENCE
     for rounds in range(1, max_rounds + 1):
         tensions = _solve_tensions(increment, glide)
-        wanted = _revise_glide(increment, tensions, glide)
-        broken = np.flatnonzero(wanted != glide)
-        if broken.size == 0:
-            return _end(Outcome.CONVERGED, increment, tensions, glide, rounds)
-        if broken.size < fewest:
-            fewest, patience = broken.size, _PATIENCE
-        else:
-            patience -= 1
-        changing = broken if patience > 0 else broken[-1:]
+        revised = _revise_glide(increment, tensions, glide)
+        changing: Nodes = np.flatnonzero(revised != glide)
+        if changing.size == 0:
+            return _end(state, increment, tensions, glide, rounds)
+        helps = changing.size < fewest
+        patience = _PATIENCE if helps else patience - 1
+        fewest = min(fewest, changing.size)
+        if patience <= 0:
+            changing = _choose_worst(_excess(increment, tensions), glide, changing)
         glide = glide.copy()
-        glide[changing] = wanted[changing]
-    return _end(Outcome.MAX_ITERATIONS, increment, tensions, glide, max_rounds)
+        glide[changing] = revised[changing]
+    return _fail(Outcome.MAX_ITERATIONS, state, glide, max_rounds)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -203,33 +226,56 @@ def _gliding_ratios(increment: _Increment, glide: Signs) -> Floats:
 def _revise_glide(increment: _Increment, tensions: Floats, glide: Signs) -> Signs:
     """What each node would do under these tensions; ``glide`` where that holds."""
     lower, upper = tensions[:-1], tensions[1:]
-    pull = increment.across * (upper - lower)  # R_t
-    hold = increment.grip * (upper + lower)  # R_n tan phi
     margin = _ROUNDING * increment.across * (np.abs(upper) + np.abs(lower))
-    starts = (glide == 0) & (np.abs(pull) > hold + margin)
-    lengthening = (increment.stuck - tensions) / increment.softening
-    slides = np.cumsum(lengthening)[:-1]
+    starts = (glide == 0) & (_excess(increment, tensions) > margin)
+    slides = np.cumsum(_lengthening(increment, tensions))[:-1]
     stops = glide * slides < -_ROUNDING * increment.unstressed.sum()
-    towards = np.where(upper < lower, 1, -1).astype(np.int8)
+    towards = np.where(upper < lower, 1, -1)
     return np.where(starts, towards, np.where(stops, 0, glide)).astype(np.int8)
 
 
+def _choose_worst(excess: Floats, glide: Signs, broken: Nodes) -> Nodes:
+    """Of the nodes that break a condition: all wrong gliders, else the worst."""
+    stopping: Nodes = broken[glide[broken] != 0]
+    return stopping if stopping.size else broken[[np.argmax(excess[broken])]]
+
+
+def _excess(increment: _Increment, tensions: Floats) -> Floats:
+    """|R_t| - R_n tan(phi) at the nodes, shape (n,)."""
+    lower, upper = tensions[:-1], tensions[1:]
+    pull = increment.across * np.abs(upper - lower)
+    return pull - increment.grip * (upper + lower)
+
+
+def _lengthening(increment: _Increment, tensions: Floats) -> Floats:
+    """Increments of lo that belong to these tensions, (C18), shape (n + 1,)."""
+    return (increment.stuck - tensions) / increment.softening
+
+
 def _end(
-    outcome: Outcome,
+    before: CableState,
     increment: _Increment,
     tensions: Floats,
     glide: Signs,
     rounds: int,
 ) -> IncrementalStep:
-    lengthening = (increment.stuck - tensions) / increment.softening
-    if outcome is Outcome.CONVERGED and tensions.min() < 0.0:
-        outcome = Outcome.OUT_OF_VALIDITY
+    unstressed = increment.unstressed + _lengthening(increment, tensions)
+    if not (tensions.min() >= 0.0 and unstressed.min() > 0.0):
+        return _fail(Outcome.OUT_OF_VALIDITY, before, glide, rounds)
     state = CableState(
         final_lengths=increment.final,
-        unstressed_lengths=increment.unstressed + lengthening,
+        unstressed_lengths=unstressed,
         tensions=tensions,
     )
-    return IncrementalStep(outcome=outcome, state=state, glide=glide, rounds=rounds)
+    return IncrementalStep(
+        outcome=Outcome.CONVERGED, state=state, glide=glide, rounds=rounds
+    )
+
+
+def _fail(
+    outcome: Outcome, before: CableState, glide: Signs, rounds: int
+) -> IncrementalStep:
+    return IncrementalStep(outcome=outcome, state=before, glide=glide, rounds=rounds)
 
 
 def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:

@@ -117,7 +117,7 @@ def build_law(element: Element) -> FlowLaw:
 
 def solve_bench(divisions: int, element: Element) -> tuple[PlacedMesh, PrescribedFlow]:
     """Manufactured problem on a square with ``divisions`` pieces along each side."""
-    template = _build_square(divisions)
+    template = build_square(divisions)
     heights = template.net_fractions
     curve = np.array([4 * _BULGE * heights * (1 - heights), heights])
     mesh = build_placed_mesh(template, place_nodes(template, curve), element)
@@ -133,7 +133,8 @@ def solve_bench(divisions: int, element: Element) -> tuple[PlacedMesh, Prescribe
     return mesh, flow
 
 
-def _build_square(divisions: int) -> MeshTemplate:
+def build_square(divisions: int) -> MeshTemplate:
+    """Reference mesh of a square with equal pieces along its sides."""
     ticks = np.linspace(0.0, 1.0, divisions + 1)
     x, y = np.meshgrid(ticks, ticks)
     return triangulate(np.column_stack([x.ravel(), y.ravel()]), 1.0)

@@ -27,7 +27,7 @@ from netdesign.snow.law import (
 
 Floats = NDArray[np.float64]
 _LARGEST_ITERATIONS = 60
-_TOLERANCE = 1e-11
+_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
