@@ -22,7 +22,12 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.errors import ModelError, SceneFileError
-from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
+from netdesign.snow.creep_law import (
+    CREEP_LAWS,
+    DENSEST_SNOW,
+    ICE_DENSITY,
+    CreepLaw,
+)
 from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.law import Sides
@@ -50,6 +55,7 @@ Mask = NDArray[np.bool_]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
+Density = Annotated[float, Field(gt=0, le=DENSEST_SNOW * ICE_DENSITY)]
 Temperature = Annotated[float, Field(ge=-60, le=0)]
 
 
@@ -67,7 +73,7 @@ class LayerTable(_Table):
     """One entry of ``snow.layers``, from the ground up."""
 
     thickness_m: Positive
-    density_kg_m3: Positive
+    density_kg_m3: Density
     temperature_C: Temperature | None = None
 
 
@@ -89,7 +95,7 @@ class SnowTable(_Table):
     thickness_m: Positive | None = None
     height_vertical_m: Positive | None = None
     upslope_length_m: Positive
-    density_kg_m3: Positive | None = None
+    density_kg_m3: Density | None = None
     layers: Annotated[list[LayerTable], Field(min_length=1)] | None = None
     creep_law: str | CreepLawTable = "boutillier-2004"
     creep_exponent: Annotated[float, Field(ge=1, le=10)] = 3.0
@@ -413,10 +419,10 @@ def _net(net: NetTable, thickness: float) -> Net | Wall:
         return Wall(
             height_normal=height, inclination=inclination, friction_angle=friction
         )
-    if net.stiffness_kN_per_m is None or friction is None:
-        raise ModelError(
-            "net.stiffness_kN_per_m and net.friction_deg: a cable needs both"
-        )
+    if net.stiffness_kN_per_m is None:
+        raise ModelError("net.stiffness_kN_per_m: a cable needs one")
+    if friction is None:
+        raise ModelError("net.friction_deg: a cable needs one")
     return Net(
         height_normal=height,
         inclination=inclination,

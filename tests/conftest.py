@@ -27,9 +27,9 @@ from netdesign.coupling.scene import (  # noqa: E402
 from netdesign.coupling.solution import Solution  # noqa: E402
 from netdesign.coupling.steady import solve_steady  # noqa: E402
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
-from netdesign.snow.flow import FlowLaw  # noqa: E402
 from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh  # noqa: E402
+from netdesign.snow.law import FlowLaw, FlowLayer  # noqa: E402
 from netdesign.snow.mesh import (  # noqa: E402
     MeshSize,
     build_template,
@@ -88,7 +88,7 @@ def _build_flow_law(
     slope = math.radians(slope_deg)
     return FlowLaw(
         exponent=exponent,
-        bulk_ratio=bulk_ratio,
+        layers=(FlowLayer(bulk_ratio=bulk_ratio),),
         gravity=(math.sin(slope), -math.cos(slope)),
         ground=ground,
         slip_ratio=slip_ratio,

@@ -334,9 +334,8 @@ def test_drawn_forces_are_those_of_the_drawn_case(judge):
 @pytest.mark.parametrize(
     ("low", "high", "is_noted"),
     [
-        (0.25 * 917.0, 0.81 * 917.0, False),
-        (0.249 * 917.0, 400.0, True),
-        (270.0, 0.811 * 917.0, True),
+        (0.4 * 917.0, 0.99 * 917.0, False),
+        (0.399 * 917.0, 400.0, True),
     ],
 )
 def test_densities_outside_the_calibration_are_noted(judge, low, high, is_noted):

@@ -60,7 +60,7 @@ THIRD_PARTY = {
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
     "click": ("cli",),
-    "rich": ("cli", "report.terminal"),
+    "rich": ("cli", "report.terminal", "report.verification_table"),
 }
 
 # Slow to import: only inside functions, so that help is there at once.

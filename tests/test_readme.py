@@ -66,6 +66,13 @@ def test_commands_run_as_printed(tmp_path):
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
 
 
+def test_scene_file_is_solved(tmp_path):
+    (tmp_path / "scene.toml").write_text(blocks("toml")[0], encoding="utf-8")
+    result = run("netdesign solve scene.toml", tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "balance residual" in result.stdout
+
+
 def test_python_block_prints_what_is_shown(capsys):
     exec(compile(blocks("python")[0], "README.md", "exec"), {})
     assert capsys.readouterr().out == blocks("text")[1]

@@ -5,6 +5,7 @@ import tomllib
 
 import pytest
 
+from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady import solve_steady
@@ -16,6 +17,7 @@ from netdesign.scene_file import (
     read_scene,
     write_solution_document,
 )
+from netdesign.snow.fluidity import compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
 
 SOUND = """
@@ -40,7 +42,6 @@ density_kg_m3 = 300
 creep_law = "boutillier-2004"
 creep_exponent = 3
 fluidity_per_MPa3_a = 20
-temperature_C = -5
 [ground]
 law = "sliding"
 slip_length_m = 1.5
@@ -170,16 +171,16 @@ def test_contradictions_are_refused(tables, table, changes, message):
         ("snow", "density_kg_m3", 917.0),
         ("snow", "density_kg_m3", math.nan),
         ("snow", "upslope_length_m", -20.0),
-        ("snow", "creep_exponent", 2.9),
-        ("snow", "creep_exponent", 3.1),
+        ("snow", "creep_exponent", 0.9),
+        ("snow", "creep_exponent", 10.1),
         ("snow", "fluidity_per_MPa3_a", 0.0),
         ("snow", "temperature_C", 0.1),
         ("snow", "layers", []),
         ("ground", "law", "rough"),
         ("ground", "slip_length_m", 0.0),
         ("ground", "glide_factor", 0.9),
-        ("ground", "contact", "one-sided"),
-        ("net", "kind", "rigid"),
+        ("ground", "contact", "glued"),
+        ("net", "kind", "membrane"),
         ("net", "inclination_deg", -1.0),
         ("net", "inclination_deg", 90.0),
         ("net", "height_m", 0.0),
@@ -246,7 +247,7 @@ def test_what_has_no_default_must_be_given(tables, table, key):
     else:
         del spoilt[table][key]
     place = table if key is None else rf"{table}\.{key}"
-    with pytest.raises(ValueError, match=rf"(?m)^{place}"):
+    with pytest.raises((ValueError, ModelError), match=rf"(?m)^{place}"):
         build(spoilt)
 
 
@@ -308,7 +309,9 @@ def test_solution_document_has_the_keys_of_the_interface(solved):
     assert {"wall_s", "linear_solves", "elements", "degrees_of_freedom"} <= set(
         document["cost"]
     )
-    assert {"version", "creep_law", "settings"} == set(document["provenance"])
+    assert {"version", "creep_law", "element", "settings"} == set(
+        document["provenance"]
+    )
     assert document["cost"]["wall_s"] == 1.5
 
 
@@ -356,3 +359,97 @@ def test_a_failure_carries_its_reason_and_no_number():
         "outcome": "diverged",
         "reason": "residual grew",
     }
+
+
+# --- layers, temperature, contacts, walls, sets of one's own -------------------------
+
+
+LAYERS = [
+    {"thickness_m": 1.0, "density_kg_m3": 450.0},
+    {"thickness_m": 3.0, "density_kg_m3": 300.0, "temperature_C": -5.0},
+]
+
+
+def test_layers_give_the_mean_density(tables):
+    del tables["snow"]["density_kg_m3"]
+    tables["snow"]["layers"] = LAYERS
+    pack = build(tables).snowpack
+    assert pack.density == pytest.approx((450 + 3 * 300) / 4, rel=1e-14)
+    assert [layer.temperature for layer in pack.layers] == [None, 268.15]
+
+
+def test_layers_that_do_not_add_up(tables):
+    del tables["snow"]["density_kg_m3"]
+    tables["snow"]["layers"] = LAYERS[:1]
+    with pytest.raises(ModelError, match=r"thicknesses: add up to 1, .* has 4"):
+        build(tables)
+
+
+def test_density_and_layers_exclude_each_other(tables):
+    tables["snow"]["layers"] = LAYERS
+    with pytest.raises(ModelError, match="exactly one of them"):
+        build(tables)
+
+
+def test_temperature_and_fluidity_exclude_each_other(tables):
+    tables["snow"] |= {"temperature_C": -5.0, "fluidity_per_MPa3_a": 20.0}
+    with pytest.raises(ModelError, match="one of them at most"):
+        build(tables)
+
+
+def test_temperature_becomes_fluidity(tables):
+    tables["snow"]["temperature_C"] = -10.0
+    assert build(tables).fluidity == compute_fluidity(263.15)
+
+
+def test_contacts_and_wall(tables):
+    tables["ground"] = {"contact": "one-sided"}
+    tables["net"]["contact"] = "one-sided"
+    scene = build(tables)
+    assert (scene.ground_contact, scene.net_contact) == ("one-sided", "one-sided")
+    tables["net"] = {"kind": "rigid", "inclination_deg": 10.0}
+    wall = build(tables).net
+    assert (wall.friction_angle, wall.inclination) == (None, math.radians(10))
+    tables["net"]["slack"] = 0.1
+    with pytest.raises(ModelError, match="a wall has none"):
+        build(tables)
+
+
+def test_creep_law_of_ones_own(tables):
+    tables["snow"]["creep_law"] = {
+        "name": "mine",
+        "source": "my tests",
+        "shear_fit": [16.03, 19.25],
+        "bulk_fit": [16.75, 22.51],
+        "branch": 0.81,
+        "calibrated": [0.3, 0.7],
+    }
+    law = build(tables).creep_law
+    assert (law.name, law.calibrated, law.clamp) == ("mine", (0.3, 0.7), 0.0)
+    # 3a < 2b at D = 0.3: refused on load
+    tables["snow"]["creep_law"]["bulk_fit"] = [18.0, 22.51]
+    with pytest.raises(ModelError, match="shrink sideways"):
+        build(tables)
+
+
+def test_flags_tell_of_use_outside_the_calibration(tables):
+    tables["snow"] |= {"density_kg_m3": 300.0, "creep_exponent": 2.0}
+    scene = build(tables)
+    solution = solve_steady(scene, SolverSettings(levels=MESH_LEVELS[:2], accuracy=0.1))
+    document = write_solution_document(solution, SolverSettings(), wall_s=0.0)
+    assert [flag.split()[0] for flag in document["flags"]] == ["snow", "creep"]
+
+
+def test_document_of_a_wall(tables):
+    tables["net"] = {"kind": "rigid", "inclination_deg": 0.0}
+    tables["ground"] = {"law": "no-slip"}
+    solution = solve_rigid(build(tables), SolverSettings(accuracy=0.05))
+    document = write_solution_document(solution, SolverSettings(), wall_s=0.0)
+    assert document["anchor_forces"] is None
+    assert document["tension_kN_per_m"] is None
+    wall = document["wall"]
+    assert wall["force_x_kN_per_m"] == solution.force.x / 1000.0
+    assert wall["moment_about_foot_kN"] == solution.moment_about_foot / 1000.0
+    total = sum(node["force_x_kN_per_m"] for node in document["nodes"])
+    assert total == pytest.approx(wall["force_x_kN_per_m"], rel=1e-12)
+    json.dumps(document, allow_nan=False)

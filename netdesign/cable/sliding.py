@@ -100,8 +100,8 @@ def solve_sliding(
         Guess of the unstressed lengths; its scale does not matter. Default is
         uniform strain, the answer without friction [m].
     tolerance : float
-        Breach of (C14), a difference of logarithms of tensions, that counts as none.
-        What rounding makes of the smallest elongation is added.
+        Breach of (C14), a difference of logarithms of tensions, that counts as none
+        [-]. What rounding makes of the smallest elongation is added.
     max_iterations : int
         Newton steps allowed; 3 to 8 are taken whatever the friction and the mesh.
 

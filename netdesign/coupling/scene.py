@@ -79,6 +79,11 @@ class Scene:
         if isinstance(self.net, Net):
             _require_clear_of_ground(self.net)
         require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
+        if not any(self.snowpack.gravity_direction):
+            raise ModelError(
+                "slope angle = 0 with gravity along the slope only: the snow would "
+                "have no weight; take the full gravity"
+            )
         for name in ("ground_contact", "net_contact"):
             require_one_of(name, getattr(self, name), ("two-sided", "one-sided"))
         require_within(

@@ -109,7 +109,7 @@ def run_cases(
         try:
             return _gather(pool, tasks, notify)
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
+            pool.shutdown(wait=True, cancel_futures=True)
             raise
 
 

@@ -46,6 +46,10 @@ from netdesign.snow.law import (
 from netdesign.snow.mesh import Floats
 
 
+class _SingularError(Exception):
+    """The linear problem of a step has no solution; ends the iteration."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FlowState:
     """One iterate, or the solution, of the flow problem.
@@ -128,7 +132,11 @@ def solve_flow(
             law, mesh, state.contact, state.unknowns, state.reaction
         )
         settled = contact.equals(state.contact)
-        state, change = _advance(law, material, mesh, state, contact)
+        try:
+            state, change = _advance(law, material, mesh, state, contact)
+        except _SingularError:
+            outcome = Outcome.NONFINITE
+            break
         solves += 1
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
@@ -227,12 +235,15 @@ def _solve_unknowns(
         matrix = matrix + friction @ matrix
         force = force + friction @ force
     places = np.flatnonzero(free_unknowns(law, mesh, contact))
-    factors = splu(
-        matrix[places][:, places].tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.01,
-        options={"SymmetricMode": True},
-    )
+    try:
+        factors = splu(
+            matrix[places][:, places].tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.01,
+            options={"SymmetricMode": True},
+        )
+    except RuntimeError as error:  # how SuperLU tells of a singular matrix
+        raise _SingularError(str(error)) from None
     unknowns = np.zeros(mesh.n_dofs)
     unknowns[places] = factors.solve(-force[places])
     return unknowns

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from netdesign.guards import require_within
-from netdesign.units import fluidity_from_mpa_year
+from netdesign.units import fluidity_from_mpa_year, kelvin_from_celsius
 
 # The source paper's value, Lliboutry and Duval (1985), for n = 3 [Pa^-3 s^-1].
 PAPER_FLUIDITY = fluidity_from_mpa_year(20.0, 3.0)
@@ -18,7 +18,7 @@ _BREAK = 263.15  # [K]
 # Rate factor A [Pa^-3 s^-1] and activation energy [J/mol] below and above the break.
 _COLD = (3.985e-13, 60e3)
 _WARM = (1.916e3, 139e3)
-COLDEST, WARMEST = 213.15, 273.15  # [K]
+COLDEST, WARMEST = kelvin_from_celsius(-60.0), kelvin_from_celsius(0.0)  # [K]
 
 
 def compute_fluidity(temperature: float) -> float:

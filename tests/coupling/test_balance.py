@@ -80,7 +80,9 @@ def state(a_mesh, a_flow_law):
 
 def measure(state, **changes):
     law, mesh, forces, cable = state
-    return measure_balance(law, mesh, replace(forces, **changes), cable, SCALE)
+    held = cable.foot_pull + cable.head_pull
+    changed = replace(forces, **changes)
+    return measure_balance(law, mesh, changed, held, cable.tension, SCALE)
 
 
 def test_state_in_balance(state):
@@ -144,11 +146,34 @@ def test_ground_that_only_pulls(state):
     assert balance.ground_tension_share == math.inf
 
 
+def test_wall_has_no_tension(state):
+    law, mesh, forces, cable = state
+    held = cable.foot_pull + cable.head_pull
+    balance = measure_balance(law, mesh, forces, held, None, SCALE)
+    assert balance.smallest_tension is None
+    check_balance(balance, TOLERANCE)
+
+
+def test_snow_that_adheres_has_no_friction_limit(state):
+    law, mesh, forces, cable = state
+    on_net = forces.on_net.copy()
+    on_net[1, 3] = 10.0 * on_net[0, 3]
+    held = cable.foot_pull + cable.head_pull
+    balance = measure_balance(
+        replace(law, friction=math.inf),
+        mesh,
+        replace(forces, on_net=on_net),
+        held,
+        None,
+        SCALE,
+    )
+    assert balance.friction_excess == 0.0
+
+
 def test_smallest_tension_is_looked_for_everywhere(state):
     law, mesh, forces, cable = state
     tension = np.array(cable.tension)
     tension[1, 2] = 0.1
-    balance = measure_balance(
-        law, mesh, forces, replace(cable, tension=tension), force_scale=SCALE
-    )
+    held = cable.foot_pull + cable.head_pull
+    balance = measure_balance(law, mesh, forces, held, tension, SCALE)
     assert balance.smallest_tension == pytest.approx(0.1 * SCALE, rel=1e-15)

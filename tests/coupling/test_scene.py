@@ -1,29 +1,13 @@
 """Scene and settings: scales, and guards at their bounds."""
 
 import math
-from dataclasses import fields
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.errors import ModelError
-from netdesign.snow.flow import FlowLaw
-
-
-def test_reference_weight(a_scene):
-    """physics.md, section 7: 185.0 kN/m for the straight net normal to the slope."""
-    weight = a_scene().weight_along_slope
-    expected = 0.4 * 917 * 9.81 * 20 * 4 * math.sin(math.radians(40))
-    assert weight == pytest.approx(expected, rel=1e-12)
-    assert weight == pytest.approx(185.0e3, abs=50)  # printed to 0.1 kN/m
-
-
-def test_inclined_net_carries_its_wedge(a_scene):
-    """d^2 tan(theta) / 2 more than L d; 45 degrees make it d^2 / 2."""
-    upright, inclined = a_scene(), a_scene(inclination_deg=45.0)
-    share = inclined.weight_along_slope / upright.weight_along_slope
-    assert share == pytest.approx((20 * 4 + 4**2 / 2) / (20 * 4), rel=1e-12)
 
 
 def test_scales(a_scene):
@@ -33,7 +17,8 @@ def test_scales(a_scene):
     assert law.slip_ratio == pytest.approx(0.5, rel=1e-15)
     assert law.friction == pytest.approx(1.0, rel=1e-15)
     # a / b of the fit: exp(16.03 - 16.75 + (22.51 - 19.25) D)
-    assert law.bulk_ratio == pytest.approx(math.exp(-0.72 + 3.26 * 0.4), rel=1e-12)
+    (layer,) = law.layers
+    assert layer.bulk_ratio == pytest.approx(math.exp(-0.72 + 3.26 * 0.4), rel=1e-12)
     assert (law.exponent, law.ground) == (3.0, "sliding")
     assert law.gravity == (
         pytest.approx(math.sin(math.radians(40))),
@@ -41,10 +26,35 @@ def test_scales(a_scene):
     )
 
 
-def test_fluidity_is_absent():
-    """It only rescales time: no number of a steady state can depend on it."""
-    names = {f.name for kind in (Scene, FlowLaw) for f in fields(kind)}
-    assert not any("fluidity" in name or "temperature" in name for name in names)
+def test_fluidity_does_not_reach_the_flow_of_uniform_snow(a_scene):
+    """It only rescales time: no force of a steady state can depend on it."""
+    scene = a_scene()
+    faster = replace(scene, fluidity=7.0 * scene.fluidity)
+    assert faster.flow_law == scene.flow_law
+    assert faster.velocity_scale == pytest.approx(7.0 * scene.velocity_scale, rel=1e-14)
+
+
+def test_snow_without_weight_is_refused(a_scene):
+    with pytest.raises(ModelError, match="would have no weight"):
+        a_scene(slope_deg=0.0, gravity="parallel")
+
+
+@pytest.mark.parametrize(("slack", "inclination"), [(0.15, 60.0), (0.5, 40.0)])
+def test_net_that_would_lie_on_the_ground_is_refused(a_scene, slack, inclination):
+    with pytest.raises(ModelError, match=r"slack = .*lie on the ground.*less than"):
+        a_scene(slack=slack, inclination_deg=inclination)
+
+
+@pytest.mark.parametrize("fluidity", [0.0, -1.0, math.nan, math.inf])
+def test_fluidity_is_guarded(a_scene, fluidity):
+    with pytest.raises(ModelError, match="fluidity"):
+        replace(a_scene(), fluidity=fluidity)
+
+
+@pytest.mark.parametrize("field", ["ground_contact", "net_contact"])
+def test_contact_word_is_guarded(a_scene, field):
+    with pytest.raises(ModelError, match=f"{field} = 'glued'"):
+        replace(a_scene(), **{field: "glued"})
 
 
 @pytest.mark.parametrize("height", [4.0, 4.0 * (1 - 0.9e-6), 5.0])

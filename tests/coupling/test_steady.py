@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from netdesign.coupling import steady
+from netdesign.coupling.refine import ERROR_FLOOR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import ERROR_FLOOR, solve_steady
+from netdesign.coupling.steady import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow import flow
@@ -42,7 +43,7 @@ def test_converged(solved):
 
 
 def test_net_that_touches_the_ground(a_scene):
-    scene = a_scene(slack=0.15, inclination_deg=60.0)
+    scene = a_scene(slack=0.05, inclination_deg=60.0)
     result = solve_steady(scene, COARSE)
     fails_with(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
 
@@ -94,10 +95,10 @@ def test_force_lost_between_snow_and_ground(a_scene, monkeypatch, axis):
 def test_snow_that_sticks_beyond_its_friction(a_scene, monkeypatch):
     """A contact that never slips: equilibrium is met, Coulomb is not."""
 
-    def never_slip(law, mesh, state):
-        return replace(state.contact, sign=np.zeros_like(state.contact.sign))
+    def never_slip(law, mesh, contact, velocity, reaction):
+        return replace(contact, sign=np.zeros_like(contact.sign))
 
-    monkeypatch.setattr(flow, "_update_contact", never_slip)
+    monkeypatch.setattr(flow, "update_contact", never_slip)
     result = solve_steady(a_scene(inclination_deg=30.0, friction_deg=5.0), COARSE)
     fails_with(Outcome.BALANCE_VIOLATED, result, "shear beyond the friction limit")
 
@@ -120,22 +121,10 @@ def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
 
 
 def test_failure_is_raised_when_asked(a_scene):
-    scene = a_scene(slack=0.15, inclination_deg=60.0)
+    scene = a_scene(slack=0.05, inclination_deg=60.0)
     with pytest.raises(SolveError, match="touch the ground") as raised:
         solve_steady(scene, COARSE, on_failure="raise")
     assert raised.value.outcome is Outcome.OUT_OF_VALIDITY
-
-
-@pytest.mark.xfail(
-    raises=ZeroDivisionError,
-    strict=True,
-    reason="snow without weight: relative change of a stress that is zero",
-)
-@pytest.mark.parametrize("ground", ["free", "no-slip"])
-def test_no_load_at_all(a_scene, ground):
-    """Parallel gravity on level ground: a scene that the guards let through."""
-    scene = a_scene(slope_deg=0.0, gravity="parallel", ground=ground)
-    assert isinstance(solve_steady(scene, COARSE), FailedSolution)
 
 
 def test_same_scene_twice(a_scene):
@@ -253,11 +242,6 @@ LOOSE = [
     {"inclination_deg": 20.0, "slack": 0.1},
     {"inclination_deg": 20.0, "slack": 0.1, "friction_deg": 10.0, "height_m": 4.8},
 ]
-BEYOND = pytest.mark.xfail(
-    strict=True,
-    reason="on the two coarsest meshes the true error, some 0.15 %, is 1.2 to 1.4 "
-    "times the stated one",
-)
 
 
 def true_over_stated(solved, first_level, scene):
@@ -270,9 +254,7 @@ def true_over_stated(solved, first_level, scene):
     )
 
 
-@pytest.mark.parametrize(
-    "scene", SCENES + [pytest.param(scene, marks=BEYOND) for scene in LOOSE], ids=str
-)
+@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
 def test_stated_error_holds(solved, scene):
     assert true_over_stated(solved, 0, scene) <= 1.0
 

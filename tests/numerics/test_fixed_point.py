@@ -12,13 +12,13 @@ def affine_map(matrix):
     return lambda point: matrix @ point + SHIFT
 
 
-def iterate(image_of, rounds: int, depth: int = 12):
+def iterate(image_of, rounds: int, depth: int = 12, damping: float = 1.0):
     points, images = [], []
     point = np.zeros(3)
     for _ in range(rounds):
         points.append(point)
         images.append(image_of(point))
-        point = mix_anderson(points, images, depth)
+        point = mix_anderson(points, images, depth=depth, damping=damping)
     return point
 
 
@@ -36,13 +36,16 @@ def test_depth_one_is_the_plain_iteration():
 
 
 @pytest.mark.parametrize("factor", [0.9, 3.0])
-def test_affine_map_ends_in_one_round_more_than_unknowns(factor):
+@pytest.mark.parametrize("damping", [0.5, 1.0])
+def test_affine_map_ends_in_one_round_more_than_unknowns(factor, damping):
     """Equivalent to GMRES: contracting or not, three unknowns need four rounds."""
     rng = np.random.default_rng(4)
     matrix = factor * rng.normal(size=(3, 3))
     fixed_point = np.linalg.solve(np.eye(3) - matrix, SHIFT)
     # differences of iterates are conditioned like the square of the matrix
-    np.testing.assert_allclose(iterate(affine_map(matrix), 4), fixed_point, rtol=1e-8)
+    np.testing.assert_allclose(
+        iterate(affine_map(matrix), 4, damping=damping), fixed_point, rtol=1e-8
+    )
 
 
 def test_secant_of_a_scalar():
@@ -66,7 +69,9 @@ def test_history_beyond_the_depth_is_forgotten():
 
 
 def test_two_equal_iterates_do_not_break_it():
-    """Without a difference to learn from it takes the plain step."""
+    """Without a difference to learn from it takes the damped step."""
     points = [np.zeros(3), np.zeros(3)]
     images = [SHIFT, SHIFT]
-    np.testing.assert_allclose(mix_anderson(points, images), SHIFT)
+    for damping in (0.5, 1.0):
+        mixed = mix_anderson(points, images, damping=damping)
+        np.testing.assert_allclose(mixed, damping * SHIFT)

@@ -120,6 +120,13 @@ def test_a_file_that_exists_is_kept_unless_told(tmp_path):
     assert zipfile.is_zipfile(path)
 
 
-def test_a_folder_that_does_not_exist_is_an_output_error(tmp_path):
-    with pytest.raises(OutputError, match="cannot be written"):
-        write_site_workbook(tmp_path / "none" / "site.xlsx")
+def test_a_folder_that_does_not_exist_is_made(tmp_path):
+    path = tmp_path / "new" / "site.xlsx"
+    write_site_workbook(path)
+    assert path.stat().st_size > 0
+
+
+def test_a_file_in_the_place_of_a_folder_is_an_output_error(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="is not a folder"):
+        write_site_workbook(tmp_path / "file" / "site.xlsx")

@@ -9,8 +9,10 @@ from netdesign.errors import ModelError
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     CREEP_LAWS,
+    DENSEST_SNOW,
     compute_bulk_factor,
     compute_shear_factor,
+    require_admissible,
 )
 
 LAW = BOUTILLIER_2004
@@ -57,12 +59,56 @@ def test_branch_itself_is_dense():
 
 
 def test_ice_is_the_limit():
-    """a = 1, b = 0: incompressible."""
-    almost = 1.0 - 1e-12
-    assert compute_shear_factor(LAW, almost) == pytest.approx(1.0, abs=1e-11)
-    # b ~ (3/4) ((1-D)^(1/3) / 3)^(3/2)
-    expected = 0.75 * (1e-4 / 3) ** 1.5
-    assert compute_bulk_factor(LAW, almost) == pytest.approx(expected, rel=1e-3)
+    """a tends to 1, b to 0: (N4) at the densest snow that is accepted."""
+    void = (1.0 - DENSEST_SNOW) ** (1 / 3)
+    shear = (1 + 2 * (1.0 - DENSEST_SNOW) / 3) / DENSEST_SNOW**1.5
+    assert compute_shear_factor(LAW, DENSEST_SNOW) == pytest.approx(shear, rel=1e-14)
+    assert shear == pytest.approx(1.0, abs=0.03)
+    expected = 0.75 * (void / (3 * (1 - void))) ** 1.5
+    bulk = compute_bulk_factor(LAW, DENSEST_SNOW)
+    assert bulk == pytest.approx(expected, rel=1e-13)
+    assert bulk < 0.03
+
+
+SETS = [
+    # standards-facts.md 7.4, four digits; 7.3 for the continuity of the original set
+    ("zwinger-2007", 0.50, 206.3, 129.2),
+    ("zwinger-2007", 0.60, 42.54, 16.69),
+    ("zwinger-2007", 0.40, 1000.0, 1000.0),
+    ("zwinger-2007", 0.20, 1000.0, 1000.0),  # clamped
+    ("gagliardini-1997", 0.785, 1.6439, 0.26363),
+]
+
+
+@pytest.mark.parametrize(("name", "density", "shear", "bulk"), SETS)
+def test_other_sets(name, density, shear, bulk):
+    law = CREEP_LAWS[name]
+    assert compute_shear_factor(law, density) == pytest.approx(shear, rel=3e-4)
+    assert compute_bulk_factor(law, density) == pytest.approx(bulk, rel=3e-4)
+
+
+@pytest.mark.parametrize("law", CREEP_LAWS.values(), ids=lambda law: law.name)
+def test_every_set_is_continuous_at_its_branch(law):
+    below = math.nextafter(law.branch, 0.0)
+    for compute in (compute_shear_factor, compute_bulk_factor):
+        assert compute(law, below) == pytest.approx(compute(law, law.branch), rel=3e-3)
+
+
+def test_snow_that_would_shrink_sideways_is_refused():
+    """3a < 2b: the original set below D = 0.504, standards-facts.md 7.4."""
+    law = CREEP_LAWS["gagliardini-1997"]
+    require_admissible(law, 0.505)
+    with pytest.raises(ModelError, match=r"3a = .* < 2b = .*shrink sideways"):
+        require_admissible(law, 0.503)
+    with pytest.raises(ModelError, match="shrink sideways"):
+        replace(law, calibrated=(0.4, 1.0))
+
+
+def test_calibrated_range_includes_its_bounds():
+    assert LAW.is_calibrated(0.4)
+    assert LAW.is_calibrated(1.0)
+    assert not LAW.is_calibrated(math.nextafter(0.4, 0.0))
+    assert not LAW.is_calibrated(math.nan)
 
 
 @pytest.mark.parametrize("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
@@ -82,7 +128,9 @@ def test_both_fall_with_density():
 @pytest.mark.parametrize("density", [0.0, -0.1, 1.0, 1.1, math.nan, math.inf])
 @pytest.mark.parametrize("compute", [compute_shear_factor, compute_bulk_factor])
 def test_density_that_is_not_snow(compute, density):
-    with pytest.raises(ModelError, match=r"relative density = .* below 917 kg/m3"):
+    with pytest.raises(
+        ModelError, match=r"relative density = .* at most 0\.99, that is 908 kg/m3"
+    ):
         compute(LAW, density)
 
 

@@ -5,15 +5,27 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.steady import solve_steady
 from netdesign.outcome import Outcome
 from netdesign.snow import flow, kernel
+from netdesign.snow.contact import free_unknowns, start_contact
 from netdesign.snow.flow import solve_flow
+from netdesign.snow.law import (
+    STRESS_FLOOR,
+    Material,
+    linearise_creep,
+    linearise_sliding,
+)
 
 TIGHT = 1e-9
 
 GROUNDS = [("free", 0.0), ("sliding", 0.5), ("no-slip", 0.0)]
+
+
+def material(law):
+    layer = law.layers[0]
+    return Material(layer.bulk_ratio, layer.fluidity, layer.density)
 
 
 def solve(law, mesh, start=None):
@@ -29,7 +41,7 @@ def forces_on_net(mesh, state):
 
 
 def slip_velocity(mesh, state):
-    return state.velocity[2 * mesh.template.net[1:] + 1]
+    return state.unknowns[2 * mesh.template.net[1:] + 1]
 
 
 @pytest.fixture
@@ -42,7 +54,7 @@ def inclined(a_mesh):
 
 def test_metric_is_that_of_the_theory(a_flow_law):
     """(F2): k = r - 2/3."""
-    metric = a_flow_law(bulk_ratio=5 / 3).metric
+    metric = material(a_flow_law(bulk_ratio=5 / 3)).stiffness
     np.testing.assert_allclose(
         metric, [[3.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 1.0]], rtol=1e-15
     )
@@ -50,8 +62,8 @@ def test_metric_is_that_of_the_theory(a_flow_law):
 
 def strain_rate(law, stress):
     """(F3), written out."""
-    compliance = np.linalg.inv(law.metric)
-    size = stress @ compliance @ stress + flow.STRESS_FLOOR**2
+    compliance = np.linalg.inv(material(law).stiffness)
+    size = stress @ compliance @ stress + STRESS_FLOOR**2
     return size ** ((law.exponent - 1.0) / 2.0) * compliance @ stress
 
 
@@ -67,7 +79,7 @@ def test_tangent_is_the_derivative_of_the_law(a_flow_law, exponent, size):
             for e in step * np.eye(3)
         ]
     )
-    moduli, kept = flow._linearise_creep(law, stress)
+    moduli, kept = linearise_creep(law, material(law), stress)
     np.testing.assert_allclose(moduli @ slopes, np.eye(3), atol=1e-8)
     # (F5): what the tangent keeps is sigma - C eps(sigma)
     expected = stress - moduli @ strain_rate(law, stress)
@@ -79,11 +91,11 @@ def test_tangent_of_the_sliding_ground(a_flow_law):
     shear = np.array([-0.8, 1e-3, 0.2])
 
     def velocity(tau):
-        return 0.3 * (tau**2 + flow.STRESS_FLOOR**2) * tau
+        return 0.3 * (tau**2 + STRESS_FLOOR**2) * tau
 
     step = 1e-6
     slope = (velocity(shear + step) - velocity(shear - step)) / (2 * step)
-    tangent = flow._linearise_sliding(law, shear)
+    tangent = linearise_sliding(law, shear)
     # second order in a step of 1e-3 of the smallest shear
     np.testing.assert_allclose(tangent.modulus * slope, 1.0, rtol=2e-6)
     expected = shear - tangent.modulus * velocity(shear)
@@ -94,11 +106,11 @@ def test_tangent_of_the_sliding_ground(a_flow_law):
 def test_converged_stress_and_velocity_obey_the_law(inclined, a_flow_law, exponent):
     law = a_flow_law(exponent=exponent)
     state = solve(law, inclined)
-    compliance = np.linalg.inv(law.metric)
+    compliance = np.linalg.inv(material(law).stiffness)
     squared = ((state.stress @ compliance) * state.stress).sum(axis=-1)
-    squared += flow.STRESS_FLOOR**2
+    squared += STRESS_FLOOR**2
     expected = squared[..., None] ** ((exponent - 1) / 2) * (state.stress @ compliance)
-    found = kernel.compute_strain(inclined, state.velocity)
+    found = kernel.compute_strain(inclined, state.unknowns)
     scale = np.sqrt((inclined.weights[..., None] * expected**2).sum())
     missing = np.sqrt((inclined.weights[..., None] * (found - expected) ** 2).sum())
     assert missing <= 1e-7 * scale  # stresses to TIGHT, strain rates n times worse
@@ -109,7 +121,7 @@ def test_linear_creep_is_linear(inclined, a_flow_law):
     law = a_flow_law(exponent=1.0)
     double = replace(law, gravity=(2 * law.gravity[0], 2 * law.gravity[1]))
     once, twice = solve(law, inclined), solve(double, inclined)
-    np.testing.assert_allclose(twice.velocity, 2 * once.velocity, atol=1e-12)
+    np.testing.assert_allclose(twice.unknowns, 2 * once.unknowns, atol=1e-12)
     np.testing.assert_allclose(twice.stress, 2 * once.stress, atol=1e-12)
 
 
@@ -120,17 +132,20 @@ def test_linear_creep_needs_no_iteration_where_it_sticks(inclined, a_flow_law):
     assert (result.outcome, result.linear_solves) == (Outcome.CONVERGED, 2)
 
 
-def test_creep_is_homogeneous(inclined, a_flow_law, monkeypatch):
+def test_creep_is_homogeneous(inclined, a_flow_law):
     """n = 3: twice the gravity, twice the stress, eight times the velocity."""
     law = a_flow_law()
     once = solve(law, inclined)
-    monkeypatch.setattr(flow, "STRESS_FLOOR", 2 * flow.STRESS_FLOOR)
-    double = replace(law, gravity=(2 * law.gravity[0], 2 * law.gravity[1]))
+    double = replace(
+        law,
+        gravity=(2 * law.gravity[0], 2 * law.gravity[1]),
+        stress_floor=2 * STRESS_FLOOR,
+    )
     twice = solve(double, inclined)
     scale = np.abs(once.stress).max()
     np.testing.assert_allclose(twice.stress, 2 * once.stress, atol=1e-7 * scale)
-    speed = np.abs(once.velocity).max()
-    np.testing.assert_allclose(twice.velocity, 8 * once.velocity, atol=1e-7 * speed)
+    speed = np.abs(once.unknowns).max()
+    np.testing.assert_allclose(twice.unknowns, 8 * once.unknowns, atol=1e-7 * speed)
 
 
 # --- equilibrium -------------------------------------------------------------
@@ -141,7 +156,7 @@ def test_equilibrium_where_nothing_holds(inclined, a_flow_law, ground, slip_rati
     law = a_flow_law(ground=ground, slip_ratio=slip_ratio)
     state = solve(law, inclined)
     residual = flow.compute_residual(law, inclined, state)
-    free = flow.free_components(law, inclined)
+    free = free_unknowns(law, inclined, start_contact(inclined))
     free[2 * inclined.template.net + 1] = False
     np.testing.assert_allclose(residual[free], 0.0, atol=1e-11)
     np.testing.assert_allclose(residual, state.reaction, atol=1e-8)
@@ -153,17 +168,17 @@ def test_power_of_gravity_is_spent(inclined, a_flow_law, ground, slip_ratio):
     law = a_flow_law(ground=ground, slip_ratio=slip_ratio, friction=0.05)
     state = solve(law, inclined)
     load = inclined.to_node_axes(np.outer(law.gravity, inclined.load))
-    strain = kernel.compute_strain(inclined, state.velocity)
+    strain = kernel.compute_strain(inclined, state.unknowns)
     in_snow = (inclined.weights * (state.stress * strain).sum(axis=-1)).sum()
     on_ground = 0.0
     if state.base_shear is not None:
-        along = kernel.compute_base_velocity(inclined, state.velocity)
+        along = kernel.compute_base_velocity(inclined, state.unknowns)
         on_ground = (inclined.base.weights * state.base_shear * along).sum()
     _, drag = forces_on_net(inclined, state)
     friction = (drag * slip_velocity(inclined, state)).sum()
     assert friction >= 0.0
     assert on_ground >= 0.0
-    assert load @ state.velocity == pytest.approx(
+    assert load @ state.unknowns == pytest.approx(
         in_snow + on_ground + friction, rel=1e-8
     )
 
@@ -172,10 +187,13 @@ def test_held_components(a_mesh, a_flow_law):
     """Net: normal; foot: both; ground: Y, and X where it does not slip."""
     mesh = a_mesh()
     n_net, n_ground = mesh.template.net.size, mesh.template.ground.size
-    held = ~flow.free_components(a_flow_law(), mesh)
+    slips = replace(start_contact(mesh), sign=np.ones(n_net - 1, dtype=np.int64))
+    held = ~free_unknowns(a_flow_law(), mesh, slips)
     assert held.sum() == n_net + 1 + (n_ground - 1)
-    rough = ~flow.free_components(a_flow_law(ground="no-slip"), mesh)
+    rough = ~free_unknowns(a_flow_law(ground="no-slip"), mesh, slips)
     assert rough.sum() == held.sum() + (n_ground - 1)
+    sticking = ~free_unknowns(a_flow_law(), mesh, start_contact(mesh))
+    assert sticking.sum() == held.sum() + (n_net - 1)
     far = mesh.template.ground[-1]
     assert (held[2 * far], rough[2 * far]) == (False, True)
 
@@ -183,7 +201,7 @@ def test_held_components(a_mesh, a_flow_law):
 @pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
 def test_velocities_on_net_and_ground(inclined, a_flow_law, ground, slip_ratio):
     law = a_flow_law(ground=ground, slip_ratio=slip_ratio)
-    velocity = inclined.to_slope_axes(solve(law, inclined).velocity)
+    velocity = inclined.to_slope_axes(solve(law, inclined).unknowns)
     template = inclined.template
     assert np.abs(velocity[1, template.ground]).max() == 0.0
     if ground == "no-slip":
@@ -199,8 +217,8 @@ def test_sliding_ground_obeys_its_law(inclined, a_flow_law):
     law = a_flow_law(ground="sliding", slip_ratio=0.5)
     state = solve(law, inclined)
     tau = state.base_shear
-    expected = 0.5 * (tau**2 + flow.STRESS_FLOOR**2) * tau
-    found = kernel.compute_base_velocity(inclined, state.velocity)
+    expected = 0.5 * (tau**2 + STRESS_FLOOR**2) * tau
+    found = kernel.compute_base_velocity(inclined, state.unknowns)
     np.testing.assert_allclose(found, expected, atol=1e-8 * np.abs(expected).max())
 
 
@@ -277,7 +295,7 @@ def test_suction_has_no_friction(inclined, a_flow_law):
     pulled = normal < 0.0
     assert pulled.any()
     np.testing.assert_allclose(shear[pulled], 0.0, atol=1e-12)
-    assert not state.contact.pressed[pulled].any()
+    assert not state.contact.is_pressed[pulled].any()
 
 
 # --- iteration ---------------------------------------------------------------
@@ -304,17 +322,12 @@ def test_iteration_cap(inclined, a_flow_law):
 def test_nonfinite_step(inclined, a_flow_law, monkeypatch):
     start = solve(a_flow_law(), inclined)
     monkeypatch.setattr(
-        flow, "_solve_velocity", lambda *_: np.full(inclined.n_dofs, np.nan)
+        flow, "_solve_unknowns", lambda *_: np.full(inclined.n_dofs, np.nan)
     )
     result = solve_flow(a_flow_law(), inclined, start, tolerance=TIGHT)
     assert (result.outcome, result.linear_solves) == (Outcome.NONFINITE, 1)
 
 
-@pytest.mark.xfail(
-    raises=RuntimeError,
-    strict=True,
-    reason="a matrix that is not finite makes the factorisation raise, not return",
-)
 @pytest.mark.parametrize("fault", [np.nan, np.inf])
 def test_nonfinite_load(inclined, a_flow_law, fault):
     law = replace(a_flow_law(), gravity=(fault, -1.0))
@@ -331,9 +344,15 @@ def test_halving_the_stress_floor_moves_no_end_force(
     """Less than 1e-5 of it, as the constant's comment says."""
     scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg, ground=ground)
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+    original = Scene.flow_law.fget
     pulls = []
     for factor in (1.0, 0.5):
-        monkeypatch.setattr(flow, "STRESS_FLOOR", 1e-3 * factor)
+        floor = STRESS_FLOOR * factor
+        monkeypatch.setattr(
+            Scene,
+            "flow_law",
+            property(lambda s, f=floor: replace(original(s), stress_floor=f)),
+        )
         solution = solve_steady(scene, settings, on_failure="raise")
         pulls.append(
             [solution.foot.x, solution.foot.y, solution.head.x, solution.head.y]

@@ -56,7 +56,7 @@ ACCEPTED = [
     ("slope_angle", 0.0),
     ("slope_angle", STEEPEST_SLOPE),
     ("density", 1e-9),
-    ("density", math.nextafter(917.0, 0.0)),
+    ("density", 0.99 * 917.0),
     ("gravity", "full"),
     ("gravity", "parallel"),
 ]
@@ -75,6 +75,7 @@ REFUSED = [
     ("thickness", -2.0, "snow thickness"),
     ("upslope_length", 0.0, "upslope length"),
     ("density", 0.0, "snow density"),
+    ("density", math.nextafter(0.99 * 917.0, 917.0), "snow density"),
     ("density", 917.0, "snow density"),
     ("gravity", "normal", "gravity mode"),
 ]

@@ -64,7 +64,11 @@ def test_bulge_weighs_one_to_three_per_cent(solved):
     """physics.md, section 1: more than a straight net would hold."""
     for inclination in (0.0, 30.0):
         solution = solved(inclination_deg=inclination)
-        straight = solution.scene.weight_along_slope
+        pack = solution.scene.snowpack
+        wedge = pack.thickness**2 * math.tan(math.radians(inclination)) / 2
+        area = pack.upslope_length * pack.thickness + wedge
+        stress = pack.stress_scale * math.sin(pack.slope_angle)
+        straight = stress * area / pack.thickness
         share = solution.balance.weight_along_slope / straight - 1.0
         assert 0.01 <= share <= 0.03
 

@@ -1,0 +1,126 @@
+"""Polygon of the net: tensions, angles, node forces, friction bounds."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.cable.tension import (
+    compute_node_forces,
+    compute_ratio_bounds,
+    compute_segment_lengths,
+    compute_tensions,
+    compute_turning_angles,
+)
+from netdesign.errors import ModelError
+
+BULGED = np.array([[0.0, 0.4, 0.7, 0.5, 0.6], [0.0, 0.6, 1.3, 2.1, 3.0]])
+STRAIGHT = np.array([[0.0, 0.5, 1.5], [0.0, 1.0, 3.0]])
+
+
+def test_lengths():
+    three_four_five = np.array([[0.0, 3.0, 3.0], [0.0, 4.0, 6.0]])
+    np.testing.assert_array_equal(compute_segment_lengths(three_four_five), [5.0, 2.0])
+
+
+def test_coinciding_nodes_are_refused():
+    twice = np.array([[0.0, 1.0, 1.0], [0.0, 1.0, 1.0]])
+    with pytest.raises(ModelError, match=r"segment length 1 = .*above 0"):
+        compute_segment_lengths(twice)
+
+
+@pytest.mark.parametrize("angle", [-2.0, -0.1, 0.0, 1e-9, 0.3, 3.0])
+def test_turning_angle_of_one_node(angle):
+    """Up the slope's normal, then towards the snow by the angle."""
+    points = np.array([[0.0, 0.0, -math.sin(angle)], [0.0, 1.0, 1.0 + math.cos(angle)]])
+    assert compute_turning_angles(points)[0] == pytest.approx(angle, rel=1e-12)
+
+
+def test_turning_angle_is_positive_where_convex_to_the_valley():
+    np.testing.assert_array_equal(
+        np.sign(compute_turning_angles(BULGED)), [1.0, 1.0, -1.0]
+    )
+    assert compute_turning_angles(STRAIGHT)[0] == 0.0
+
+
+def test_tensions_follow_the_strain_and_are_never_negative():
+    final = np.array([1.02, 1.0, 0.9])
+    tensions = compute_tensions(final, np.array([1.0, 1.0, 1.0]), 2e7)
+    np.testing.assert_allclose(tensions, [0.02 * 2e7, 0.0, 0.0], rtol=1e-12)
+    assert compute_tensions(np.array([2.2]), np.array([2.0]), 1.0)[0] == pytest.approx(
+        0.1, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("length", [0.0, -1.0, math.nan, math.inf])
+def test_impossible_lengths_are_refused(length):
+    with pytest.raises(ModelError, match="unstressed length 1"):
+        compute_tensions(np.ones(2), np.array([1.0, length]), 2e7)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, -1.0, math.nan, math.inf])
+def test_impossible_stiffness_is_refused(stiffness):
+    with pytest.raises(ModelError, match="net stiffness"):
+        compute_tensions(np.ones(2), np.ones(2), stiffness)
+
+
+def test_forces_sum_to_nothing():
+    forces = compute_node_forces(BULGED, np.array([3.0, 2.0, 2.5, 0.0]))
+    total = forces.vector.sum(axis=1) + forces.foot_pull + forces.head_pull
+    np.testing.assert_allclose(total, 0.0, atol=1e-15)
+
+
+def test_ends_are_pulled_towards_each_other():
+    forces = compute_node_forces(STRAIGHT, np.array([2.0, 5.0]))
+    along = np.array([1.0, 2.0]) / math.sqrt(5.0)
+    np.testing.assert_allclose(forces.foot_pull, 2.0 * along, rtol=1e-15)
+    np.testing.assert_allclose(forces.head_pull, -5.0 * along, rtol=1e-15)
+
+
+def test_a_taut_bulge_presses_the_snow_uphill():
+    forces = compute_node_forces(BULGED[:, :4], np.full(3, 4.0))
+    assert (forces.normal > 0.0).all()
+    assert (forces.vector[0] < 0.0).all()
+    np.testing.assert_array_equal(forces.tangential, 0.0)
+
+
+def test_components_are_those_of_the_vector():
+    """Along bisector and across, found by turning the lower segment's direction."""
+    tensions = np.array([3.0, 2.0, 2.5, 1.0])
+    forces = compute_node_forces(BULGED, tensions)
+    lower = np.diff(BULGED)[:, :-1] / compute_segment_lengths(BULGED)[:-1]
+    turn = np.exp(0.5j * compute_turning_angles(BULGED))
+    along = (lower[0] + 1j * lower[1]) * turn  # across the bisector, to the head
+    vector = forces.vector[0] + 1j * forces.vector[1]
+    np.testing.assert_allclose(vector, along * (forces.tangential + 1j * forces.normal))
+
+
+@pytest.mark.parametrize("phi", np.radians([0.0, 1.0, 20.0, 45.0, 60.0]))
+def test_bound_is_the_ratio_that_friction_just_holds(phi):
+    beta = np.radians([0.001, 1.0, 30.0, 59.0])
+    bounds = compute_ratio_bounds(beta, math.tan(phi))
+    exact = np.log(np.cos(beta / 2 - phi) / np.cos(beta / 2 + phi))
+    np.testing.assert_allclose(bounds, exact, rtol=1e-12, atol=1e-15)
+    normal = (np.exp(bounds) + 1.0) * np.sin(beta / 2)
+    tangential = (np.exp(bounds) - 1.0) * np.cos(beta / 2)
+    np.testing.assert_allclose(
+        tangential, normal * math.tan(phi), rtol=1e-10, atol=1e-15
+    )
+
+
+def test_nothing_slides_beyond_a_right_angle():
+    friction = math.tan(math.radians(50.0))
+    below, beyond = compute_ratio_bounds(np.radians([79.999, 80.001]), friction)
+    assert 10.0 < below < math.inf
+    assert beyond == math.inf
+
+
+def test_no_friction_and_no_adhesion_where_the_net_does_not_press():
+    bounds = compute_ratio_bounds(np.array([-3.0, -1e-12, 0.0]), 1.0)
+    np.testing.assert_array_equal(bounds, 0.0)
+
+
+@pytest.mark.parametrize("friction", [-1e-9, math.nan, math.inf, 1e3])
+def test_impossible_friction_is_refused(friction):
+    with pytest.raises(ModelError, match="friction"):
+        compute_ratio_bounds(np.array([0.1]), friction)

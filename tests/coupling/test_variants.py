@@ -1,0 +1,158 @@
+"""Layers, one-sided contacts, temperature, and the two elements."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS, MIXED_BULK_RATIO, SolverSettings
+from netdesign.coupling.solve import solve_scene
+from netdesign.coupling.steady import solve_steady
+from netdesign.outcome import Outcome
+from netdesign.snow.fluidity import compute_fluidity
+from netdesign.snow.kernel import build_placed_mesh
+from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from netdesign.snow.wall import Wall
+
+SETTINGS = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+
+
+def layered(scene, *layers):
+    pack = build_layered_snowpack(
+        tuple(layers),
+        slope_angle=scene.snowpack.slope_angle,
+        upslope_length=scene.snowpack.upslope_length,
+    )
+    return replace(scene, snowpack=pack)
+
+
+def sound(scene, settings=SETTINGS):
+    solution = solve_steady(scene, settings, on_failure="raise")
+    assert solution.balance.relative_residual < 1e-8
+    return solution
+
+
+# --- layers ------------------------------------------------------------------
+
+
+def test_equal_layers_are_uniform_snow(a_scene):
+    scene = a_scene(inclination_deg=30.0, ground="no-slip")
+    density = scene.snowpack.density
+    parts = [Layer(thickness=t, density=density) for t in (1.0, 0.5, 2.5)]
+    one, three = sound(scene), sound(layered(scene, *parts))
+    # another mesh: as close as both errors together
+    for end in ("foot", "head"):
+        first, second = getattr(one, end), getattr(three, end)
+        apart = math.hypot(first.x - second.x, first.y - second.y)
+        assert apart <= first.error + second.error
+
+
+@pytest.mark.parametrize("tops", [(0.5,), (0.1, 0.3, 0.8), (0.02, 0.98)])
+@pytest.mark.parametrize("level", MESH_LEVELS[:2])
+def test_no_triangle_crosses_an_interface_and_no_mass_is_lost(tops, level):
+    template = build_template(3.0, level, tops)
+    heights = template.nodes[1, template.triangles[:3]]
+    for top in tops:
+        crosses = (heights.min(axis=0) < top - 1e-9) & (
+            heights.max(axis=0) > top + 1e-9
+        )
+        assert not crosses.any()
+    fractions = template.net_fractions
+    straight = np.array([0.0 * fractions, fractions])
+    mesh = build_placed_mesh(template, place_nodes(template, straight))
+    for low, high in zip((0.0, *tops), (*tops, 1.0), strict=True):
+        inside = (heights.mean(axis=0) > low) & (heights.mean(axis=0) < high)
+        found = mesh.weights[inside].sum()
+        assert found == pytest.approx(3.0 * (high - low), rel=1e-12)
+
+
+def test_layered_snow_hangs_its_weight_on_the_net(a_scene):
+    scene = layered(
+        a_scene(),
+        Layer(thickness=1.0, density=450.0),
+        Layer(thickness=2.0, density=350.0),
+        Layer(thickness=1.0, density=220.0),
+    )
+    solution = sound(scene)
+    pulled = solution.foot.x + solution.head.x
+    assert pulled == pytest.approx(solution.balance.weight_along_slope, rel=1e-8)
+    straight = (450 + 2 * 350 + 220) * 9.81 * 20 * math.sin(math.radians(40))
+    assert straight < pulled < 1.03 * straight  # the bulge weighs up to 3 %
+
+
+def test_temperature_of_all_layers_changes_no_force(a_scene):
+    scene = a_scene(ground="no-slip")
+    density = scene.snowpack.density
+    cold, warm = (
+        sound(
+            layered(
+                scene,
+                *(Layer(thickness=2.0, density=density, temperature=t) for _ in "ab"),
+            )
+        )
+        for t in (255.0, 270.0)
+    )
+    assert warm.foot.size == pytest.approx(cold.foot.size, rel=1e-7)
+    ratio = compute_fluidity(270.0) / compute_fluidity(255.0)
+    assert warm.largest_velocity == pytest.approx(
+        ratio * cold.largest_velocity, rel=1e-5
+    )
+
+
+def test_warm_layer_below_lets_the_snow_press_harder(a_scene):
+    """It creeps faster on a rough ground, so that the net holds more of the snow."""
+    scene = a_scene(ground="no-slip", inclination_deg=30.0)
+    density = scene.snowpack.density
+    even = sound(scene)
+    warm = layered(
+        scene,
+        Layer(thickness=0.5, density=density, temperature=272.0),
+        Layer(thickness=3.5, density=density, temperature=258.0),
+    )
+    assert sound(warm).foot.size > 1.2 * even.foot.size
+
+
+# --- contacts ----------------------------------------------------------------
+
+
+def test_one_sided_ground_does_not_pull(a_scene):
+    scene = a_scene(ground="no-slip", inclination_deg=30.0)
+    two, one = sound(scene), sound(replace(scene, ground_contact="one-sided"))
+    assert two.balance.ground_tension_share > 0.01
+    assert one.balance.ground_tension_share == 0.0
+    assert one.foot.size == pytest.approx(two.foot.size, rel=0.02)  # physics.md: 2 %
+
+
+def test_one_sided_net_is_not_pulled(a_scene):
+    scene = a_scene(inclination_deg=30.0, friction_deg=2.0)
+    assert sound(scene).balance.suction_share > 0.0
+    one = solve_steady(replace(scene, net_contact="one-sided"), SETTINGS)
+    if one.outcome is Outcome.CONVERGED:
+        assert one.balance.suction_share < 1e-9
+    else:  # smooth nets may have no steady state once the snow may let go
+        assert one.reason
+
+
+# --- elements ----------------------------------------------------------------
+
+
+def test_element_is_chosen_by_the_scene(a_scene):
+    light, dense = a_scene(), a_scene(relative_density=0.985)
+    assert light.flow_law.element == "velocity"
+    assert dense.flow_law.element == "mixed"
+    assert dense.flow_law.layers[0].bulk_ratio > MIXED_BULK_RATIO
+
+
+def test_nearly_incompressible_snow_is_solved(a_scene):
+    solution = sound(a_scene(relative_density=0.985, inclination_deg=30.0))
+    pulled = solution.foot.x + solution.head.x
+    assert pulled == pytest.approx(solution.balance.weight_along_slope, rel=1e-8)
+
+
+def test_entry_takes_nets_and_walls(a_scene):
+    scene = a_scene(ground="no-slip")
+    assert solve_scene(scene, SETTINGS).foot.x > 0.0
+    wall = replace(scene, net=Wall(height_normal=4.0))
+    assert solve_scene(wall, SETTINGS).force.x > 0.0

@@ -1,0 +1,59 @@
+"""The net's own length, recovered from a coupled state.
+
+Truth: the continuum statement, integral ds / (1 + T / ES) = (1 + slack) c (physics.md,
+section 4). Lengths come from the reported curve, tensions from the reported forces by
+statics; neither the program's material coordinates nor its cable solver are asked.
+"""
+
+import numpy as np
+import pytest
+
+# Tension is taken constant over an edge of the net, and edges on it as parabolas:
+# both are of second order in edges that are an eighth of the height, on a stretch of
+# one per cent.
+TOLERANCE = 2e-4
+
+
+def unstressed_length(solution) -> float:
+    """Sum over the net's edges of stretched length over 1 + T / ES."""
+    stiffness = solution.scene.net.stiffness_per_m
+    curve, forces = solution.net_curve, solution.net_forces
+    points, weights = np.polynomial.legendre.leggauss(6)
+    slopes = np.array([points - 0.5, -2 * points, points + 0.5])
+    vector = np.array([solution.foot.x, solution.foot.y]) - forces[:, 0]
+    total = 0.0
+    for middle in range(1, curve.shape[1], 2):
+        ds = np.hypot(*(curve[:, middle - 1 : middle + 2] @ slopes))
+        loaded = middle < forces.shape[1]  # a free end above the snow is not
+        half = forces[:, middle] / 2 if loaded else 0.0
+        tension = np.hypot(*(vector - half))
+        total += float((weights * ds).sum()) / (1.0 + tension / stiffness)
+        if middle + 1 < forces.shape[1]:
+            vector = vector - 2 * half - forces[:, middle + 1]
+    return total
+
+
+@pytest.mark.parametrize("slack", [0.0, 0.02, 0.08])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        {"inclination_deg": 30.0, "friction_deg": 5.0},
+        {"inclination_deg": 20.0, "height_m": 5.0},
+        {"ground": "no-slip", "stiffness_kN_per_m": 4e3},
+    ],
+    ids=str,
+)
+def test_net_keeps_its_unstressed_length(solved, scene, slack):
+    solution = solved(**scene, slack=slack)
+    net = solution.scene.net
+    chord = float(np.hypot(*net.head))
+    expected = (1.0 + slack) * chord
+    assert unstressed_length(solution) == pytest.approx(expected, rel=TOLERANCE)
+
+
+def test_slack_lengthens_the_net_and_softens_its_pull(solved):
+    """Shallow cable, T ~ q c^2 / (8 f): a deeper curve pulls less."""
+    taut, slack = solved(), solved(slack=0.05)
+    assert slack.sag > taut.sag
+    assert slack.foot.size < taut.foot.size
