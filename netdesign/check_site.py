@@ -118,7 +118,7 @@ def judge_site(
         Complete; a failed case is in it by name.
     """
     rows = [
-        _judge_row(row, site.ranges, of_row, standard)
+        _judge_row(row, site.ranges, of_row, standard, run.creep_law)
         for row, of_row in zip(site.rows, results, strict=True)
     ]
     return Study(
@@ -157,7 +157,11 @@ def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[Case
 
 
 def _judge_row(
-    row: NetRow, ranges: Ranges, results: Sequence[CaseResult], standard: Standard
+    row: NetRow,
+    ranges: Ranges,
+    results: Sequence[CaseResult],
+    standard: Standard,
+    law: CreepLaw,
 ) -> RowStudy:
     extremes = find_extremes(results)
     gap = describe_gap(results)
@@ -189,7 +193,7 @@ def _judge_row(
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result) for result in results],
+        cases=[_record_case(result, law) for result in results],
         inputs=list(row.inputs),
         drawing=_draw(row, _governing_result(checks, extremes)),
         reasons=unproven,
@@ -247,7 +251,7 @@ def _record_extreme(extreme: Extreme) -> ExtremeRecord:
     )
 
 
-def _record_case(result: CaseResult) -> CaseRecord:
+def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
     forces = {
         f"{member}_kN": _kilonewton(
             result.member_forces[member].value if result.is_converged else None
@@ -261,6 +265,7 @@ def _record_case(result: CaseResult) -> CaseRecord:
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
+        is_calibrated=law.is_calibrated(result.case.density / ICE_DENSITY),
         **forces,
     )
 
@@ -386,8 +391,8 @@ def _validity_notes(ranges: Ranges, law: CreepLaw) -> list[str]:
         return []
     return [
         f"snow densities of {ranges.density.low:g} to {ranges.density.high:g} kg/m3 "
-        f"reach outside the {low:.0f} to {high:.0f} kg/m3 to which the creep law "
-        f"{law.name} was fitted"
+        f"reach outside the {low:.0f} to {high:.0f} kg/m3 for which the creep law "
+        f"{law.name} is given"
     ]
 
 

@@ -39,6 +39,7 @@ class CaseRecord:
     post_kN: float | None
     error_percent: float | None  # estimated, of the worst of the four
     balance_residual: float | None  # relative to the weight
+    is_calibrated: bool = True  # the creep law is given for this density
 
 
 @dataclass(frozen=True, kw_only=True)

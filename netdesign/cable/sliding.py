@@ -103,7 +103,7 @@ def solve_sliding(
         Breach of (C14), a difference of logarithms of tensions, that counts as none
         [-]. What rounding makes of the smallest elongation is added.
     max_iterations : int
-        Newton steps allowed; 3 to 8 are taken whatever the friction and the mesh.
+        Newton steps allowed; 3 to 7 are taken whatever the friction and the mesh.
 
     Returns
     -------
@@ -119,8 +119,8 @@ def solve_sliding(
     -----------
     tests/verification/test_sliding_cable.py
     """
-    _require_matching(final_lengths, old_lengths, bounds)
     guess = final_lengths if start is None else start
+    _require_matching(final_lengths, old_lengths, bounds, guess)
     cuts = np.flatnonzero(np.isinf(bounds)) + 1
     parts = []
     for first, end in pairwise([0, *cuts.tolist(), final_lengths.size]):
@@ -379,11 +379,14 @@ def _join_parts(parts: list[_Part], final: Floats, stiffness: float) -> SlidingS
     )
 
 
-def _require_matching(final: Floats, old: Floats, bounds: Floats) -> None:
+def _require_matching(
+    final: Floats, old: Floats, bounds: Floats, guess: Floats
+) -> None:
     require_lengths("final length", final)
     require_lengths("old unstressed length", old)
-    if not (old.shape == final.shape == (bounds.size + 1,)):
-        sizes = f"{final.size} final, {old.size} old lengths, {bounds.size} bounds"
-        raise ModelError(f"{sizes}: must be n + 1, n + 1 and n")
+    require_lengths("start length", guess)
+    if not (guess.shape == old.shape == final.shape == (bounds.size + 1,)):
+        lengths = f"{final.size} final, {old.size} old, {guess.size} start lengths"
+        raise ModelError(f"{lengths}, {bounds.size} bounds: must be n + 1 each, and n")
     if not (bounds >= 0.0).all():
         raise ModelError(f"ratio bounds {bounds!r}: must be at least 0")

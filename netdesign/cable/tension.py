@@ -162,7 +162,7 @@ def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
     -------
     ndarray, shape (n,)
         kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
-        Infinite where beta / 2 + phi reaches a right angle: no tensions slide there.
+        Infinite where beta / 2 + phi reaches a right angle: no ratio slides there.
 
     Validity
     --------

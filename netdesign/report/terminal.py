@@ -76,7 +76,8 @@ def _list_lines(view: ReportView) -> list[str]:
     lines = lines or ["Reasons: none"]
     lines += [f"{label}: {text}" for label, text in view.counts]
     title = "Assumed, confirm in your copy of the standard"
-    return [*lines, f"{title}: {view.assumed_line}"]
+    notes = [f"Note: {note}" for note in view.notes]
+    return [*lines, f"{title}: {view.assumed_line}", *notes]
 
 
 def _word(verdict: VerdictWords) -> Text:

@@ -53,6 +53,36 @@ def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix
     return sparse.csr_matrix(form.assemble(build_basis(mesh), moduli=_field(moduli)))
 
 
+def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
+    """Taylor-Hood tangent: eps(w) . (C eps(v) + c p) + q (c . eps(v) + k p), (F10).
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh of the mixed element.
+    moduli : ndarray, shape (n_triangles, n_points, 4, 4)
+        [[C, c], [c, k]] at the quadrature points [-].
+
+    Returns
+    -------
+    sparse matrix, shape (n_dofs, n_dofs)
+        Velocities in the slope's axes, then pressures; no boundary condition.
+    """
+    velocity = build_basis(mesh)
+    pressure = velocity.with_element(skfem.ElementTriP1())
+    tangent = skfem.BilinearForm(_tangent).assemble(
+        velocity, moduli=_field(moduli[..., :3, :3])
+    )
+    coupling = skfem.BilinearForm(_coupling).assemble(
+        pressure, velocity, coupling=_field(moduli[..., :3, 3])
+    )
+    compression = skfem.BilinearForm(_compression).assemble(
+        pressure, modulus=_field(moduli[..., 3, 3])
+    )
+    blocks = [[tangent, coupling], [coupling.T, compression]]
+    return sparse.csr_matrix(sparse.bmat(blocks))
+
+
 def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
     """Integral of eps(w) . sigma: internal nodal forces (n_dofs,), slope's axes.
 
@@ -71,6 +101,14 @@ def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Flo
 
 def _tangent(v: Any, w: Any, at: Any) -> Any:
     return dot(_strain_rate(w), np.einsum("ijeq,jeq->ieq", at.moduli, _strain_rate(v)))
+
+
+def _coupling(p: Any, w: Any, at: Any) -> Any:
+    return dot(_strain_rate(w), at.coupling) * p
+
+
+def _compression(p: Any, q: Any, at: Any) -> Any:
+    return q * at.modulus * p
 
 
 def _internal_power(w: Any, at: Any) -> Any:

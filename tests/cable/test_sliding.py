@@ -251,7 +251,7 @@ def test_no_stall_at_any_friction_angle(n):
     points = bulged_points(rng, n, grading=0.03)
     final = compute_segment_lengths(points)
     old = final / (1.01 + 0.001 * np.sin(np.linspace(0.0, 9.0, n + 1)))
-    old[-1] *= 0.99  # pulled at the head: from 5 deg on, part glides and part sticks
+    old[-1] *= 0.99  # pulled at the head; the more friction, the more nodes stick
     for degrees in range(46):
         friction = math.tan(math.radians(degrees))
         bounds = compute_ratio_bounds(compute_turning_angles(points), friction)
@@ -260,6 +260,7 @@ def test_no_stall_at_any_friction_angle(n):
             step = case.solve(start=start)
             assert step.outcome is Outcome.CONVERGED
             assert step.iterations <= 10
+    assert {0} < set(step.glide)  # at 45 deg, where most nodes stick
 
 
 STEPS_HALVED = [848, 1334, 1531]
@@ -280,6 +281,14 @@ def test_far_beyond_any_net(seed):
     assert step.tensions.min() >= 0.0
 
 
+def test_impossible_start_is_refused():
+    case = random_case(4)
+    with pytest.raises(ModelError, match="start length 0"):
+        case.solve(start=np.zeros_like(case.old))
+    with pytest.raises(ModelError, match=r"start lengths.*must be"):
+        case.solve(start=np.ones(1))
+
+
 def test_iteration_limit_is_an_outcome():
     step = random_case(4).solve(max_iterations=1)
     assert step.outcome is Outcome.MAX_ITERATIONS
@@ -296,8 +305,8 @@ REFUSED = [
     ("final length 1", {"final": [1.0, 0.0]}),
     ("final length 0", {"final": [math.nan, 1.0]}),
     ("old unstressed length 1", {"old": [1.0, -1.0]}),
-    ("must be n \\+ 1, n \\+ 1 and n", {"old": [1.0, 1.0, 1.0]}),
-    ("must be n \\+ 1, n \\+ 1 and n", {"bounds": [0.1, 0.1]}),
+    ("must be n \\+ 1 each, and n", {"old": [1.0, 1.0, 1.0]}),
+    ("must be n \\+ 1 each, and n", {"bounds": [0.1, 0.1]}),
     ("at least 0", {"bounds": [-0.1]}),
     ("at least 0", {"bounds": [math.nan]}),
 ]

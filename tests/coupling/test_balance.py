@@ -177,3 +177,13 @@ def test_smallest_tension_is_looked_for_everywhere(state):
     held = cable.foot_pull + cable.head_pull
     balance = measure_balance(law, mesh, forces, held, tension, SCALE)
     assert balance.smallest_tension == pytest.approx(0.1 * SCALE, rel=1e-15)
+
+
+@pytest.mark.parametrize("share", [math.nextafter(0.05, 1.0), 0.99, math.inf, math.nan])
+def test_snow_that_would_pull_on_the_net_is_refused(share):
+    check_balance(replace(SOUND, suction_share=0.05), TOLERANCE)
+    with pytest.raises(SolveError, match="would pull on the net") as raised:
+        check_balance(replace(SOUND, suction_share=share), TOLERANCE)
+    assert raised.value.outcome is Outcome.OUT_OF_VALIDITY
+    # adhering snow may pull on a wall
+    check_balance(replace(SOUND, suction_share=share, smallest_tension=None), TOLERANCE)

@@ -52,6 +52,19 @@ def test_tangent_matrix(mesh):
     assert abs(difference).max() <= ROUNDING * abs(expected).max()
 
 
+def test_mixed_tangent_matrix(mesh):
+    mixed = kernel.build_placed_mesh(mesh.template, mesh.nodes, "mixed")
+    rng = np.random.default_rng(4)
+    moduli = rng.normal(size=(*mesh.weights.shape, 4, 4))
+    moduli = moduli + moduli.swapaxes(-1, -2)  # symmetric, not definite
+    turn = sparse.block_diag(
+        [rotation_to_slope_axes(mesh), sparse.eye(mesh.template.n_vertices)]
+    ).tocsr()
+    expected = turn.T @ forms.assemble_mixed_form(mixed, moduli) @ turn
+    difference = kernel.assemble_stiffness(mixed, moduli) - expected
+    assert abs(difference).max() <= ROUNDING * abs(expected).max()
+
+
 def test_internal_forces(mesh):
     rng = np.random.default_rng(2)
     stress = rng.normal(size=(*mesh.weights.shape, 3))

@@ -10,11 +10,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady import solve_steady
+from netdesign.outcome import Outcome
 from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.wall import Wall
 
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 
@@ -93,17 +96,21 @@ def test_ground_takes_its_share(solved, scene):
         assert 0.0 < share < 0.5
 
 
-@pytest.mark.parametrize("friction_deg", [0.0, 30.0])
-def test_level_free_ground_pushes_nothing_downslope(solved, friction_deg):
+@pytest.mark.parametrize("friction_angle", [None, 0.0, 0.5])
+def test_level_free_ground_pushes_nothing_downslope(a_scene, friction_angle):
     """Slope 0: no force along X in sum, since the upslope end is free too.
 
-    Pressure below is suction above: such a state is reported by its suction share,
-    and is no design case.
+    Pressure below is suction above, which a wall may hold but no net can.
     """
-    solution = solved(slope_deg=0.0, friction_deg=friction_deg)
-    scale = weight(solution)
-    assert abs(solution.foot.x + solution.head.x) <= 1e-9 * scale
-    assert solution.balance.suction_share > 0.9
+    level = a_scene(slope_deg=0.0)
+    wall = Wall(height_normal=4.0, friction_angle=friction_angle)
+    solution = solve_rigid(replace(level, net=wall))
+    pack = level.snowpack
+    weight_of_snow = pack.stress_scale * pack.upslope_length
+    assert abs(solution.force.x) <= 1e-9 * weight_of_snow
+    refused = solve_steady(level)
+    assert refused.outcome is Outcome.OUT_OF_VALIDITY
+    assert "would pull on the net" in refused.reason
 
 
 # --- similarity --------------------------------------------------------------
