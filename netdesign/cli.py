@@ -8,8 +8,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -20,7 +18,7 @@ from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from netdesign.site.model import Site
     from netdesign.study import Study
@@ -115,6 +113,13 @@ def check(
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
+    from netdesign.progress import show_progress
+    from netdesign.report.files import (
+        STUDY_FILE,
+        list_reports,
+        name_files,
+        render_files,
+    )
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -135,13 +140,13 @@ def check(
         _announce(site, count_cases(site), run.jobs, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
-    kinds = _output_kinds(html=html, excel=excel, csv=csv)
-    names = _output_names(folder, [p.id for p in profiles], ["study.json", *kinds])
+    kinds = list_reports(html=html, excel=excel, csv=csv)
+    names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with _bar(count_cases(site), "cases", quiet=quiet) as on_done:
+    with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
     studies = [judge_site(site, results, profile, run) for profile in profiles]
-    write_files(_render(studies, names))
+    write_files(render_files(studies, names))
     _show(studies, as_json=as_json)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
@@ -220,16 +225,17 @@ def report(
     """
     from netdesign.errors import StudyError
     from netdesign.output import require_free, write_files
+    from netdesign.report.files import list_reports, name_files, render_files
     from netdesign.study import read_document
 
     try:
         study = read_document(study_file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError(f"{study_file}: cannot be read: {error}") from None
-    kinds = _output_kinds(html=html, excel=excel, csv=csv)
-    names = _output_names(out, [study.profile.id], kinds)
+    kinds = list_reports(html=html, excel=excel, csv=csv)
+    names = name_files(out, [study.profile.id], kinds)
     require_free(names[0], overwrite=force)
-    write_files(_render([study], names))
+    write_files(render_files([study], names))
     _report_places(names, quiet=False)
     sys.exit(_exit_code([study]))
 
@@ -257,9 +263,10 @@ def verify(*, as_json: bool) -> None:
     netdesign verify
     netdesign verify --json
     """
+    from netdesign.progress import show_progress
     from netdesign.verification.pack import GROUPS, run_pack, write_pack
 
-    with _bar(len(GROUPS), "groups of cases", quiet=False) as advance:
+    with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
         cases = run_pack(advance)
     if as_json:
         click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
@@ -369,50 +376,6 @@ def _read_site(site_file: Path | None) -> Site:
         return read_site(path)
 
 
-def _output_kinds(*, html: bool, excel: bool, csv: bool) -> list[str]:
-    wanted = {"report.html": html, "report.xlsx": excel, "cases.csv": csv}
-    return [name for name, is_wanted in wanted.items() if is_wanted]
-
-
-def _output_names(
-    folder: Path | None, profiles: list[str], names: list[str]
-) -> list[list[Path]]:
-    """Output paths of each study; several profiles get a folder each."""
-    if folder is None:
-        return [[] for _ in profiles]
-    several = len(profiles) > 1
-    return [
-        [(folder / profile if several else folder) / name for name in names]
-        for profile in profiles
-    ]
-
-
-def _render(studies: Sequence[Study], names: list[list[Path]]) -> dict[Path, bytes]:
-    return {
-        path: _render_one(study, path.suffix)
-        for study, paths in zip(studies, names, strict=True)
-        for path in paths
-    }
-
-
-def _render_one(study: Study, suffix: str) -> bytes:
-    if suffix == ".html":
-        from netdesign.report.html import render_html
-
-        return render_html(study).encode()
-    if suffix == ".xlsx":
-        from netdesign.report.excel import render_workbook
-
-        return render_workbook(study)
-    if suffix == ".csv":
-        from netdesign.report.case_table import render_cases
-
-        return render_cases(study)
-    from netdesign.study import write_document
-
-    return write_document(study).encode()
-
-
 def _show(studies: Sequence[Study], *, as_json: bool) -> None:
     from netdesign.study import write_document
 
@@ -481,38 +444,6 @@ def _exit_code(studies: Sequence[Study]) -> int:
     from netdesign.outcome import merge_verdicts
 
     return EXIT_CODES[merge_verdicts(study.verdict for study in studies)]
-
-
-@contextmanager
-def _bar(
-    total: int, what: str, *, quiet: bool
-) -> Iterator[Callable[[object], None] | None]:
-    """Bar on a terminal, a few plain lines elsewhere; both on stderr."""
-    if quiet:
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield _plain_progress(total, what)
-        return
-    with Progress(console=console, transient=True) as progress:
-        task = progress.add_task(what, total=total)
-        yield lambda _: progress.advance(task)
-
-
-def _plain_progress(total: int, what: str) -> Callable[[object], None]:
-    done = 0
-
-    def on_done(_: object) -> None:
-        nonlocal done
-        done += 1
-        if done * 4 // total > (done - 1) * 4 // total:
-            click.echo(f"{done} of {total} {what}", err=True)
-
-    return on_done
 
 
 def _count_findings(error: SiteDataError) -> str:

@@ -21,7 +21,7 @@ PACKAGE = Path(netdesign.__file__).parent
 ROWS = (
     {
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
-        *("quantities", "output"),
+        *("quantities", "output", "progress"),
     },
     {"numerics"},
     {"snow", "cable", "structure", "checks"},
@@ -60,7 +60,7 @@ THIRD_PARTY = {
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
     "click": ("cli",),
-    "rich": ("cli", "report.terminal", "report.verification_table"),
+    "rich": ("cli", "progress", "report.terminal", "report.verification_table"),
 }
 
 # Slow to import: only inside functions, so that help is there at once.

@@ -10,6 +10,7 @@ from netdesign.verification.closed_forms import list_cable, list_law, list_snow
 from netdesign.verification.coupled import (
     list_invariants,
     list_limits,
+    list_numerics,
     list_orders,
     list_reference,
 )
@@ -26,6 +27,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_sliding_net,
     list_invariants,
     list_limits,
+    list_numerics,
     list_orders,
     list_reference,
     list_walls,

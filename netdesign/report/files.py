@@ -1,0 +1,60 @@
+"""Which files a study becomes, and their contents."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from netdesign.study import Study, write_document
+
+STUDY_FILE = "study.json"
+
+
+def list_reports(*, html: bool, excel: bool, csv: bool) -> list[str]:
+    """Names of the wanted reports."""
+    wanted = {"report.html": html, "report.xlsx": excel, "cases.csv": csv}
+    return [name for name, is_wanted in wanted.items() if is_wanted]
+
+
+def name_files(
+    folder: Path | None, profiles: Sequence[str], names: Sequence[str]
+) -> list[list[Path]]:
+    """Paths of each study's files; several profiles get a folder each.
+
+    Without a folder there are none.
+    """
+    if folder is None:
+        return [[] for _ in profiles]
+    several = len(profiles) > 1
+    return [
+        [(folder / profile if several else folder) / name for name in names]
+        for profile in profiles
+    ]
+
+
+def render_files(
+    studies: Sequence[Study], paths: Sequence[Sequence[Path]]
+) -> dict[Path, bytes]:
+    """Contents of all files; what to render follows from their suffix."""
+    return {
+        path: _render(study, path.suffix)
+        for study, of_study in zip(studies, paths, strict=True)
+        for path in of_study
+    }
+
+
+def _render(study: Study, suffix: str) -> bytes:
+    """One file; modules of formats that are not wanted are not imported."""
+    if suffix == ".html":
+        from netdesign.report.html import render_html
+
+        return render_html(study).encode()
+    if suffix == ".xlsx":
+        from netdesign.report.excel import render_workbook
+
+        return render_workbook(study)
+    if suffix == ".csv":
+        from netdesign.report.case_table import render_cases
+
+        return render_cases(study)
+    return write_document(study).encode()
