@@ -18,6 +18,12 @@ def require_positive(name: str, value: float, unit: str = "") -> None:
         )
 
 
+def require_count(name: str, value: int) -> None:
+    """Refuse anything but a whole number above zero."""
+    if not (isinstance(value, int) and value > 0):
+        raise ModelError(f"{name} = {value!r}: must be a whole number above 0")
+
+
 def require_within(
     name: str, value: float, low: float, high: float, unit: str = ""
 ) -> None:

@@ -3,7 +3,12 @@ import math
 import pytest
 
 from netdesign.errors import ModelError
-from netdesign.guards import require_one_of, require_positive, require_within
+from netdesign.guards import (
+    require_count,
+    require_one_of,
+    require_positive,
+    require_within,
+)
 
 NO_NUMBERS = [math.nan, math.inf, -math.inf]
 
@@ -54,3 +59,14 @@ def test_a_message_names_field_value_and_unit():
     assert str(caught.value) == (
         "post spacing = -2.5: must be a finite number above 0 m"
     )
+
+
+@pytest.mark.parametrize("value", [1, 80])
+def test_counts_are_accepted(value):
+    require_count("rounds", value)
+
+
+@pytest.mark.parametrize("value", [0, -1, 1.5, 2.0, math.nan, math.inf, "3", None])
+def test_what_is_no_count_is_refused(value):
+    with pytest.raises(ModelError, match=r"rounds = .* a whole number above 0"):
+        require_count("rounds", value)

@@ -7,7 +7,12 @@ from dataclasses import dataclass, field
 
 from netdesign.cable.net import Net
 from netdesign.errors import ModelError
-from netdesign.guards import require_one_of, require_positive, require_within
+from netdesign.guards import (
+    require_count,
+    require_one_of,
+    require_positive,
+    require_within,
+)
 from netdesign.snow.creep_law import (
     BOUTILLIER_2004,
     ICE_DENSITY,
@@ -220,7 +225,7 @@ class SolverSettings:
         require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
         require_within("shape tolerance", self.shape_tolerance, 1e-14, 1e-4)
         require_within("balance tolerance", self.balance_tolerance, 1e-14, 1e-6)
-        require_positive("rounds", self.max_rounds)
-        require_positive("iterations", self.max_iterations)
+        require_count("rounds", self.max_rounds)
+        require_count("iterations", self.max_iterations)
         if len(self.levels) < 2:
             raise ModelError("an error estimate needs at least two mesh levels")
