@@ -453,3 +453,173 @@ def test_document_of_a_wall(tables):
     total = sum(node["force_x_kN_per_m"] for node in document["nodes"])
     assert total == pytest.approx(wall["force_x_kN_per_m"], rel=1e-12)
     json.dumps(document, allow_nan=False)
+
+
+def take_layers(tables, *layers):
+    tables["snow"].pop("density_kg_m3", None)
+    tables["snow"]["layers"] = list(layers)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("thickness_m", 0.0),
+        ("thickness_m", math.nan),
+        ("thickness_m", math.inf),
+        ("density_kg_m3", 0.0),
+        ("density_kg_m3", 917.0),
+        ("density_kg_m3", math.nan),
+        ("density_kg_m3", math.inf),
+        ("temperature_C", 0.1),
+        ("temperature_C", -60.1),
+        ("temperature_C", math.nan),
+        ("temperature_C", -math.inf),
+        ("hardness", 3.0),
+    ],
+)
+def test_fault_in_a_layer_is_told_with_its_place(tables, key, value):
+    take_layers(tables, LAYERS[0], {**LAYERS[1], key: value})
+    with pytest.raises(ValueError, match=rf"(?m)^snow\.layers\.1\.{key}"):
+        build(tables)
+
+
+def test_thin_layer_is_refused(tables):
+    take_layers(
+        tables,
+        {"thickness_m": 0.079, "density_kg_m3": 300.0},
+        {"thickness_m": 3.921, "density_kg_m3": 300.0},
+    )
+    with pytest.raises(ModelError, match="layer thickness over snow thickness"):
+        build(tables)
+
+
+def test_layer_outside_the_calibration_is_flagged(tables):
+    """The mean density alone would not tell."""
+    take_layers(
+        tables,
+        {"thickness_m": 3.0, "density_kg_m3": 450.0},
+        {"thickness_m": 1.0, "density_kg_m3": 200.0},
+    )
+    scene = build(tables)
+    assert scene.creep_law.is_calibrated(scene.snowpack.relative_density)
+    assert not scene.is_calibrated
+
+
+def test_layer_where_the_set_is_inadmissible(tables):
+    tables["snow"]["creep_law"] = "gagliardini-1997"
+    take_layers(
+        tables,
+        {"thickness_m": 3.0, "density_kg_m3": 600.0},
+        {"thickness_m": 1.0, "density_kg_m3": 400.0},
+    )
+    with pytest.raises(ModelError, match=r"relative density = 0\.436.*shrink sideways"):
+        build(tables)
+
+
+OWN = {
+    "name": "mine",
+    "source": "my tests",
+    "shear_fit": [16.03, 19.25],
+    "bulk_fit": [16.75, 22.51],
+    "branch": 0.81,
+    "calibrated": [0.4, 1.0],
+}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"shear_fit": [1.0]},
+        {"bulk_fit": [1.0, 2.0, 3.0]},
+        {"shear_fit": [math.nan, 1.0]},
+        {"bulk_fit": [1.0, math.inf]},
+        {"branch": 0.0},
+        {"branch": math.nan},
+        {"clamp": -0.1},
+        {"clamp": math.nan},
+        {"calibrated": [math.nan, 1.0]},
+        {"calibrated": [0.4]},
+        {"exponent": 3.0},
+        {"name": None},
+    ],
+    ids=str,
+)
+def test_set_of_ones_own_that_is_not_a_set(tables, changes):
+    tables["snow"]["creep_law"] = {**OWN, **changes}
+    (key,) = changes
+    with pytest.raises(ValueError, match=rf"(?m)^snow\.creep_law\..*{key}"):
+        build(tables)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"branch": 0.991}, "branch density"),
+        ({"clamp": 0.82}, "clamp density"),
+        ({"calibrated": [0.6, 0.5]}, "calibrated density"),
+        ({"calibrated": [0.4, 1.01]}, "calibrated density"),
+    ],
+    ids=str,
+)
+def test_set_of_ones_own_that_is_no_law(tables, changes, message):
+    tables["snow"]["creep_law"] = {**OWN, **changes}
+    with pytest.raises(ModelError, match=message):
+        build(tables)
+
+
+def test_set_of_ones_own_takes_the_exponent_of_the_snow(tables):
+    tables["snow"] |= {"creep_law": OWN, "creep_exponent": 2.0}
+    assert build(tables).creep_law.exponent == 2.0
+
+
+def test_set_of_ones_own_has_no_glide_table(tables):
+    tables["snow"]["creep_law"] = OWN
+    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
+    with pytest.raises(ModelError, match="'mine' has no table of slip lengths"):
+        build(tables)
+
+
+@pytest.mark.parametrize("name", ["boutillier-2004", "zwinger-2007"])
+def test_glide_factor_is_that_of_the_creep_law(tables, name):
+    tables["snow"]["creep_law"] = name
+    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
+    scene = build(tables)
+    assert scene.ground == build_ground_from_glide_factor(1.5, 4.0, name)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stiffness_kN_per_m": 2e4}, "a wall has none"),
+        ({"slack": 0.0}, "a wall has none"),
+        ({"inclination_deg": 80.1}, "wall inclination"),
+        ({"height_m": 3.9}, "overtops the net"),
+    ],
+    ids=str,
+)
+def test_wall_is_refused(tables, changes, message):
+    tables["net"] = {"kind": "rigid", "inclination_deg": 0.0, **changes}
+    with pytest.raises(ModelError, match=message):
+        build(tables)
+
+
+def test_slack_that_would_lie_on_the_ground(tables):
+    tables["net"] |= {"slack": 0.5, "inclination_deg": 40.0}
+    with pytest.raises(ModelError, match="lie on the ground"):
+        build(tables)
+
+
+@pytest.mark.parametrize(("density", "n_flags"), [(0.4 * 917, 0), (0.399 * 917, 1)])
+def test_flag_at_the_bound_of_the_calibration(tables, density, n_flags):
+    tables["snow"]["density_kg_m3"] = density
+    tables["net"] = {"kind": "rigid", "inclination_deg": 0.0}
+    tables["ground"] = {"law": "no-slip"}
+    solution = solve_rigid(build(tables), SolverSettings(accuracy=0.1))
+    document = write_solution_document(solution, SolverSettings(), wall_s=0.0)
+    assert len(document["flags"]) == n_flags
+
+
+def test_largest_velocity_is_in_mm_per_day(solved):
+    solution, document = solved
+    expected = solution.largest_velocity * 1000.0 * 24 * 3600
+    assert document["largest_velocity_mm_per_day"] == pytest.approx(expected, rel=1e-14)

@@ -23,6 +23,8 @@ PAIRS = [
         (units.radian_from_percent, 0.0, 0.0),
         (units.second_from_day, 2.0, 2.0 * 24.0 * 3600.0),
         (units.day_from_second, 3600.0, 1.0 / 24.0),
+        (units.mm_per_day, 1.0 / 86_400.0, 1000.0),
+        (units.mm_per_day, 0.0, 0.0),
         (units.celsius_from_kelvin, 273.15, 0.0),
         (units.kelvin_from_celsius, -10.0, 263.15),
     ],

@@ -6,10 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, MIXED_BULK_RATIO, SolverSettings
+from netdesign.coupling.scene import (
+    MESH_LEVELS,
+    MIXED_BULK_RATIO,
+    Scene,
+    SolverSettings,
+)
 from netdesign.coupling.solve import solve_scene
 from netdesign.coupling.steady import solve_steady
-from netdesign.outcome import Outcome
+from netdesign.errors import ModelError
 from netdesign.snow.fluidity import compute_fluidity
 from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.mesh import build_template, place_nodes
@@ -114,6 +119,64 @@ def test_warm_layer_below_lets_the_snow_press_harder(a_scene):
     assert sound(warm).foot.size > 1.2 * even.foot.size
 
 
+def test_equal_layers_on_their_own_mesh_change_nothing(a_scene, monkeypatch):
+    """One mesh with interfaces; uniform snow and two equal layers on it."""
+    scene = a_scene(inclination_deg=30.0, ground="no-slip")
+    part = Layer(thickness=2.0, density=scene.snowpack.density)
+    scene = layered(scene, part, part)
+    two = sound(scene)
+    law_of = Scene.flow_law.fget
+    monkeypatch.setattr(
+        Scene,
+        "flow_law",
+        property(lambda s: replace(law_of(s), layers=law_of(s).layers[-1:])),
+    )
+    assert len(scene.flow_law.layers) == 1
+    one = sound(scene)
+    for end in ("foot", "head"):
+        for axis in ("x", "y"):
+            found, expected = (getattr(getattr(s, end), axis) for s in (two, one))
+            assert found == pytest.approx(expected, abs=1e-9 * one.foot.size)
+
+
+@pytest.mark.parametrize("ground", ["free", "no-slip"])
+def test_dense_snow_below_light_snow(a_scene, ground):
+    scene = layered(
+        a_scene(inclination_deg=30.0, ground=ground),
+        Layer(thickness=1.0, density=500.0),
+        Layer(thickness=3.0, density=250.0),
+    )
+    solution = sound(scene)  # balance below 1e-8
+    assert solution.scene.layer_tops == (0.25,)
+    assert solution.foot.size > 0.0
+
+
+def test_one_dense_layer_takes_the_mixed_element(a_scene):
+    scene = layered(
+        a_scene(inclination_deg=30.0, ground="no-slip"),
+        Layer(thickness=1.0, density=900.0),
+        Layer(thickness=3.0, density=350.0),
+    )
+    assert scene.flow_law.element == "mixed"
+    sound(scene)
+
+
+def test_layers_scale_with_the_mean_density(a_scene):
+    """Densities over the mean; their mean over the thickness is 1."""
+    scene = layered(
+        a_scene(),
+        Layer(thickness=1.0, density=450.0),
+        Layer(thickness=3.0, density=250.0),
+    )
+    below, above = scene.flow_law.layers
+    assert (below.top, above.top) == (0.25, 1.0)
+    assert 0.25 * below.density + 0.75 * above.density == pytest.approx(1.0, rel=1e-14)
+    assert below.density / above.density == pytest.approx(450 / 250, rel=1e-14)
+    # (N3): a = exp(c0 - c1 D), n = 3; the denser layer creeps more slowly
+    ratio = math.exp(-2.0 * 19.25 * (450 - 250) / 917)
+    assert below.fluidity / above.fluidity == pytest.approx(ratio, rel=1e-12)
+
+
 # --- contacts ----------------------------------------------------------------
 
 
@@ -128,11 +191,26 @@ def test_one_sided_ground_does_not_pull(a_scene):
 def test_one_sided_net_is_not_pulled(a_scene):
     scene = a_scene(inclination_deg=30.0, friction_deg=2.0)
     assert sound(scene).balance.suction_share > 0.0
-    one = solve_steady(replace(scene, net_contact="one-sided"), SETTINGS)
-    if one.outcome is Outcome.CONVERGED:
-        assert one.balance.suction_share < 1e-9
-    else:  # smooth nets may have no steady state once the snow may let go
-        assert one.reason
+    one = sound(replace(scene, net_contact="one-sided"))
+    assert one.balance.suction_share < 1e-9
+
+
+@pytest.mark.parametrize("friction_deg", [0.0, 2.0])
+def test_one_sided_net_on_rough_ground(a_scene, friction_deg):
+    """physics.md, section 4: suction over the top 0.2 % of the net there."""
+    scene = a_scene(ground="no-slip", inclination_deg=30.0, friction_deg=friction_deg)
+    two, one = sound(scene), sound(replace(scene, net_contact="one-sided"))
+    assert 0.0 < two.balance.suction_share < 0.005
+    assert one.balance.suction_share < 1e-9
+    # what lets go is a few thousandths of the pressure
+    assert one.foot.size == pytest.approx(two.foot.size, rel=1e-3)
+
+
+def test_one_sided_where_nothing_pulls_is_two_sided(a_scene):
+    scene = a_scene(ground="no-slip", inclination_deg=30.0)
+    two, one = sound(scene), sound(replace(scene, net_contact="one-sided"))
+    assert two.balance.suction_share == 0.0
+    assert one.foot == two.foot
 
 
 # --- elements ----------------------------------------------------------------
@@ -145,10 +223,37 @@ def test_element_is_chosen_by_the_scene(a_scene):
     assert dense.flow_law.layers[0].bulk_ratio > MIXED_BULK_RATIO
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"inclination_deg": 30.0, "ground": "no-slip"},
+        {"inclination_deg": 30.0, "friction_deg": 5.0},
+    ],
+    ids=str,
+)
+def test_both_elements_agree_within_their_errors(a_scene, monkeypatch, given):
+    scene = a_scene(**given)
+    plain = sound(scene)
+    monkeypatch.setattr("netdesign.coupling.scene.MIXED_BULK_RATIO", 0.0)
+    assert scene.flow_law.element == "mixed"
+    mixed = sound(scene)
+    assert mixed.cost.degrees_of_freedom > plain.cost.degrees_of_freedom
+    for end in ("foot", "head"):
+        first, second = getattr(plain, end), getattr(mixed, end)
+        apart = math.hypot(first.x - second.x, first.y - second.y)
+        assert apart <= min(first.error, second.error)
+
+
 def test_nearly_incompressible_snow_is_solved(a_scene):
     solution = sound(a_scene(relative_density=0.985, inclination_deg=30.0))
     pulled = solution.foot.x + solution.head.x
     assert pulled == pytest.approx(solution.balance.weight_along_slope, rel=1e-8)
+
+
+def test_steady_refuses_a_wall(a_scene):
+    scene = replace(a_scene(), net=Wall(height_normal=4.0))
+    with pytest.raises(ModelError, match="a Wall goes to solve_rigid"):
+        solve_steady(scene, SETTINGS)
 
 
 def test_entry_takes_nets_and_walls(a_scene):

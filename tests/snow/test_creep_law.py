@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.errors import ModelError
@@ -12,6 +13,7 @@ from netdesign.snow.creep_law import (
     DENSEST_SNOW,
     compute_bulk_factor,
     compute_shear_factor,
+    compute_strain_rate,
     require_admissible,
 )
 
@@ -151,6 +153,114 @@ def test_exponent_is_refused(exponent):
 def test_branch_is_refused(branch):
     with pytest.raises(ModelError, match="branch density"):
         replace(LAW, branch=branch)
+
+
+def test_clamp_holds_the_coefficients():
+    """zwinger-2007 below D = 0.4 is that of 0.4, above it follows the fit."""
+    law = CREEP_LAWS["zwinger-2007"]
+    for compute in (compute_shear_factor, compute_bulk_factor):
+        at = compute(law, 0.4)
+        assert compute(law, 0.1) == compute(law, math.nextafter(0.4, 0.0)) == at
+        assert compute(law, 0.41) < at
+
+
+@pytest.mark.parametrize("clamp", [0.0, LAW.branch])
+def test_clamp_at_its_bounds(clamp):
+    assert replace(LAW, clamp=clamp).clamp == clamp
+
+
+@pytest.mark.parametrize(
+    "clamp", [-1e-12, math.nextafter(LAW.branch, 1.0), math.nan, math.inf]
+)
+def test_clamp_is_refused(clamp):
+    with pytest.raises(ModelError, match="clamp density"):
+        replace(LAW, clamp=clamp)
+
+
+@pytest.mark.parametrize("branch", [math.nextafter(DENSEST_SNOW, 1.0), -0.5])
+def test_branch_beyond_the_densest_snow(branch):
+    with pytest.raises(ModelError, match="branch density"):
+        replace(LAW, branch=branch)
+
+
+@pytest.mark.parametrize(
+    "calibrated",
+    [
+        (0.6, 0.5),
+        (-0.1, 1.0),
+        (0.4, math.nextafter(1.0, 2.0)),
+        (math.nan, 1.0),
+        (0.4, math.nan),
+        (math.inf, 1.0),
+        (0.4, math.inf),
+    ],
+)
+def test_calibrated_range_is_refused(calibrated):
+    with pytest.raises(ModelError, match="calibrated density"):
+        replace(LAW, calibrated=calibrated)
+
+
+@pytest.mark.parametrize("fit", [(math.nan, 20.0), (16.0, math.nan)])
+@pytest.mark.parametrize("field", ["shear_fit", "bulk_fit"])
+def test_fit_without_a_number_is_refused(field, fit):
+    with pytest.raises(ModelError, match=r"3a = .* < 2b = "):
+        replace(LAW, **{field: fit})
+
+
+def test_limit_of_the_papers_set():
+    """standards-facts.md 7.4: 3a = 2b at D = 0.097; of zwinger's fit at 0.313."""
+    require_admissible(LAW, 0.098)
+    with pytest.raises(ModelError, match="boutillier-2004"):
+        require_admissible(LAW, 0.096)
+    unclamped = replace(CREEP_LAWS["zwinger-2007"], clamp=0.0)
+    require_admissible(unclamped, 0.314)
+    with pytest.raises(ModelError, match="zwinger-2007"):
+        require_admissible(unclamped, 0.312)
+
+
+# --- strain rate in space: standards-facts.md 7.5, B = 20 MPa^-3 a^-1, 10 kPa ----
+
+ELMER = CREEP_LAWS["zwinger-2007"]
+PRESSED = -0.01  # [MPa]
+
+
+def rate_of(stress):
+    return compute_strain_rate(ELMER, 0.5, 20.0, np.diag(stress))
+
+
+def test_uniaxial_stress():
+    rate = rate_of([0.0, 0.0, PRESSED])
+    assert rate[2, 2] == pytest.approx(-0.1381, rel=5e-4)
+    assert rate[0, 0] == rate[1, 1] == pytest.approx(0.03328, rel=5e-4)
+
+
+def test_isotropic_stress():
+    rate = rate_of([PRESSED] * 3)
+    np.testing.assert_allclose(np.diag(rate), -0.1113, rtol=5e-4)
+
+
+def test_confined_stress():
+    """p and tau_xx of the table; nothing moves sideways."""
+    side = PRESSED + 0.00455 + 0.002275
+    rate = rate_of([side, side, PRESSED])
+    assert rate[2, 2] == pytest.approx(-0.0991, rel=2e-3)  # printed digits, cubed
+    np.testing.assert_allclose(np.diag(rate)[:2], 0.0, atol=1e-4)
+
+
+def test_strain_rate_inverts_the_law():
+    """(N1), (N2) written out give the stress back."""
+    rng = np.random.default_rng(6)
+    stress = rng.normal(size=(3, 3))
+    stress = stress + stress.T
+    law = replace(LAW, exponent=2.0)
+    a, b = compute_shear_factor(law, 0.45), compute_bulk_factor(law, 0.45)
+    rate = compute_strain_rate(law, 0.45, 3.0, stress)
+    trace = np.trace(rate)
+    deviator = rate - trace / 3.0 * np.eye(3)
+    size = math.sqrt(2.0 / a * (deviator**2).sum() + trace**2 / b)
+    back = 3.0 ** (-1 / 2) * size ** ((1 - 2.0) / 2.0)
+    found = back * (2.0 / a * deviator + trace / b * np.eye(3))
+    np.testing.assert_allclose(found, stress, rtol=1e-11)
 
 
 def test_laws_go_by_their_own_names():

@@ -8,7 +8,11 @@ from netdesign.errors import ModelError
 from netdesign.snow.snowpack import (
     GRAVITY,
     STEEPEST_SLOPE,
+    THINNEST_LAYER,
+    Layer,
     Snowpack,
+    build_layered_snowpack,
+    compute_mean_density,
     compute_thickness,
 )
 
@@ -101,3 +105,79 @@ def test_nonfinite_is_refused(field, value):
 def test_thickness_refuses(arguments):
     with pytest.raises(ModelError, match="must"):
         compute_thickness(*arguments)
+
+
+# --- layers ------------------------------------------------------------------
+
+LAYERS = (Layer(thickness=0.5, density=450.0), Layer(thickness=1.5, density=250.0))
+
+
+def build(*layers, **changes):
+    return build_layered_snowpack(
+        layers, **{"slope_angle": 0.5, "upslope_length": 10.0, **changes}
+    )
+
+
+def test_layers_make_thickness_and_mean_density():
+    pack = build(*LAYERS, gravity="parallel")
+    assert pack.thickness == 2.0
+    assert pack.density == pytest.approx((0.5 * 450 + 1.5 * 250) / 2, rel=1e-15)
+    assert pack.density == compute_mean_density(LAYERS)
+    assert (pack.layers, pack.gravity) == (LAYERS, "parallel")
+
+
+def test_no_layers():
+    with pytest.raises(ModelError, match="at least one is needed"):
+        build()
+
+
+@pytest.mark.parametrize(
+    ("changes", "name"),
+    [
+        ({"thickness": 2.0 * (1 + 2e-6)}, "layer thicknesses: add up to 2"),
+        ({"thickness": 2.0 * (1 - 2e-6)}, "layer thicknesses: add up to 2"),
+        ({"density": 300.0 * (1 + 2e-6)}, "mean layer density: add up to 300"),
+        ({"density": 300.0 * (1 - 2e-6)}, "mean layer density: add up to 300"),
+    ],
+)
+def test_layers_that_are_not_the_snowpack(changes, name):
+    with pytest.raises(ModelError, match=name):
+        a_pack(layers=LAYERS, **changes)
+
+
+@pytest.mark.parametrize("share", [1 - 0.9e-6, 1.0, 1 + 0.9e-6])
+def test_rounding_of_a_sum_is_accepted(share):
+    assert a_pack(layers=LAYERS, thickness=2.0 * share).layers == LAYERS
+
+
+def test_thinnest_layer():
+    rest = Layer(thickness=1.0 - THINNEST_LAYER, density=300.0)
+    pack = build(Layer(thickness=THINNEST_LAYER, density=300.0), rest)
+    assert len(pack.layers) == 2
+    thinner = Layer(thickness=0.99 * THINNEST_LAYER, density=300.0)
+    with pytest.raises(ModelError, match="layer thickness over snow thickness"):
+        build(rest, thinner)
+
+
+@pytest.mark.parametrize("density", [1e-9, 0.99 * 917.0])
+def test_density_of_a_layer_at_its_bounds(density):
+    assert Layer(thickness=1.0, density=density).density == density
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("thickness", 0.0),
+        ("thickness", -1.0),
+        ("density", 0.0),
+        ("density", math.nextafter(0.99 * 917.0, 917.0)),
+        *(
+            (field, value)
+            for field in ("thickness", "density")
+            for value in (math.nan, math.inf, -math.inf)
+        ),
+    ],
+)
+def test_layer_is_refused(field, value):
+    with pytest.raises(ModelError, match=f"layer {field} = .*must"):
+        Layer(**{"thickness": 1.0, "density": 300.0, field: value})

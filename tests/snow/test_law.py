@@ -1,0 +1,212 @@
+"""The creep law of the mixed element, and properties sampled layer by layer."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.outcome import Outcome
+from netdesign.snow import kernel
+from netdesign.snow.flow import compute_residual, compute_weight, solve_flow
+from netdesign.snow.law import (
+    FlowLayer,
+    Material,
+    advance_stress,
+    linearise_creep,
+    sample_material,
+    squared_size,
+    total_stress,
+)
+from netdesign.snow.mesh import build_template, place_nodes
+
+RATIOS = [0.7, 1.8, 60.0]
+UNIT = np.array([1.0, 1.0, 0.0])
+COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])  # (F8)
+STRESSES = np.array([[0.7, -0.4, 0.9], [-1.0, -0.2, 0.1], [0.02, 0.03, -0.01]])
+
+
+def material_of(law) -> Material:
+    layer = law.layers[0]
+    return Material(layer.bulk_ratio, layer.fluidity, layer.density)
+
+
+def split(stress, ratio):
+    """(deviator, pressure) of plane stresses without strain across the plane.
+
+    (F9): tr eps = 3/2 S^(n-1) (tau_xx + tau_yy) = -S^(n-1) p / r.
+    """
+    pressure = -(stress[..., 0] + stress[..., 1]) / (2.0 + 2.0 / (3.0 * ratio))
+    deviator = stress + pressure[..., None] * UNIT
+    return np.concatenate([deviator, pressure[..., None]], axis=-1)
+
+
+def both(a_flow_law, ratio, exponent=3.0, fluidity=1.0):
+    """The same snow in the velocity and in the mixed element."""
+    law = a_flow_law(bulk_ratio=ratio, exponent=exponent)
+    law = replace(law, layers=(replace(law.layers[0], fluidity=fluidity),))
+    return law, replace(law, element="mixed")
+
+
+# --- mixed element -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_invariant_is_the_same(a_flow_law, ratio):
+    """(F8) of the split stress is S^2 of (F3)."""
+    plain, mixed = both(a_flow_law, ratio)
+    material = material_of(plain)
+    np.testing.assert_allclose(
+        squared_size(mixed, material, split(STRESSES, ratio)),
+        squared_size(plain, material, STRESSES),
+        rtol=1e-12,
+    )
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("exponent", [1.0, 3.0])
+@pytest.mark.parametrize("fluidity", [1.0, 7.0])
+def test_condensed_tangent_is_that_of_the_velocity_element(
+    a_flow_law, ratio, exponent, fluidity
+):
+    """Both linearise one law at one stress: without its pressure (F10) is (F5)."""
+    plain, mixed = both(a_flow_law, ratio, exponent, fluidity)
+    material = material_of(plain)
+    expected = linearise_creep(plain, material, STRESSES)
+    moduli, kept = linearise_creep(mixed, material, split(STRESSES, ratio))
+    np.testing.assert_allclose(moduli, moduli.swapaxes(-1, -2), rtol=1e-14)
+    coupling, compression = moduli[..., :3, 3], moduli[..., 3, 3]
+    assert (compression < 0.0).all()  # quasi-definite
+    # the fourth row is zero: p = -(kept + coupling . eps) / compression
+    outer = coupling[..., :, None] * coupling[..., None, :]
+    condensed = moduli[..., :3, :3] - outer / compression[..., None, None]
+    rest = kept[..., :3] - coupling * (kept[..., 3] / compression)[..., None]
+    scale = np.abs(expected.modulus).max()
+    np.testing.assert_allclose(condensed, expected.modulus, atol=1e-12 * scale)
+    np.testing.assert_allclose(rest, expected.kept, atol=1e-12)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_step_with_the_laws_own_strain_rate_changes_nothing(a_flow_law, ratio):
+    """(F9) written out, with the floor: a Newton step from the solution stays."""
+    _, mixed = both(a_flow_law, ratio)
+    stress = split(STRESSES, ratio)
+    deviator, pressure = stress[:, :3], stress[:, 3]
+    size = ((deviator @ COMPLIANCE) * deviator).sum(axis=1) + pressure**2 / ratio
+    rate = size + mixed.stress_floor**2  # n = 3
+    strain = rate[:, None] * (deviator @ COMPLIANCE)
+    np.testing.assert_allclose(strain[:, 0] + strain[:, 1], -rate * pressure / ratio)
+    tangent = linearise_creep(mixed, material_of(mixed), stress)
+    generalised = np.column_stack([strain, pressure])
+    np.testing.assert_allclose(
+        advance_stress(mixed, tangent, generalised), stress, atol=1e-13
+    )
+    fourth = tangent.kept[:, 3] + (tangent.modulus[:, 3] * generalised).sum(axis=1)
+    np.testing.assert_allclose(fourth, 0.0, atol=1e-13)
+
+
+def test_total_stress_carries_the_pressure(a_flow_law):
+    _, mixed = both(a_flow_law, 1.8)
+    total = total_stress(mixed, split(STRESSES, 1.8))
+    np.testing.assert_allclose(total[:, :3], STRESSES, atol=1e-15)
+    np.testing.assert_array_equal(total[:, 3], 0.0)
+
+
+@pytest.mark.parametrize("ratio", [0.7, 1.8])
+def test_rough_slab_in_both_elements(a_mesh, a_flow_law, ratio):
+    """A whole flow: forces on the net agree as two meshes of this size do."""
+    plain, mixed = both(a_flow_law, ratio)
+    found = []
+    for law in (plain, mixed):
+        law = replace(law, ground="no-slip", friction=np.inf)
+        coarse = a_mesh(inclination_deg=30.0, size=MESH_LEVELS[1])
+        mesh = kernel.build_placed_mesh(coarse.template, coarse.nodes, law.element)
+        result = solve_flow(law, mesh, tolerance=1e-9)
+        assert result.outcome is Outcome.CONVERGED
+        forces = -mesh.to_slope_axes(result.state.reaction)
+        found.append(forces[:, mesh.template.net[1:]].sum(axis=1))
+    np.testing.assert_allclose(found[1], found[0], rtol=5e-3)
+
+
+# --- layers ------------------------------------------------------------------
+
+BOTTOM = FlowLayer(top=0.3, bulk_ratio=1.2, fluidity=2.0, density=1.5)
+MIDDLE = FlowLayer(top=0.8, bulk_ratio=2.0, fluidity=0.5, density=0.9)
+TOP = FlowLayer(top=1.0, bulk_ratio=3.0, fluidity=0.1, density=0.5)
+TOPS = (0.3, 0.8)
+
+
+def layered_mesh(inclination_deg=0.0, element="velocity", size=MESH_LEVELS[0]):
+    template = build_template(5.0, size, TOPS)
+    heights = template.net_fractions
+    curve = np.array([heights * np.tan(np.radians(inclination_deg)), heights])
+    return kernel.build_placed_mesh(template, place_nodes(template, curve), element)
+
+
+def test_every_point_has_the_properties_of_its_layer(a_flow_law):
+    law = replace(a_flow_law(), layers=(BOTTOM, MIDDLE, TOP))
+    mesh = layered_mesh()
+    material = sample_material(law, mesh.template)
+    heights = mesh.template.nodes[1, mesh.template.triangles[:3]].mean(axis=0)
+    for layer, low in ((BOTTOM, 0.0), (MIDDLE, 0.3), (TOP, 0.8)):
+        inside = (heights > low) & (heights < layer.top)
+        assert inside.any()
+        assert (material.bulk_ratio[inside] == layer.bulk_ratio).all()
+        assert (material.fluidity[inside] == layer.fluidity).all()
+        assert (material.density[inside] == layer.density).all()
+
+
+def test_uniform_snow_needs_no_arrays(a_flow_law):
+    law = a_flow_law()
+    material = sample_material(law, layered_mesh().template)
+    assert material == (law.layers[0].bulk_ratio, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+@pytest.mark.parametrize("element", ["velocity", "mixed"])
+def test_load_of_layers_is_their_weight(a_flow_law, inclination, element):
+    """Each layer: 5 (top - bottom) and its slice of the wedge, times its density."""
+    law = replace(a_flow_law(), layers=(BOTTOM, MIDDLE, TOP), element=element)
+    mesh = layered_mesh(inclination, element)
+    wedge = np.tan(np.radians(inclination)) / 2.0
+    expected = sum(
+        layer.density * (5.0 * (layer.top - low) + wedge * (layer.top**2 - low**2))
+        for layer, low in ((BOTTOM, 0.0), (MIDDLE, 0.3), (TOP, 0.8))
+    )
+    weight = expected * np.array(law.gravity)
+    np.testing.assert_allclose(compute_weight(law, mesh), weight, rtol=1e-12)
+    state = solve_flow(law, mesh, tolerance=1e-3).state
+    unloaded = replace(state, stress=np.zeros_like(state.stress))
+    load = -mesh.to_slope_axes(compute_residual(law, mesh, unloaded)).sum(axis=1)
+    np.testing.assert_allclose(load, weight, rtol=1e-12)
+
+
+@pytest.mark.parametrize("element", ["velocity", "mixed"])
+def test_equal_layers_are_one(a_flow_law, element):
+    """On one mesh: nothing but the sampling differs."""
+    whole = replace(a_flow_law(ground="no-slip"), element=element)
+    layer = whole.layers[0]
+    parts = tuple(replace(layer, top=top) for top in (*TOPS, 1.0))
+    mesh = layered_mesh(30.0, element)
+    one, three = (
+        solve_flow(law, mesh, tolerance=1e-10).state
+        for law in (whole, replace(whole, layers=parts))
+    )
+    scale = np.abs(one.reaction).max()
+    np.testing.assert_allclose(three.reaction, one.reaction, atol=1e-9 * scale)
+
+
+def test_fluidity_of_all_layers_leaves_the_stress(a_flow_law):
+    law = replace(a_flow_law(ground="no-slip"), layers=(BOTTOM, MIDDLE, TOP))
+    faster = replace(
+        law, layers=tuple(replace(la, fluidity=5.0 * la.fluidity) for la in law.layers)
+    )
+    mesh = layered_mesh(30.0)
+    slow, fast = (solve_flow(each, mesh, tolerance=1e-10) for each in (law, faster))
+    assert (slow.outcome, fast.outcome) == (Outcome.CONVERGED,) * 2
+    scale = np.abs(slow.state.stress).max()
+    np.testing.assert_allclose(fast.state.stress, slow.state.stress, atol=1e-9 * scale)
+    speed = np.abs(slow.state.unknowns).max()
+    np.testing.assert_allclose(
+        fast.state.unknowns, 5.0 * slow.state.unknowns, atol=5e-9 * speed
+    )
