@@ -28,7 +28,11 @@ from netdesign.snow.creep_law import (
     ICE_DENSITY,
     CreepLaw,
 )
-from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
+from netdesign.snow.fluidity import (
+    FLUIDITY_EXPONENT,
+    PAPER_FLUIDITY,
+    compute_fluidity,
+)
 from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.law import Sides
 from netdesign.snow.snowpack import (
@@ -48,7 +52,6 @@ from netdesign.units import (
 )
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
-_FITTED_EXPONENT = 3.0  # of a(D) and b(D) in all named sets
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -177,7 +180,7 @@ def build_scene(file: SceneFile) -> tuple[Scene, SolverSettings]:
     creep_law = _creep_law(file.snow)
     scene = Scene(
         snowpack=snowpack,
-        ground=_ground(file.ground, snowpack.thickness, creep_law.name),
+        ground=_ground(file.ground, snowpack.thickness, creep_law),
         net=_net(file.net, snowpack.thickness),
         creep_law=creep_law,
         fluidity=_fluidity(file.snow),
@@ -210,7 +213,7 @@ def write_solution_document(
         "method": "steady",
         **held,
         "balance": _write_balance(solution.balance),
-        "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
+        "largest_velocity_mm_per_day": _write_velocity(solution),
         "history": None,
         "flags": _list_flags(solution.scene),
         "cost": {"wall_s": wall_s, **asdict(solution.cost)},
@@ -226,6 +229,15 @@ def write_solution_document(
             },
         },
     }
+
+
+def _write_velocity(solution: Solution | WallSolution) -> float | None:
+    """None where only the default fluidity is known, which is for another exponent."""
+    scene = solution.scene
+    is_default = scene.fluidity == PAPER_FLUIDITY
+    if is_default and scene.creep_law.exponent != FLUIDITY_EXPONENT:
+        return None
+    return mm_per_day(solution.largest_velocity)
 
 
 def _write_net(solution: Solution) -> dict[str, Any]:
@@ -309,7 +321,7 @@ def _list_flags(scene: Scene) -> list[str]:
             f"snow density outside the range of {low:g} to {high:g} (relative) for "
             f"which the creep law {law.name} is given"
         )
-    if law.exponent != _FITTED_EXPONENT:
+    if law.exponent != FLUIDITY_EXPONENT:
         flags.append(
             f"creep exponent {law.exponent:g}: a(D) and b(D) were fitted for 3 and "
             "their branches do not meet for another"
@@ -358,6 +370,11 @@ def _thickness(snow: SnowTable, slope: float) -> float:
 def _creep_law(snow: SnowTable) -> CreepLaw:
     if isinstance(snow.creep_law, CreepLawTable):
         given = snow.creep_law
+        if given.name in CREEP_LAWS:
+            raise ModelError(
+                f"snow.creep_law.name = {given.name!r}: is a shipped set; give your "
+                "own another name"
+            )
         return CreepLaw(
             name=given.name,
             source=given.source,
@@ -383,6 +400,11 @@ def _fluidity(snow: SnowTable) -> float:
         raise ModelError(
             "snow.fluidity_per_MPa3_a and snow.temperature_C: give one of them at most"
         )
+    if temperature is not None and snow.creep_exponent != FLUIDITY_EXPONENT:
+        raise ModelError(
+            "snow.temperature_C: fluidity against temperature is known for creep "
+            f"exponent {FLUIDITY_EXPONENT:g} only; give snow.fluidity_per_MPa3_a"
+        )
     if temperature is not None:
         return compute_fluidity(kelvin_from_celsius(temperature))
     if given is not None:
@@ -390,7 +412,7 @@ def _fluidity(snow: SnowTable) -> float:
     return PAPER_FLUIDITY
 
 
-def _ground(ground: GroundTable, thickness: float, creep_law: str) -> GroundLaw:
+def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> GroundLaw:
     slip, glide = ground.slip_length_m, ground.glide_factor
     if ground.law != "sliding":
         if slip is not None or glide is not None:
@@ -406,7 +428,12 @@ def _ground(ground: GroundTable, thickness: float, creep_law: str) -> GroundLaw:
         )
     if slip is not None:
         return GroundLaw(kind="sliding", slip_length=slip)
-    return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law)
+    if creep_law.exponent != FLUIDITY_EXPONENT:
+        raise ModelError(
+            "ground.glide_factor: its slip lengths were measured for creep exponent 3 "
+            "only; give ground.slip_length_m"
+        )
+    return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law.name)
 
 
 def _net(net: NetTable, thickness: float) -> Net | Wall:

@@ -623,3 +623,53 @@ def test_largest_velocity_is_in_mm_per_day(solved):
     solution, document = solved
     expected = solution.largest_velocity * 1000.0 * 24 * 3600
     assert document["largest_velocity_mm_per_day"] == pytest.approx(expected, rel=1e-14)
+
+
+# --- what is known for creep exponent 3 only -----------------------------------------
+
+
+def test_glide_factor_needs_the_exponent_of_its_table(tables):
+    tables["ground"] = {"law": "sliding", "glide_factor": 1.5}
+    assert build(tables).ground.kind == "sliding"
+    tables["snow"]["creep_exponent"] = 1.0
+    with pytest.raises(ModelError, match=r"ground\.glide_factor: .*exponent 3"):
+        build(tables)
+
+
+@pytest.mark.parametrize("place", ["snow", "layer"])
+def test_temperature_needs_the_exponent_of_its_law(tables, place):
+    tables["snow"]["creep_exponent"] = 1.0
+    if place == "snow":
+        tables["snow"]["temperature_C"] = -5.0
+    else:
+        del tables["snow"]["density_kg_m3"]
+        tables["snow"]["layers"] = LAYERS
+    with pytest.raises(ModelError, match=r"temperature.*exponent 3"):
+        build(tables)
+
+
+def test_own_set_may_not_take_the_name_of_a_shipped_one(tables):
+    tables["snow"]["creep_law"] = {
+        "name": "boutillier-2004",
+        "source": "my tests",
+        "shear_fit": [16.03, 19.25],
+        "bulk_fit": [16.75, 22.51],
+        "branch": 0.81,
+        "calibrated": [0.3, 0.7],
+    }
+    with pytest.raises(ModelError, match="is a shipped set"):
+        build(tables)
+
+
+@pytest.mark.parametrize("fit", [[800.0, 0.0], [1e300, 19.0], [61.0, 1.0]])
+def test_fit_that_overflows_is_refused(tables, fit):
+    tables["snow"]["creep_law"] = {
+        "name": "mine",
+        "source": "my tests",
+        "shear_fit": fit,
+        "bulk_fit": [16.75, 22.51],
+        "branch": 0.81,
+        "calibrated": [0.3, 0.7],
+    }
+    with pytest.raises(ModelError, match="fit coefficient"):
+        build(tables)

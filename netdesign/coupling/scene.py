@@ -21,7 +21,11 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
     require_admissible,
 )
-from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
+from netdesign.snow.fluidity import (
+    FLUIDITY_EXPONENT,
+    PAPER_FLUIDITY,
+    compute_fluidity,
+)
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowLaw, FlowLayer, Sides
 from netdesign.snow.mesh import MeshSize
@@ -97,6 +101,14 @@ class Scene:
             0.25,
             200.0,
         )
+        if self.creep_law.exponent != FLUIDITY_EXPONENT and any(
+            layer.temperature is not None for layer in self.layers
+        ):
+            raise ModelError(
+                "layer temperature: fluidity against temperature is known for creep "
+                f"exponent {FLUIDITY_EXPONENT:g} only, this law has "
+                f"{self.creep_law.exponent:g}"
+            )
         for layer in self.layers:
             require_admissible(self.creep_law, layer.density / ICE_DENSITY)
 

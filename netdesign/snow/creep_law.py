@@ -20,6 +20,7 @@ ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source 
 # Relative density from which snow counts as ice, a = 1 and b = 0 nearly; Elmer/Ice
 # treats more than 0.99 as ice. The law needs b > 0, so denser snow is refused.
 DENSEST_SNOW = 0.99
+_LARGEST_COEFFICIENT = 60.0  # of the exponential fits: keeps their powers finite
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,8 +63,17 @@ class CreepLaw:
         low, high = self.calibrated
         require_within("calibrated density, low", low, 0.0, high)
         require_within("calibrated density, high", high, low, 1.0)
-        # the ratio a/b is monotonic on each branch: its ends decide
-        for density in (max(low, 1e-3), min(high, DENSEST_SNOW)):
+        for coefficient in (*self.shear_fit, *self.bulk_fit):
+            require_within(
+                "fit coefficient",
+                coefficient,
+                -_LARGEST_COEFFICIENT,
+                _LARGEST_COEFFICIENT,
+            )
+        # a/b is monotonic on each branch: the ends of both branches decide
+        ends = (max(low, 1e-3), min(high, DENSEST_SNOW))
+        joints = (math.nextafter(self.branch, 0.0), self.branch)
+        for density in (*ends, *(d for d in joints if ends[0] < d < ends[1])):
             require_admissible(self, density)
 
     def is_calibrated(self, relative_density: float) -> bool:

@@ -10,6 +10,8 @@ import math
 from netdesign.guards import require_within
 from netdesign.units import fluidity_from_mpa_year, kelvin_from_celsius
 
+FLUIDITY_EXPONENT = 3.0  # creep exponent that every fluidity of this module is for
+
 # The source paper's value, Lliboutry and Duval (1985), for n = 3 [Pa^-3 s^-1].
 PAPER_FLUIDITY = fluidity_from_mpa_year(20.0, 3.0)
 

@@ -70,6 +70,16 @@ def test_pressure_tips_the_upper_edge_downslope(a_scene):
     assert solution.moment_about_foot == pytest.approx(moment, rel=1e-12)
 
 
+def test_pressure_turns_an_inclined_wall_by_its_distance_along_it(a_scene):
+    """Smooth: forces normal to the wall, arms measured along it from the foot."""
+    solution = press(a_scene, 0.0, 0.5, **PRESSED)
+    x, y = solution.wall_nodes[:, 1:]
+    normal = np.array([math.cos(0.5), -math.sin(0.5)])
+    pressure = normal @ solution.wall_forces[:, 1:]
+    moment = (np.hypot(x, y) * pressure).sum()
+    assert solution.moment_about_foot == pytest.approx(moment, rel=1e-9)
+
+
 def test_resultant_is_that_of_the_nodes(a_scene):
     solution = press(a_scene, **PRESSED)
     total = solution.wall_forces.sum(axis=1)
