@@ -364,6 +364,15 @@ def test_a_failure_carries_its_reason_and_no_number():
 # --- layers, temperature, contacts, walls, sets of one's own -------------------------
 
 
+OWN_SET = {
+    "name": "mine",
+    "source": "my tests",
+    "shear_fit": [16.03, 19.25],
+    "bulk_fit": [16.75, 22.51],
+    "branch": 0.81,
+    "calibrated": [0.3, 0.7],
+}
+
 LAYERS = [
     {"thickness_m": 1.0, "density_kg_m3": 450.0},
     {"thickness_m": 3.0, "density_kg_m3": 300.0, "temperature_C": -5.0},
@@ -416,14 +425,7 @@ def test_contacts_and_wall(tables):
 
 
 def test_creep_law_of_ones_own(tables):
-    tables["snow"]["creep_law"] = {
-        "name": "mine",
-        "source": "my tests",
-        "shear_fit": [16.03, 19.25],
-        "bulk_fit": [16.75, 22.51],
-        "branch": 0.81,
-        "calibrated": [0.3, 0.7],
-    }
+    tables["snow"]["creep_law"] = dict(OWN_SET)
     law = build(tables).creep_law
     assert (law.name, law.calibrated, law.clamp) == ("mine", (0.3, 0.7), 0.0)
     # 3a < 2b at D = 0.3: refused on load
@@ -649,27 +651,13 @@ def test_temperature_needs_the_exponent_of_its_law(tables, place):
 
 
 def test_own_set_may_not_take_the_name_of_a_shipped_one(tables):
-    tables["snow"]["creep_law"] = {
-        "name": "boutillier-2004",
-        "source": "my tests",
-        "shear_fit": [16.03, 19.25],
-        "bulk_fit": [16.75, 22.51],
-        "branch": 0.81,
-        "calibrated": [0.3, 0.7],
-    }
+    tables["snow"]["creep_law"] = OWN_SET | {"name": "boutillier-2004"}
     with pytest.raises(ModelError, match="is a shipped set"):
         build(tables)
 
 
 @pytest.mark.parametrize("fit", [[800.0, 0.0], [1e300, 19.0], [61.0, 1.0]])
 def test_fit_that_overflows_is_refused(tables, fit):
-    tables["snow"]["creep_law"] = {
-        "name": "mine",
-        "source": "my tests",
-        "shear_fit": fit,
-        "bulk_fit": [16.75, 22.51],
-        "branch": 0.81,
-        "calibrated": [0.3, 0.7],
-    }
+    tables["snow"]["creep_law"] = OWN_SET | {"shear_fit": fit}
     with pytest.raises(ModelError, match="fit coefficient"):
         build(tables)
