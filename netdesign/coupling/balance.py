@@ -49,8 +49,8 @@ def measure_balance(
         smallest_tension=(
             None if tension is None else float(tension.min()) * force_scale
         ),
-        suction_share=_negative_share(normal),
-        ground_tension_share=_negative_share(forces.ground_normal),
+        suction_share=negative_share(normal),
+        ground_tension_share=negative_share(forces.ground_normal),
     )
 
 
@@ -95,7 +95,7 @@ def _net_components(mesh: PlacedMesh, on_net: Floats) -> tuple[Floats, Floats]:
     return normal_x * x + normal_y * y, normal_x * y - normal_y * x
 
 
-def _negative_share(forces: Floats) -> float:
+def negative_share(forces: Floats) -> float:
     """Sum of negative entries over the sum of positive ones, as a positive number."""
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())

@@ -57,12 +57,13 @@ def refine(
         states.append(solve(level, states[-1]))
         pairs = zip(measure(states[-1]), measure(states[-2]), strict=True)
         floor = ERROR_FLOOR / 2**place
-        estimates = [_estimate(fine, coarse, floor) for fine, coarse in pairs]
+        estimates = [estimate_error(fine, coarse, floor) for fine, coarse in pairs]
         if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
             break
     return states, estimates
 
 
-def _estimate(fine: Floats, coarse: Floats, floor: float) -> Estimate:
+def estimate_error(fine: Floats, coarse: Floats, floor: float) -> Estimate:
+    """The fine vector; its error is their difference plus a share of its size."""
     error = np.hypot(*(fine - coarse)) + floor * np.hypot(*fine)
     return Estimate(vector=fine, error=float(error))

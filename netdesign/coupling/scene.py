@@ -168,6 +168,11 @@ class Scene:
         rate = self.fluidity * shear ** ((n + 1) / 2) * pack.stress_scale**n
         return float(rate * pack.thickness)
 
+    @property
+    def time_scale(self) -> float:
+        """Thickness over the velocity scale [s]: the unit of creep time."""
+        return self.snowpack.thickness / self.velocity_scale
+
     def _scale_layer(self, layer: Layer, top: float) -> FlowLayer:
         """Layer relative to snow of the mean density and the scene's fluidity."""
         law, pack = self.creep_law, self.snowpack
@@ -182,6 +187,7 @@ class Scene:
             bulk_ratio=shear / compute_bulk_factor(law, density),
             fluidity=warmth * float((shear / mean_shear) ** ((law.exponent + 1) / 2)),
             density=layer.density / pack.density,
+            warmth=warmth,
         )
 
 

@@ -8,10 +8,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.coupling.history import History
+from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
+Method = Literal["steady", "transient", "staggered"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +27,12 @@ class EndPull:
     x: float
     y: float
     error: float
+
+    @classmethod
+    def of_estimate(cls, estimate: Estimate, scale: float) -> EndPull:
+        """Pull from a dimensionless estimate and the force scale [N/m]."""
+        x, y = (float(part) * scale for part in estimate.vector)
+        return cls(x=x, y=y, error=estimate.error * scale)
 
     @property
     def size(self) -> float:
@@ -78,9 +87,9 @@ class Solution:
     scene : Scene
         What was solved.
     method : str
-        ``steady``.
+        ``steady``, ``transient`` or ``staggered``.
     foot, head : EndPull
-        Pulls on the net's ends.
+        Pulls on the net's ends: design values, the largest of a history.
     tension_min, tension_max : float
         Along the net [N/m].
     sag : float
@@ -95,14 +104,20 @@ class Solution:
         [m].
     mesh_edges : ndarray, shape (2, n_edges)
         Node numbers of the triangles' edges.
+    mesh_triangles : ndarray, shape (3, n_triangles)
+        Node numbers of the triangles' corners.
+    mesh_density : ndarray, shape (n_triangles,)
+        Snow density of the triangles [kg/m3].
     largest_velocity : float
         Of the snow [m/s]; the only result that depends on the fluidity.
     balance, cost
-        See there.
+        See there; of a history the worst balance of all its steps.
+    history : History or None
+        Of a transient or staggered solve; shapes are then those at its end.
     """
 
     scene: Scene
-    method: Literal["steady"]
+    method: Method
     foot: EndPull
     head: EndPull
     tension_min: float
@@ -113,9 +128,12 @@ class Solution:
     net_slides: NDArray[np.bool_]
     mesh_nodes: Floats
     mesh_edges: NDArray[np.int64]
+    mesh_triangles: NDArray[np.int64]
+    mesh_density: Floats
     largest_velocity: float
     balance: Balance
     cost: Cost
+    history: History | None = None
 
     @property
     def head_point(self) -> tuple[float, float]:

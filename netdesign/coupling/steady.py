@@ -23,6 +23,7 @@ from netdesign.coupling.interface import SupportForces, compute_support_forces
 from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Cost, EndPull, FailedSolution, Solution
+from netdesign.coupling.start import guess_pressure
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
@@ -216,7 +217,7 @@ def _start_hanging(problem: _Problem) -> _Hanging:
     chord = float(np.hypot(*problem.head))
     along = problem.head / chord
     outward = np.array([along[1], -along[0]])
-    pressure = _guess_pressure(problem)
+    pressure = guess_pressure(problem.law, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
     contact = problem.length / float(problem.head[1])
@@ -226,17 +227,6 @@ def _start_hanging(problem: _Problem) -> _Hanging:
     shares[:-1:2] += lengths / 6.0
     shares[2::2] += lengths / 6.0
     return _hang(problem, pressure * np.outer(outward, shares), pull, contact)
-
-
-def _guess_pressure(problem: _Problem) -> float:
-    """Mean pressure on the net: the snow that its base does not hold."""
-    aspect = problem.template.aspect
-    reach = {
-        "free": aspect,
-        "no-slip": 1.0,
-        "sliding": 1.0 + 2.0 * float(np.sqrt(problem.law.slip_ratio)),
-    }[problem.law.ground]
-    return max(0.05, problem.law.gravity[0]) * min(aspect, reach)
 
 
 def _hang(
@@ -296,7 +286,7 @@ def _build_solution(
     end = states[-1]
     thickness, scale = scene.snowpack.thickness, scene.force_scale
     cable, mesh, law = end.hanging.cable, end.mesh, end.problem.law
-    foot, head = (_scale_pull(pull, scale) for pull in pulls)
+    foot, head = (EndPull.of_estimate(pull, scale) for pull in pulls)
     along = end.problem.head / np.hypot(*end.problem.head)
     offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
     tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
@@ -314,6 +304,8 @@ def _build_solution(
         net_slides=np.append(False, end.state.contact.sign != 0),
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
+        mesh_triangles=mesh.template.triangles[:3],
+        mesh_density=_triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
         balance=measure_balance(law, mesh, end.forces, held, cable.tension, scale),
         cost=Cost(
@@ -325,6 +317,7 @@ def _build_solution(
     )
 
 
-def _scale_pull(pull: Estimate, scale: float) -> EndPull:
-    x, y = (float(part) * scale for part in pull.vector)
-    return EndPull(x=x, y=y, error=pull.error * scale)
+def _triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
+    heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
+    layer = np.searchsorted(np.array(scene.layer_tops), heights)
+    return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

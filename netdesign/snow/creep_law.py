@@ -126,6 +126,37 @@ def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
     return float(0.75 * (void / (n * (1 - void))) ** (2 * n / (n + 1)))
 
 
+def compute_factors(law: CreepLaw, densities: Floats) -> tuple[Floats, Floats]:
+    """Coefficients a(D) and b(D) [-] of many relative densities, any shape.
+
+    Densities above ``DENSEST_SNOW`` count as that: where snow settles against a
+    corner a step may end there.
+
+    Raises
+    ------
+    ModelError
+        If a density is not above 0.
+    """
+    least = float(np.min(densities))
+    _require_snow(law, min(least, DENSEST_SNOW))
+    density = np.clip(densities, law.clamp, DENSEST_SNOW)
+    is_firn = density < law.branch
+    n = law.exponent
+    power = 2 * n / (n + 1)
+    void = (1 - density) ** (1 / n)
+    shear = np.where(
+        is_firn,
+        np.exp(law.shear_fit[0] - law.shear_fit[1] * density),
+        (1 + 2 * (1 - density) / 3) / density**power,
+    )
+    bulk = np.where(
+        is_firn,
+        np.exp(law.bulk_fit[0] - law.bulk_fit[1] * density),
+        0.75 * (void / (n * (1 - void))) ** power,
+    )
+    return shear, bulk
+
+
 def compute_strain_rate(
     law: CreepLaw, relative_density: float, fluidity: float, stress: Floats
 ) -> Floats:

@@ -133,17 +133,17 @@ def build_placed_mesh(
     template: MeshTemplate, nodes: Floats, element: Element = "velocity"
 ) -> PlacedMesh:
     """Everything that assembly needs on nodes of shape (2, n_nodes)."""
-    gradients, area_element = _map_gradients(template, nodes)
-    shape, _, point_weights = _reference_element()
+    gradients, area_element = map_gradients(template, nodes)
+    shape, _, point_weights = reference_element()
     weights = area_element * point_weights
     net_normal = _net_normals(template, nodes)
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
-    operator = _strain_operator(template, gradients, axes)
-    dofs = _velocity_dofs(template)
+    operator = build_strain_operator(template, gradients, axes)
+    dofs = list_velocity_dofs(template)
     if element == "mixed":
-        operator = _add_pressure_rows(operator)
+        operator = add_pressure_rows(operator)
         first = 2 * nodes.shape[1]
         dofs = np.hstack([dofs, first + template.triangles[:3].T])
     return PlacedMesh(
@@ -152,7 +152,7 @@ def build_placed_mesh(
         weights=weights,
         operator=operator,
         dofs=dofs,
-        load=_gather(template.triangles.T, weights @ shape, nodes.shape[1]),
+        load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,
         axes=axes,
     )
@@ -160,13 +160,13 @@ def build_placed_mesh(
 
 def point_heights(template: MeshTemplate) -> Floats:
     """Reference heights of the quadrature points, shape (n_triangles, n_points)."""
-    shape, _, _ = _reference_element()
+    shape, _, _ = reference_element()
     return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
 
 
 def interpolate(mesh: PlacedMesh, nodal: Floats) -> Floats:
     """Values at the points, shape (.., n_triangles, n_points), of nodal (.., n)."""
-    shape, _, _ = _reference_element()
+    shape, _, _ = reference_element()
     return np.asarray(nodal[..., mesh.template.triangles.T] @ shape.T)
 
 
@@ -183,7 +183,7 @@ def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
     operator = mesh.operator.reshape(n_triangles, n_points * n_rows, n_columns)
     weighted = (stress * mesh.weights[..., None]).reshape(n_triangles, 1, -1)
-    return _gather(mesh.dofs, weighted @ operator, mesh.n_dofs)
+    return gather(mesh.dofs, weighted @ operator, mesh.n_dofs)
 
 
 def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
@@ -200,10 +200,10 @@ def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
 
 def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
     """Nodal loads (n_dofs,) of a body force (2, n_triangles, n_points)."""
-    shape, _, _ = _reference_element()
+    shape, _, _ = reference_element()
     n_nodes = mesh.nodes.shape[1]
     nodal = [
-        _gather(mesh.template.triangles.T, (mesh.weights * part) @ shape, n_nodes)
+        gather(mesh.template.triangles.T, (mesh.weights * part) @ shape, n_nodes)
         for part in force
     ]
     return mesh.to_node_axes(np.array(nodal))
@@ -213,7 +213,7 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     """Nodal forces (n_dofs,) of a shear stress (n_edges, n_points) on the ground."""
     base = mesh.base
     forces = (base.weights * shear) @ base.shape
-    return _gather(base.dofs, forces, mesh.n_dofs)
+    return gather(base.dofs, forces, mesh.n_dofs)
 
 
 def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
@@ -231,15 +231,15 @@ def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
     return np.asarray(velocity[mesh.base.dofs] @ mesh.base.shape.T)
 
 
-def _gather(places: Ints, values: Floats, size: int) -> Floats:
+def gather(places: Ints, values: Floats, size: int) -> Floats:
     """Sums of the values that go to each of ``size`` places."""
     sums = np.bincount(places.ravel(), values.ravel(), minlength=size)
     return np.asarray(sums, dtype=np.float64)
 
 
-def _map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats]:
+def map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats]:
     """Shape gradients (2, n_triangles, n_points, 6) and area element."""
-    _, reference, _ = _reference_element()
+    _, reference, _ = reference_element()
     corners = nodes[:, template.triangles]
     jacobian = np.einsum("aie,ijq->ajeq", corners, reference)
     determinant = jacobian[0, 0] * jacobian[1, 1] - jacobian[0, 1] * jacobian[1, 0]
@@ -251,7 +251,10 @@ def _map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Float
     return gradients, determinant * template.orientation[:, None]
 
 
-def _strain_operator(template: MeshTemplate, gradients: Floats, axes: Floats) -> Floats:
+def build_strain_operator(
+    template: MeshTemplate, gradients: Floats, axes: Floats
+) -> Floats:
+    """Strains (xx, yy, xy) per velocity, shape (n_triangles, n_points, 3, 12)."""
     cosine, sine = axes[:, template.triangles.T][:, :, None, :]
     d_dx, d_dy = gradients
     operator = np.empty((*d_dx.shape[:2], 3, 12))
@@ -303,7 +306,7 @@ def _edge_shape(points: Floats) -> Floats:
 
 
 @lru_cache(maxsize=1)
-def _reference_element() -> tuple[Floats, Floats, Floats]:
+def reference_element() -> tuple[Floats, Floats, Floats]:
     """Shape functions (n_points, 6), gradients (6, 2, n_points), weights."""
     element = ElementTriP2()
     points, weights = get_quadrature(element.refdom, QUADRATURE_DEGREE)
@@ -311,13 +314,13 @@ def _reference_element() -> tuple[Floats, Floats, Floats]:
     return np.array(values).T, np.array(gradients), weights
 
 
-def _velocity_dofs(template: MeshTemplate) -> Ints:
+def list_velocity_dofs(template: MeshTemplate) -> Ints:
     """Velocity components of each triangle, shape (n_triangles, 12)."""
     first = 2 * template.triangles.T
     return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
 
 
-def _add_pressure_rows(strain: Floats) -> Floats:
+def add_pressure_rows(strain: Floats) -> Floats:
     """Operator (.., 4, 15) whose fourth strain is the pressure, linear per triangle."""
     element = ElementTriP1()
     points, _ = get_quadrature(element.refdom, QUADRATURE_DEGREE)

@@ -42,12 +42,15 @@ class FlowLayer:
         B a^((n+1)/2) over that of the reference [-].
     density : float
         Over the mean density [-].
+    warmth : float
+        B over that of the reference [-]; a part of ``fluidity``.
     """
 
     top: float = 1.0
     bulk_ratio: float
     fluidity: float = 1.0
     density: float = 1.0
+    warmth: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

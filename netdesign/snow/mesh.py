@@ -28,7 +28,7 @@ _RING_REACH = 2.2  # outermost ring, in units of the net spacing
 _RING_SHARE = 0.6  # size of triangles near an end over their distance from it
 _CLEARANCE = 1.3  # points of the background keep this many ring reaches away
 _UPSLOPE_GROWTH = 1.35  # of neighbouring columns
-_NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
+NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,7 +164,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = np.maximum(0.0, 1.0 - distance / min(_NET_REACH, template.aspect))
+    follow = np.maximum(0.0, 1.0 - distance / min(NET_REACH, template.aspect))
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])

@@ -1,0 +1,150 @@
+"""What a transient or staggered solve records, and whether it has come to rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# On a plateau, per e-fold of time: end pulls change by less than the first share of
+# their size, node forces by less than the second of the largest of them; the net goes
+# across itself less than the third share of the way it has gone, or less than the
+# fourth of the snow thickness.
+PULL_DRIFT = 0.05
+NODE_DRIFT = 0.10
+REST_SHARE = 0.2
+REST_WAY = 2e-3
+_EFOLDS = 1.0  # for so long
+CRITERION = (
+    f"for one e-fold of time, end pulls change by less than {PULL_DRIFT:.0%} and node "
+    f"forces by less than {NODE_DRIFT:.0%} of the largest per e-fold, and the net "
+    f"moves by less than {REST_SHARE:.0%} of its way, or {REST_WAY:.1%} of the snow "
+    "thickness, per e-fold"
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Moment:
+    """One recorded time; units are those of the run that records.
+
+    Attributes
+    ----------
+    time : float
+        Since the start.
+    foot, head : ndarray, shape (2,)
+        Pulls on the net's ends.
+    tension_min, tension_max : float
+        Along the net.
+    on_net : ndarray, shape (2, n)
+        Forces of the snow on the net's vertices above the foot.
+    max_relative_density : float
+        Of the snow [-].
+    way : float
+        Longest way of a net vertex across the net so far.
+    speed : float
+        Largest velocity of a net vertex across the net.
+    residual : float
+        Force missing from the balance, over the weight.
+    """
+
+    time: float
+    foot: Floats
+    head: Floats
+    tension_min: float
+    tension_max: float
+    on_net: Floats
+    max_relative_density: float
+    way: float
+    speed: float
+    residual: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plateau:
+    """Whether, and from when on, the forces of a history hardly change.
+
+    Attributes
+    ----------
+    reached : bool
+        The criterion was met until the end of its span.
+    time : float or None
+        Begin of that span; None if not reached.
+    index : int or None
+        Number of its first moment.
+    criterion : str
+        In words.
+    """
+
+    reached: bool
+    time: float | None
+    index: int | None
+    criterion: str = CRITERION
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class History:
+    """A history in SI units.
+
+    Attributes
+    ----------
+    moments : tuple of Moment
+        [s, N/m, m, m/s].
+    plateau : Plateau
+        [s].
+    start : str
+        ``sagged`` or ``straight``.
+    densifies : bool
+        The creep law followed the density.
+    fallen_share : float
+        Share of the snow's mass that fell over the head.
+    ended : str
+        Why it ended before its horizon; empty if it did not.
+    """
+
+    moments: tuple[Moment, ...]
+    plateau: Plateau
+    start: str
+    densifies: bool
+    fallen_share: float
+    ended: str
+
+    @property
+    def at_plateau(self) -> Moment | None:
+        """Moment at which the plateau is proven to begin."""
+        if self.plateau.index is None:
+            return None
+        return self.moments[self.plateau.index]
+
+
+def find_plateau(moments: Sequence[Moment]) -> Plateau:
+    """First span of one e-fold of time over which the criterion holds."""
+    begin: int | None = None
+    for place in range(1, len(moments)):
+        if not _is_steady(moments[place - 1], moments[place]):
+            begin = None
+            continue
+        if begin is None:
+            begin = place - 1
+        if np.log(moments[place].time / moments[begin].time) >= _EFOLDS:
+            return Plateau(reached=True, time=moments[begin].time, index=begin)
+    return Plateau(reached=False, time=None, index=None)
+
+
+def largest_pull(pulls: Sequence[Floats]) -> Floats:
+    """The vector of largest size."""
+    return max(pulls, key=lambda pull: float(np.hypot(*pull)))
+
+
+def _is_steady(before: Moment, after: Moment) -> bool:
+    efolds = np.log(after.time / before.time)
+    if not after.time * after.speed < max(REST_SHARE * after.way, REST_WAY):
+        return False
+    for old, new in ((before.foot, after.foot), (before.head, after.head)):
+        if not np.hypot(*(new - old)) < PULL_DRIFT * efolds * np.hypot(*new):
+            return False
+    change = np.hypot(*(after.on_net - before.on_net)).max()
+    return bool(change < NODE_DRIFT * efolds * np.hypot(*after.on_net).max())

@@ -1,0 +1,259 @@
+"""The source paper's exchange: snow under the last net forces, then the net.
+
+Explicit, so its oscillations come from the scheme and its steps must be short; on a
+ground where snow glides freely only a base drag makes a step well posed. Kept as the
+record of the paper's method and to compare with. Theory: coupling/THEORY.md,
+section 7.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.incremental import (
+    CableState,
+    advance_increment,
+    build_cable_state,
+)
+from netdesign.cable.response import NetResponse, measure_arcs
+from netdesign.cable.sliding import NetState, SlidingStep
+from netdesign.cable.tension import compute_node_forces, compute_turning_angles
+from netdesign.coupling.clock import Clock
+from netdesign.coupling.history import Moment, find_plateau
+from netdesign.coupling.instant import (
+    Instant,
+    TransientProblem,
+    TransientState,
+    advance_under,
+)
+from netdesign.coupling.net_start import Start, build_start
+from netdesign.coupling.problem import build_problem
+from netdesign.coupling.refine import estimate_error
+from netdesign.coupling.run import Run, measure_run, record_moment
+from netdesign.coupling.run_result import build_solution, scale_history
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.transient import TRANSIENT_LEVELS
+from netdesign.errors import ModelError, SolveError
+from netdesign.guards import require_count, require_positive, require_within
+from netdesign.outcome import Outcome
+from netdesign.snow.body import move_body
+from netdesign.snow.mesh import MeshSize, build_template
+
+Floats = NDArray[np.float64]
+
+# Share of the time in which net and drag come to rest that a step may take.
+_STABLE_SHARE = 0.3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaggeredSettings:
+    """How the paper's exchange is computed; pure numbers.
+
+    Attributes
+    ----------
+    base_drag : float
+        Shear stress on the ground [rho g d] over its velocity [the snow's velocity
+        scale]; the smaller, the shorter the steps must be.
+    step_share : float
+        Step over the longest that is about stable.
+    start : str
+        ``straight`` (the paper) or ``sagged``.
+    horizon : float
+        Creep time to follow, over thickness by velocity scale.
+    stress_tolerance : float
+        Relative change of the stress in the last iteration of a step.
+    max_iterations : int
+        Newton iterations of a step.
+    size : MeshSize
+        Resolution.
+    """
+
+    base_drag: float = 0.02
+    step_share: float = 1.0
+    start: Start = "straight"
+    horizon: float = 0.1
+    stress_tolerance: float = 1e-6
+    max_iterations: int = 40
+    size: MeshSize = field(default=TRANSIENT_LEVELS[0])
+
+    def __post_init__(self) -> None:
+        """Refuse a singular or an unstable scheme."""
+        require_within("base drag", self.base_drag, 1e-5, 10.0)
+        require_within("step share", self.step_share, 1e-3, 2.0)
+        require_positive("horizon", self.horizon)
+        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
+        require_count("iterations", self.max_iterations)
+
+
+def solve_staggered(
+    scene: Scene,
+    settings: StaggeredSettings | None = None,
+    *,
+    on_failure: Literal["return", "raise"] = "return",
+) -> Solution | FailedSolution:
+    """The paper's exchange, with a step and with half of it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : StaggeredSettings, optional
+        Drag, step, start.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` a SolveError.
+
+    Returns
+    -------
+    Solution or FailedSolution
+        ``error`` is that of the step, not of the mesh.
+
+    Verified by
+    -----------
+    tests/coupling/test_staggered.py, ``netdesign verify``
+    """
+    settings = settings or StaggeredSettings()
+    try:
+        half = replace(settings, step_share=settings.step_share / 2.0)
+        runs = [run_exchange(scene, settings), run_exchange(scene, half)]
+    except SolveError as failure:
+        if on_failure == "raise":
+            raise
+        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    foot, head = (
+        EndPull.of_estimate(estimate_error(fine, coarse, 0.0), scene.force_scale)
+        for coarse, fine in zip(*(measure_run(run) for run in runs), strict=True)
+    )
+    history = scale_history(
+        runs[-1], scene, Clock(), start=settings.start, densifies=True
+    )
+    return build_solution(scene, runs, foot, head, history, "staggered", 1e-8)
+
+
+def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
+    """One history by the paper's exchange, dimensionless.
+
+    Raises
+    ------
+    SolveError
+        If a step fails: the net would have to push, or the mesh folds.
+    """
+    if scene.ground.kind == "no-slip":
+        raise ModelError(
+            "ground law = 'no-slip': the staggered exchange has its own base drag; "
+            "take a free ground, or another method"
+        )
+    problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
+    aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
+    template = build_template(aspect, settings.size, scene.layer_tops)
+    state = build_start(problem, template, settings.start)
+    cable = _start_cable(problem, state)
+    step = settings.step_share * _longest_step(problem, aspect)
+    moments: list[Moment] = []
+    way: Floats | float = 0.0
+    solves, mass = 0, float(state.body.mass.sum())
+    while state.time < settings.horizon:
+        instant = advance_under(
+            problem,
+            state,
+            step,
+            _respond(problem, state, cable),
+            tolerance=settings.stress_tolerance,
+            max_iterations=settings.max_iterations,
+        )
+        state, cable = _follow(problem, state, cable, instant, step)
+        moment, way = record_moment(problem, state, instant, way, step)
+        moments.append(moment)
+        solves += instant.linear_solves
+    return Run(
+        problem=problem,
+        moments=tuple(moments),
+        plateau=find_plateau(moments),
+        state=state,
+        instant=instant,
+        fallen=1.0 - float(state.body.mass.sum()) / mass,
+        ended="",
+        linear_solves=solves,
+        rejected=0,
+    )
+
+
+def _longest_step(problem: TransientProblem, aspect: float) -> float:
+    """Time in which drag lets the net come to rest, as one spring and one dashpot."""
+    chord = float(np.hypot(*problem.head))
+    return _STABLE_SHARE * problem.base_drag * aspect * chord / problem.stiffness
+
+
+def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
+    arcs = measure_arcs(_net_points(problem, state))
+    return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
+
+
+def _net_points(problem: TransientProblem, state: TransientState) -> Floats:
+    nodes = state.body.vertices[:, state.carried]
+    return np.column_stack([np.zeros(2), nodes, problem.head])
+
+
+def _respond(
+    problem: TransientProblem, state: TransientState, cable: CableState
+) -> NetResponse:
+    """The net as it is, its forces taken as they are."""
+    points = _net_points(problem, state)
+    forces = compute_node_forces(points, cable.tensions)
+    count = 2 * forces.vector.shape[1]
+    return NetResponse(
+        forces=forces.vector,
+        stiffness=np.zeros((count, count)),
+        foot_pull=forces.foot_pull,
+        head_pull=forces.head_pull,
+        sliding=SlidingStep(
+            outcome=Outcome.CONVERGED,
+            state=NetState.TIGHT,
+            lengths=cable.unstressed_lengths,
+            tensions=cable.tensions,
+            slides=np.zeros(forces.vector.shape[1]),
+            residual=0.0,
+            iterations=0,
+        ),
+    )
+
+
+def _follow(
+    problem: TransientProblem,
+    state: TransientState,
+    cable: CableState,
+    instant: Instant,
+    step: float,
+) -> tuple[TransientState, CableState]:
+    net = instant.displaced[:, state.body.topology.net].copy()
+    net[:, -1] = problem.head
+    body, _ = move_body(state.body, instant.displaced, net, problem.head)
+    moved = replace(
+        state,
+        time=state.time + step,
+        body=body,
+        velocity=instant.velocity,
+        moved=instant.displaced - state.body.vertices,
+        step=step,
+        stress=instant.stress,
+        base_shear=instant.base_shear,
+    )
+    points = _net_points(problem, moved)
+    increment = advance_increment(
+        cable,
+        measure_arcs(points),
+        compute_turning_angles(points),
+        friction=problem.law.friction,
+        stiffness=problem.stiffness,
+    )
+    if increment.outcome is not Outcome.CONVERGED:
+        raise SolveError(
+            increment.outcome,
+            f"staggered exchange at creep time {moved.time:.3g}: the increments of "
+            "the cable have no solution; a shorter step may",
+        )
+    return moved, increment.state

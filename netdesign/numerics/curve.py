@@ -1,0 +1,47 @@
+"""Smooth curve through points."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def interpolate_curve(known: Floats, points: Floats, wanted: Floats) -> Floats:
+    """Points of a smooth curve at other places along it.
+
+    Parameters
+    ----------
+    known : ndarray, shape (n,)
+        Ascending parameter of the points, n at least 2.
+    points : ndarray, shape (2, n)
+        The curve goes through them.
+    wanted : ndarray, shape (m,)
+        Parameters between the first and the last.
+
+    Returns
+    -------
+    ndarray, shape (2, m)
+        By cubic Hermite pieces whose slopes are those of the parabolas through
+        three neighbours: third order, and local.
+    """
+    if known.size == 2:
+        return np.array([np.interp(wanted, known, axis) for axis in points])
+    steps = np.diff(known)
+    chords = np.diff(points) / steps
+    inner = (chords[:, :-1] * steps[1:] + chords[:, 1:] * steps[:-1]) / (
+        steps[1:] + steps[:-1]
+    )
+    first = 2.0 * chords[:, :1] - inner[:, :1]
+    last = 2.0 * chords[:, -1:] - inner[:, -1:]
+    slopes = np.concatenate([first, inner, last], axis=1)
+    piece = np.clip(np.searchsorted(known, wanted) - 1, 0, steps.size - 1)
+    step = steps[piece]
+    part = (wanted - known[piece]) / step
+    rest = 1.0 - part
+    return np.asarray(
+        points[:, piece] * rest**2 * (1.0 + 2.0 * part)
+        + points[:, piece + 1] * part**2 * (1.0 + 2.0 * rest)
+        + step * part * rest * (rest * slopes[:, piece] - part * slopes[:, piece + 1])
+    )

@@ -1,0 +1,54 @@
+"""Creep law of snow whose density has changed while it settled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.snow.body import SnowBody
+from netdesign.snow.creep_law import DENSEST_SNOW, CreepLaw, compute_factors
+from netdesign.snow.law import FlowLaw, Material, sample_material
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settling:
+    """How the creep law follows the density.
+
+    Attributes
+    ----------
+    creep_law : CreepLaw
+        Set of a(D), b(D).
+    mean_density : float
+        Relative density D that counts as 1 in the body.
+    densifies : bool
+        False keeps a and b as they were at the start; mass is kept in any case.
+    """
+
+    creep_law: CreepLaw
+    mean_density: float
+    densifies: bool = True
+
+
+def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material:
+    """Material at the quadrature points of the body as it is now.
+
+    Numbers, or arrays (n_triangles, 1): a triangle has one density.
+    """
+    if not settling.densifies:
+        return sample_material(law, body.topology.template)
+    density = body.density
+    shear, bulk = compute_factors(settling.creep_law, settling.mean_density * density)
+    start = np.array([settling.mean_density])
+    reference, _ = compute_factors(settling.creep_law, start)
+    power = (law.exponent + 1.0) / 2.0
+    return Material(
+        bulk_ratio=(shear / bulk)[:, None],
+        fluidity=(body.warmth * (shear / reference) ** power)[:, None],
+        density=density[:, None],
+    )
+
+
+def largest_density(settling: Settling, body: SnowBody) -> float:
+    """Largest relative density D of the body, at most ``DENSEST_SNOW``."""
+    return min(settling.mean_density * float(body.density.max()), DENSEST_SNOW)
