@@ -9,7 +9,7 @@ import json
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import click
 
@@ -173,20 +173,32 @@ def init(site_file: Path, *, example: bool, force: bool) -> None:
 
 @cli.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
+@click.option(
+    "--method",
+    type=click.Choice(["steady", "transient", "staggered"]),
+    help="Steady state, history, or the source paper's exchange [the scene's].",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
-def solve(scene_file: Path, *, as_json: bool) -> None:
+def solve(
+    scene_file: Path,
+    *,
+    method: Literal["steady", "transient", "staggered"] | None,
+    as_json: bool,
+) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
     netdesign solve scene.toml
     netdesign solve scene.toml --json
+    netdesign solve scene.toml --method transient
     """
     import time
 
     from netdesign.coupling.solve import solve_scene
-    from netdesign.scene_file import read_scene, write_solution_document
+    from netdesign.scene_file import read_scene
+    from netdesign.solution_file import write_solution_document
 
-    scene, settings = read_scene(scene_file)
+    scene, settings = read_scene(scene_file, method)
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
@@ -197,9 +209,9 @@ def solve(scene_file: Path, *, as_json: bool) -> None:
         _show_solution(document)
     else:
         click.echo(f"{document['outcome']}: {document['reason']}")
-    sys.exit(
-        0 if document["outcome"] == "converged" else EXIT_CODES[Verdict.NOT_PROVEN]
-    )
+    proven = document["outcome"] == "converged"
+    proven = proven and document.get("plateau", {"reached": True})["reached"]
+    sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
 
 
 @cli.command()
@@ -409,10 +421,24 @@ def _show_solution(document: dict[str, Any]) -> None:
         )
     else:
         click.echo(f"sag   {document['sag_m']:10.4f} m")
+    if document["history"]:
+        _show_plateau(document)
     balance = document["balance"]
     click.echo(f"balance residual {balance['relative_residual']:.1e} of the weight")
     for flag in document["flags"]:
         click.echo(f"note: {flag}")
+
+
+def _show_plateau(document: dict[str, Any]) -> None:
+    plateau = document["plateau"]
+    if not plateau["reached"]:
+        click.echo(f"no plateau within {document['history'][-1]['time_d']:.3g} days")
+        return
+    click.echo(
+        f"plateau after {plateau['time_d']:.3g} days: foot "
+        f"{plateau['foot_kN_per_m']:.2f}, head {plateau['head_kN_per_m']:.2f} kN/m; "
+        "above are the largest of the history"
+    )
 
 
 def _report_places(names: list[list[Path]], *, quiet: bool) -> None:

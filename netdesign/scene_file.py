@@ -1,26 +1,20 @@
-"""The scene file (TOML) and the solution document (JSON): one scene at the edge."""
+"""The scene file (TOML): one scene at the edge, and how it is to be solved."""
 
 from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from netdesign import __version__
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import (
-    Balance,
-    FailedSolution,
-    Solution,
-    WallSolution,
-)
+from netdesign.coupling.solve import Settings
+from netdesign.coupling.staggered import LONGEST_EXCHANGE, StaggeredSettings
+from netdesign.coupling.transient import TransientSettings
 from netdesign.errors import ModelError, SceneFileError
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
@@ -46,15 +40,11 @@ from netdesign.snow.wall import Wall
 from netdesign.units import (
     fluidity_from_mpa_year,
     kelvin_from_celsius,
-    kilonewton_from_newton,
-    mm_per_day,
     newton_from_kilonewton,
+    second_from_day,
 )
 
-SOLUTION_SCHEMA = "netdesign.solution/1"
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+Method = Literal["steady", "transient", "staggered"]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
@@ -136,10 +126,11 @@ class GravityTable(_Table):
 class SolveTable(_Table):
     """``[solve]``; start and horizon matter for histories only."""
 
-    method: Literal["steady"] = "steady"
+    method: Method = "steady"
     accuracy: Annotated[float, Field(ge=1e-4, le=0.1)] = 0.005
     start: Literal["straight", "sagged"] = "sagged"
     horizon_days: Positive = 30.0
+    densification: bool = True
 
 
 class SceneFile(_Table):
@@ -153,8 +144,8 @@ class SceneFile(_Table):
     solve: SolveTable = SolveTable()
 
 
-def read_scene(path: Path) -> tuple[Scene, SolverSettings]:
-    """Scene and settings from a TOML file.
+def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Settings]:
+    """Scene and settings from a TOML file; ``method`` overrules the file's.
 
     Raises
     ------
@@ -166,7 +157,7 @@ def read_scene(path: Path) -> tuple[Scene, SolverSettings]:
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SceneFileError(f"{path}: cannot be read as TOML: {error}") from None
     try:
-        return build_scene(SceneFile.model_validate(tables))
+        return build_scene(SceneFile.model_validate(tables), method)
     except ValidationError as error:
         lines = [_describe(fault) for fault in error.errors()]
         raise SceneFileError("\n".join(f"{path}: {line}" for line in lines)) from None
@@ -174,8 +165,10 @@ def read_scene(path: Path) -> tuple[Scene, SolverSettings]:
         raise SceneFileError(f"{path}: {error}") from None
 
 
-def build_scene(file: SceneFile) -> tuple[Scene, SolverSettings]:
-    """Scene and settings in SI units."""
+def build_scene(
+    file: SceneFile, method: Method | None = None
+) -> tuple[Scene, Settings]:
+    """Scene and settings in SI units; ``method`` overrules the file's."""
     snowpack = _snowpack(file)
     creep_law = _creep_law(file.snow)
     scene = Scene(
@@ -187,146 +180,22 @@ def build_scene(file: SceneFile) -> tuple[Scene, SolverSettings]:
         ground_contact=file.ground.contact,
         net_contact=file.net.contact,
     )
-    return scene, SolverSettings(accuracy=file.solve.accuracy)
+    return scene, _settings(file.solve, method or file.solve.method, scene)
 
 
-def write_solution_document(
-    solution: Solution | WallSolution | FailedSolution,
-    settings: SolverSettings,
-    wall_s: float,
-) -> dict[str, Any]:
-    """Solution as plain values in the form ``netdesign.solution/1``."""
-    if isinstance(solution, FailedSolution):
-        return {
-            "schema": SOLUTION_SCHEMA,
-            "outcome": solution.outcome.value,
-            "reason": solution.reason,
-        }
-    held = (
-        _write_wall(solution)
-        if isinstance(solution, WallSolution)
-        else _write_net(solution)
-    )
-    return {
-        "schema": SOLUTION_SCHEMA,
-        "outcome": solution.outcome.value,
-        "method": "steady",
-        **held,
-        "balance": _write_balance(solution.balance),
-        "largest_velocity_mm_per_day": _write_velocity(solution),
-        "history": None,
-        "flags": _list_flags(solution.scene),
-        "cost": {"wall_s": wall_s, **asdict(solution.cost)},
-        "provenance": {
-            "version": __version__,
-            "creep_law": solution.scene.creep_law.name,
-            "element": solution.scene.flow_law.element,
-            "settings": {
-                "accuracy": settings.accuracy,
-                "stress_tolerance": settings.stress_tolerance,
-                "shape_tolerance": settings.shape_tolerance,
-                "balance_tolerance": settings.balance_tolerance,
-            },
-        },
-    }
-
-
-def _write_velocity(solution: Solution | WallSolution) -> float | None:
-    """None where only the default fluidity is known, which is for another exponent."""
-    scene = solution.scene
-    is_default = scene.fluidity == PAPER_FLUIDITY
-    if is_default and scene.creep_law.exponent != FLUIDITY_EXPONENT:
-        return None
-    return mm_per_day(solution.largest_velocity)
-
-
-def _write_net(solution: Solution) -> dict[str, Any]:
-    ends = {"foot": solution.foot, "head": solution.head}
-    # a free end of the net above the snow carries no nodal force and is left out
-    curve = solution.net_curve[:, : solution.net_slides.size]
-    return {
-        "anchor_forces": {
-            end: {
-                "x_kN_per_m": kilonewton_from_newton(pull.x),
-                "y_kN_per_m": kilonewton_from_newton(pull.y),
-                "size_kN_per_m": kilonewton_from_newton(pull.size),
-                "error_kN_per_m": kilonewton_from_newton(pull.error),
-            }
-            for end, pull in ends.items()
-        },
-        "wall": None,
-        "tension_kN_per_m": {
-            **{end: kilonewton_from_newton(pull.size) for end, pull in ends.items()},
-            "min": kilonewton_from_newton(solution.tension_min),
-            "max": kilonewton_from_newton(solution.tension_max),
-        },
-        "sag_m": solution.sag,
-        "nodes": _write_nodes(curve, solution.net_forces, solution.net_slides),
-    }
-
-
-def _write_wall(solution: WallSolution) -> dict[str, Any]:
-    force = solution.force
-    nodes = _write_nodes(
-        solution.wall_nodes, solution.wall_forces, solution.wall_slides
-    )
-    return {
-        "anchor_forces": None,
-        "wall": {
-            "force_x_kN_per_m": kilonewton_from_newton(force.x),
-            "force_y_kN_per_m": kilonewton_from_newton(force.y),
-            "moment_about_foot_kN": kilonewton_from_newton(solution.moment_about_foot),
-            "error_kN_per_m": kilonewton_from_newton(force.error),
-        },
-        "tension_kN_per_m": None,
-        "sag_m": None,
-        "nodes": nodes,
-    }
-
-
-def _write_nodes(curve: Floats, forces: Floats, slides: Mask) -> list[dict[str, Any]]:
-    return [
-        {
-            "x_m": float(x),
-            "y_m": float(y),
-            "force_x_kN_per_m": kilonewton_from_newton(float(force_x)),
-            "force_y_kN_per_m": kilonewton_from_newton(float(force_y)),
-            "sliding": bool(is_sliding),
-        }
-        for (x, y), (force_x, force_y), is_sliding in zip(
-            curve.T, forces.T, slides, strict=True
+def _settings(table: SolveTable, method: Method, scene: Scene) -> Settings:
+    horizon = second_from_day(table.horizon_days)
+    if method == "transient":
+        return TransientSettings(
+            accuracy=table.accuracy,
+            start=table.start,
+            horizon=horizon,
+            densifies=table.densification,
         )
-    ]
-
-
-def _write_balance(balance: Balance) -> dict[str, float]:
-    return {
-        "weight_along_slope_kN_per_m": kilonewton_from_newton(
-            balance.weight_along_slope
-        ),
-        "relative_residual": balance.relative_residual,
-        "friction_excess": balance.friction_excess,
-        "suction_share": balance.suction_share,
-        "ground_tension_share": balance.ground_tension_share,
-    }
-
-
-def _list_flags(scene: Scene) -> list[str]:
-    """What a reader must know before using the numbers."""
-    law = scene.creep_law
-    flags = []
-    if not scene.is_calibrated:
-        low, high = law.calibrated
-        flags.append(
-            f"snow density outside the range of {low:g} to {high:g} (relative) for "
-            f"which the creep law {law.name} is given"
-        )
-    if law.exponent != FLUIDITY_EXPONENT:
-        flags.append(
-            f"creep exponent {law.exponent:g}: a(D) and b(D) were fitted for 3 and "
-            "their branches do not meet for another"
-        )
-    return flags
+    if method == "staggered":
+        creep_time = min(horizon / scene.time_scale, LONGEST_EXCHANGE)
+        return StaggeredSettings(start=table.start, horizon=creep_time)
+    return SolverSettings(accuracy=table.accuracy)
 
 
 def _snowpack(file: SceneFile) -> Snowpack:

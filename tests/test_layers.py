@@ -28,7 +28,7 @@ ROWS = (
     {"coupling"},
     {"envelope"},
     {"site"},
-    {"study", "check_site", "scene_file", "verification"},
+    {"study", "check_site", "scene_file", "solution_file", "verification"},
     {"report"},
     {"cli"},
 )
@@ -46,7 +46,7 @@ NEIGHBOURS = {
 THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.grid", "scene_file", "verification.*"),
+        *("envelope.grid", "solution_file", "verification.*"),
     ),
     "scipy": ("snow.*", "coupling.instant", "verification.*"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),

@@ -15,10 +15,10 @@ from netdesign.scene_file import (
     SceneFile,
     build_scene,
     read_scene,
-    write_solution_document,
 )
 from netdesign.snow.fluidity import compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.solution_file import write_solution_document
 
 SOUND = """
 [slope]
@@ -192,7 +192,7 @@ def test_contradictions_are_refused(tables, table, changes, message):
         ("net", "friction_deg", -0.1),
         ("net", "friction_deg", 60.1),
         ("gravity", "mode", "none"),
-        ("solve", "method", "transient"),
+        ("solve", "method", "guess"),
         ("solve", "accuracy", 0.00009),
         ("solve", "accuracy", 0.11),
         ("solve", "accuracy", math.nan),

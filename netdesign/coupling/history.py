@@ -13,17 +13,19 @@ Floats = NDArray[np.float64]
 # On a plateau, per e-fold of time: end pulls change by less than the first share of
 # their size, node forces by less than the second of the largest of them; the net goes
 # across itself less than the third share of the way it has gone, or less than the
-# fourth of the snow thickness.
+# fourth of the snow thickness. It begins once the snow has crept by the last figure
+# on average: earlier, nothing has had time to change.
 PULL_DRIFT = 0.05
 NODE_DRIFT = 0.10
 REST_SHARE = 0.2
 REST_WAY = 2e-3
+LEAST_STRAIN = 0.01
 _EFOLDS = 1.0  # for so long
 CRITERION = (
-    f"for one e-fold of time, end pulls change by less than {PULL_DRIFT:.0%} and node "
-    f"forces by less than {NODE_DRIFT:.0%} of the largest per e-fold, and the net "
-    f"moves by less than {REST_SHARE:.0%} of its way, or {REST_WAY:.1%} of the snow "
-    "thickness, per e-fold"
+    f"after a mean creep strain of {LEAST_STRAIN:.0%}, for one e-fold of time, end "
+    f"pulls change by less than {PULL_DRIFT:.0%} and node forces by less than "
+    f"{NODE_DRIFT:.0%} of the largest per e-fold, and the net moves by less than "
+    f"{REST_SHARE:.0%} of its way, or {REST_WAY:.1%} of the snow thickness, per e-fold"
 )
 
 
@@ -47,6 +49,8 @@ class Moment:
         Longest way of a net vertex across the net so far.
     speed : float
         Largest velocity of a net vertex across the net.
+    strain : float
+        Mean size of the snow's creep strain so far [-].
     residual : float
         Force missing from the balance, over the weight.
     """
@@ -60,6 +64,7 @@ class Moment:
     max_relative_density: float
     way: float
     speed: float
+    strain: float
     residual: float
 
 
@@ -140,6 +145,8 @@ def largest_pull(pulls: Sequence[Floats]) -> Floats:
 
 
 def _is_steady(before: Moment, after: Moment) -> bool:
+    if before.strain < LEAST_STRAIN:
+        return False
     efolds = np.log(after.time / before.time)
     if not after.time * after.speed < max(REST_SHARE * after.way, REST_WAY):
         return False

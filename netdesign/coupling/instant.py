@@ -133,6 +133,8 @@ class Instant:
         Forces of the snow on the net's vertices above the foot.
     ground_normal : ndarray, shape (n_ground - 1,)
         Downward nodal forces on the ground, without the node at the foot.
+    creep_rate : float
+        Mean size of the strain rate, S^n of eq. (F3), over the body.
     residual : float
         Force missing from the balance of any free node and of all, over the weight.
     linear_solves : int
@@ -149,6 +151,7 @@ class Instant:
     head_pull: Floats
     on_net: Floats
     ground_normal: Floats
+    creep_rate: float
     residual: float
     linear_solves: int
 
@@ -521,9 +524,19 @@ def _finish(
         head_pull=head_pull,
         on_net=on_net,
         ground_normal=-supports[1, mesh.template.ground[1:]],
+        creep_rate=_mean_creep_rate(assembly, stress),
         residual=float(np.linalg.norm(residual[free])) / weight,
         linear_solves=iterations,
     )
+
+
+def _mean_creep_rate(assembly: _Assembly, stress: Floats) -> float:
+    law, material = assembly.problem.law, assembly.material
+    weights = assembly.mesh.weights
+    rate = material.fluidity * squared_size(law, material, stress) ** (
+        law.exponent / 2.0
+    )
+    return float((weights * rate).sum() / weights.sum())
 
 
 def _share_corner(assembly: _Assembly, corner: Floats, response: NetResponse) -> Floats:

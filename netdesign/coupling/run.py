@@ -52,11 +52,12 @@ def record_moment(
     state: TransientState,
     instant: Instant,
     way: Floats | float,
+    strain: float,
     step: float,
 ) -> tuple[Moment, Floats]:
     """Moment at the end of a step, and the net vertices' ways (n,) until then.
 
-    ``state`` is that after the step, ``way`` that before it.
+    ``state`` is that after the step, ``way`` and ``strain`` those before it.
     """
     net = state.body.topology.net
     axes = _net_normals(state.body.vertices[:, net])
@@ -74,6 +75,7 @@ def record_moment(
         max_relative_density=largest_density(problem.settling, state.body),
         way=float(ways.max()),
         speed=float(across.max()),
+        strain=strain + instant.creep_rate * step,
         residual=instant.residual,
     )
     return moment, ways

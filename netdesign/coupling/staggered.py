@@ -48,6 +48,8 @@ Floats = NDArray[np.float64]
 
 # Share of the time in which net and drag come to rest that a step may take.
 _STABLE_SHARE = 0.3
+# Creep time that a run follows at most: its steps are short.
+LONGEST_EXCHANGE = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +78,7 @@ class StaggeredSettings:
     base_drag: float = 0.02
     step_share: float = 1.0
     start: Start = "straight"
-    horizon: float = 0.1
+    horizon: float = LONGEST_EXCHANGE
     stress_tolerance: float = 1e-6
     max_iterations: int = 40
     size: MeshSize = field(default=TRANSIENT_LEVELS[0])
@@ -166,7 +168,9 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
             max_iterations=settings.max_iterations,
         )
         state, cable = _follow(problem, state, cable, instant, step)
-        moment, way = record_moment(problem, state, instant, way, step)
+        moment, way = record_moment(
+            problem, state, instant, way, moments[-1].strain if moments else 0.0, step
+        )
         moments.append(moment)
         solves += instant.linear_solves
     return Run(

@@ -301,7 +301,14 @@ class _Walk:
     def _record(
         self, instant: Instant, state: TransientState, fallen: float, step: float
     ) -> None:
-        moment, self.way = record_moment(self.problem, state, instant, self.way, step)
+        moment, self.way = record_moment(
+            self.problem,
+            state,
+            instant,
+            self.way,
+            self.moments[-1].strain if self.moments else 0.0,
+            step,
+        )
         self.moments.append(moment)
         self.solves += instant.linear_solves
         self.state, self.instant = state, instant
