@@ -14,6 +14,7 @@ from netdesign.verification.coupled import (
     list_orders,
     list_reference,
 )
+from netdesign.verification.histories import list_histories
 from netdesign.verification.manufactured import list_manufactured
 from netdesign.verification.sliding_net import list_sliding_net
 from netdesign.verification.walls import list_depth_averaged, list_walls
@@ -32,6 +33,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_reference,
     list_walls,
     list_depth_averaged,
+    list_histories,
 )
 
 
