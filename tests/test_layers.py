@@ -48,7 +48,7 @@ THIRD_PARTY = {
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.grid", "solution_file", "verification.*"),
     ),
-    "scipy": ("snow.*", "coupling.instant", "verification.*"),
+    "scipy": ("snow.*", "verification.*"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),
     "openpyxl": ("site.spreadsheet",),
     "defusedxml": ("site.spreadsheet",),

@@ -168,7 +168,8 @@ def _differentiate_tensions(
     rise = np.where(polygon.angles > 0.0, friction / np.cos(half) ** 2 / hold, 0.0)
     jumps = -(sliding.glide * rise)[:, None, None] * polygon.d_angles
     derivatives = np.zeros_like(polygon.d_lengths)
-    cuts = np.flatnonzero(sliding.glide == 0) + 1
+    # without friction nothing sticks, also where by chance nothing has slid
+    cuts = np.flatnonzero((sliding.glide == 0) & (rise > 0.0)) + 1
     for part in np.split(np.arange(polygon.lengths.size), cuts):
         tensions, lengths = sliding.tensions[part], polygon.lengths[part]
         if not tensions.min() > 0.0:

@@ -145,7 +145,7 @@ def largest_pull(pulls: Sequence[Floats]) -> Floats:
 
 
 def _is_steady(before: Moment, after: Moment) -> bool:
-    if before.strain < LEAST_STRAIN:
+    if not before.strain >= LEAST_STRAIN:
         return False
     efolds = np.log(after.time / before.time)
     if not after.time * after.speed < max(REST_SHARE * after.way, REST_WAY):

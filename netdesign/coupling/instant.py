@@ -7,13 +7,12 @@ accuracy allows. Theory: coupling/THEORY.md, section 6. Dimensionless as in
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-import scipy.sparse as sparse
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
 from netdesign.cable.response import NetResponse, respond
 from netdesign.errors import SolveError
@@ -22,9 +21,9 @@ from netdesign.snow.body import SnowBody
 from netdesign.snow.kernel import (
     PlacedMesh,
     assemble_base_force,
-    assemble_base_stiffness,
-    assemble_stiffness,
     assemble_stress,
+    build_base_stiffness,
+    build_stiffness,
     compute_base_velocity,
     compute_strain,
     gather,
@@ -39,6 +38,12 @@ from netdesign.snow.law import (
     squared_size,
     total_stress,
 )
+from netdesign.snow.linear import (
+    Blocks,
+    SingularError,
+    build_ordering,
+    solve_blocks,
+)
 from netdesign.snow.settling import Settling, build_material
 from netdesign.snow.straight_mesh import (
     build_straight_mesh,
@@ -48,6 +53,7 @@ from netdesign.snow.straight_mesh import (
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
 # net below it.
@@ -186,7 +192,7 @@ class _Assembly:
     mesh: PlacedMesh
     material: Material
     weight: Floats  # nodal forces (n_dofs,)
-    free: Ints
+    free: Mask
     net_dofs: Ints
     top_slips: bool
     motion: _Motion
@@ -374,7 +380,7 @@ def _nodal_weight(
 
 def _free_places(
     problem: TransientProblem, mesh: PlacedMesh, state: TransientState
-) -> Ints:
+) -> Mask:
     template = mesh.template
     free = np.ones(mesh.n_dofs, dtype=bool)
     midpoints, ground = template.net[1::2], template.ground
@@ -386,7 +392,7 @@ def _free_places(
     if state.top != "on-net":
         free[2 * template.net[-1]] = False
         free[2 * template.net[-1] + 1] = state.top == "slipping"
-    return np.flatnonzero(free)
+    return free
 
 
 def _iterate(
@@ -403,31 +409,26 @@ def _iterate(
         law = replace(law, exponent=1.0)
         stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
     tangent = linearise_creep(law, assembly.material, stress)
-    matrix = assemble_stiffness(mesh, tangent.modulus)
+    blocks = [build_stiffness(mesh, tangent.modulus)]
     force = assemble_stress(mesh, tangent.kept) - assembly.weight
     base = None
     if law.ground == "sliding":
         shear = np.zeros_like(mesh.base.weights) if base_shear is None else base_shear
         base = linearise_sliding(law, shear)
-        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
         force += assemble_base_force(mesh, base.kept)
     elif assembly.problem.base_drag > 0.0:
         drag = np.full_like(mesh.base.weights, assembly.problem.base_drag)
-        matrix = matrix + assemble_base_stiffness(mesh, drag)
+        blocks.append(build_base_stiffness(mesh, drag))
     rate, dofs = assembly.motion.rate, assembly.net_dofs
     displaced = rate * unknowns[dofs]
     if bulge is not None:
         displaced = displaced + bulge.T.ravel()
     at_rest = response.forces.T.ravel() + response.stiffness @ displaced
     force[dofs] -= at_rest
-    matrix = matrix + _spread(rate * response.stiffness, dofs, mesh.n_dofs)
-    if assembly.top_slips:
-        # over the head the snow slips up, with friction against it (F6)
-        normal = 2 * int(mesh.template.net[-1])
-        entry = ([-law.friction], ([normal + 1], [normal]))
-        friction = sparse.csr_matrix(entry, shape=matrix.shape)
-        matrix, force = matrix + friction @ matrix, force + friction @ force
-    unknowns = _solve(matrix, force, assembly.free)
+    net = rate * response.stiffness[None]
+    blocks.append(Blocks(dofs[None], net, n_paired=dofs.size))
+    unknowns = _solve(assembly, blocks, force)
     expected = at_rest - rate * (response.stiffness @ unknowns[dofs])
     new_stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
     if base is not None:
@@ -442,26 +443,25 @@ def _iterate(
     )
 
 
-def _spread(block: Floats, places: Ints, size: int) -> sparse.csr_matrix:
-    rows, columns = np.repeat(places, places.size), np.tile(places, places.size)
-    return sparse.csr_matrix((block.ravel(), (rows, columns)), shape=(size, size))
-
-
-def _solve(matrix: sparse.csr_matrix, force: Floats, free: Ints) -> Floats:
+def _solve(assembly: _Assembly, blocks: Sequence[Blocks], force: Floats) -> Floats:
+    mesh, law = assembly.mesh, assembly.problem.law
+    friction = None
+    if assembly.top_slips and law.friction > 0.0:
+        # over the head the snow slips up, with friction against it (F6)
+        friction = np.zeros(mesh.n_dofs)
+        friction[2 * int(mesh.template.net[-1]) + 1] = -law.friction
+    ordering = build_ordering(
+        mesh.template, has_pressures=law.element == "mixed", couples_net=True
+    )
     try:
-        factors = splu(
-            matrix[free][:, free].tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.01,
-            options={"SymmetricMode": True},
+        # the net's stiffness is not symmetric where it glides
+        return solve_blocks(
+            ordering, blocks, force, assembly.free, friction, is_definite=False
         )
-    except RuntimeError:  # how SuperLU tells of a singular matrix
+    except SingularError:
         raise SolveError(
             Outcome.NONFINITE, "nothing holds the snow: a singular step"
         ) from None
-    unknowns = np.zeros(force.size)
-    unknowns[free] = factors.solve(-force[free])
-    return unknowns
 
 
 def _relative_change(assembly: _Assembly, old: Floats | None, new: Floats) -> float:
@@ -509,9 +509,10 @@ def _finish(
         assembly.motion.offset
         + assembly.motion.rate * (velocity[:, : mesh.template.n_vertices])
     )
-    free = assembly.free[assembly.free < mesh.n_velocities]
+    free = assembly.free.copy()
+    free[mesh.n_velocities :] = False
     if assembly.top_slips:
-        free = free[free != 2 * int(mesh.template.net[-1]) + 1]
+        free[2 * int(mesh.template.net[-1]) + 1] = False
     weight = _weight_of(assembly)
     return Instant(
         displaced=state.body.vertices + moved,

@@ -31,6 +31,7 @@ from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template, place_nodes
+from netdesign.snow.transfer import transfer_state
 
 Floats = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ Floats = NDArray[np.float64]
 _INNER_SHARE = 1e-2
 _LOOSEST_INNER = 1e-3
 _CONTACT_ROUNDS = 30
-_SURFACE_TOLERANCE = 1e-11
+_SURFACE_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -151,11 +152,14 @@ def _couple(
     """Rounds of flow and net until neither moves the other."""
     hanging = guess.hanging if guess is not None else _start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
-    state, moved, solves = None, 1.0, 0
+    state: FlowState | None = None
+    moved, solves = 1.0, 0
     curves: list[Floats] = []
     images: list[Floats] = []
     for round_number in range(1, settings.max_rounds + 1):
         mesh = _place(problem, curve)
+        if state is None and guess is not None:
+            state = transfer_state(guess.state, guess.mesh, mesh)
         wanted = max(
             settings.stress_tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER)
         )

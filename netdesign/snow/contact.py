@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sparse
 from numpy.typing import NDArray
 
 from netdesign.snow.kernel import PlacedMesh
@@ -100,21 +99,19 @@ def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     return free
 
 
-def friction_rows(
-    law: FlowLaw, mesh: PlacedMesh, contact: Contact
-) -> sparse.csr_matrix | None:
-    """Matrix that adds the friction to the tangential rows; None if nothing slips.
+def friction_shares(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Floats | None:
+    """What of each normal row goes to the tangential row after it; None if nothing.
 
-    With it the equation of a slipping node reads R_t = tan(phi) R_n sign, (F6).
+    Shape (n_dofs,), not zero at the tangential unknowns of slipping nodes. With it
+    their equation reads R_t = tan(phi) R_n sign, (F6).
     """
-    normal, tangential = net_components(mesh)
+    _, tangential = net_components(mesh)
     slips = (contact.sign != 0) & contact.is_pressed
     if not slips.any() or law.friction == 0.0:
         return None
-    entries = -law.friction * contact.sign[slips]
-    return sparse.csr_matrix(
-        (entries, (tangential[slips], normal[slips])), shape=(mesh.n_dofs,) * 2
-    )
+    shares = np.zeros(mesh.n_dofs)
+    shares[tangential[slips]] = -law.friction * contact.sign[slips]
+    return shares
 
 
 def net_components(mesh: PlacedMesh) -> tuple[Ints, Ints]:

@@ -11,24 +11,22 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
 
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
     Contact,
     free_unknowns,
-    friction_rows,
+    friction_shares,
     start_contact,
     update_contact,
 )
 from netdesign.snow.kernel import (
     PlacedMesh,
     assemble_base_force,
-    assemble_base_stiffness,
     assemble_body_force,
-    assemble_stiffness,
     assemble_stress,
+    build_base_stiffness,
+    build_stiffness,
     compute_base_velocity,
     compute_strain,
 )
@@ -43,11 +41,12 @@ from netdesign.snow.law import (
     squared_size,
     total_stress,
 )
+from netdesign.snow.linear import SingularError, build_ordering, solve_blocks
 from netdesign.snow.mesh import Floats
 
-
-class _SingularError(Exception):
-    """The linear problem of a step has no solution; ends the iteration."""
+# What a Newton step leaves: a share of itself where contacts still change over, else
+# a multiple of its square (measured on random scenes: 95 % stay below the sum).
+_LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -85,7 +84,7 @@ class FlowResult:
     outcome: Outcome
     state: FlowState
     linear_solves: int
-    change: float  # relative change of the stress in the last step [-]
+    change: float  # relative error that the last step left in the stress [-]
 
 
 def solve_flow(
@@ -107,7 +106,7 @@ def solve_flow(
     start : FlowState, optional
         State on a neighbouring placement of the same template.
     tolerance : float
-        Largest relative change of the stress in the last step [-].
+        Largest relative error that the last step may leave in the stress [-].
     max_iterations : int
         Newton steps allowed.
 
@@ -128,19 +127,20 @@ def solve_flow(
     solves = 0 if start is not None else 1
     outcome, change = Outcome.MAX_ITERATIONS, np.inf
     for _ in range(max_iterations):
-        contact = update_contact(
-            law, mesh, state.contact, state.unknowns, state.reaction
-        )
+        contact = state.contact
+        if state.unknowns.any():
+            contact = update_contact(law, mesh, contact, state.unknowns, state.reaction)
         settled = contact.equals(state.contact)
         try:
             state, change = _advance(law, material, mesh, state, contact)
-        except _SingularError:
+        except SingularError:
             outcome = Outcome.NONFINITE
             break
         solves += 1
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
             break
+        change = _estimate_left(change)
         if settled and change < tolerance:
             outcome = Outcome.CONVERGED
             break
@@ -161,6 +161,11 @@ def compute_weight(law: FlowLaw, mesh: PlacedMesh) -> Floats:
     """Weight of the snow on the mesh, shape (2,) [rho g d^2]."""
     material = sample_material(law, mesh.template)
     return np.array(law.gravity) * float((mesh.weights * material.density).sum())
+
+
+def _estimate_left(change: float) -> float:
+    """Relative error that a step of this relative size leaves."""
+    return min(change, _LINEAR_PART * change + _SQUARE_FACTOR * change**2)
 
 
 def _solve_linear_creep(
@@ -189,21 +194,30 @@ def _advance(
 ) -> tuple[FlowState, float]:
     """One Newton step on the stress, eq. (F5), and its relative size."""
     tangent = linearise_creep(law, material, state.stress)
-    matrix = assemble_stiffness(mesh, tangent.modulus)
+    blocks = [build_stiffness(mesh, tangent.modulus)]
     force = assemble_stress(mesh, tangent.kept) - _gravity_load(law, material, mesh)
     base = None
     if state.base_shear is not None:
         base = _linearise_base(law, state.base_shear, contact)
-        matrix = matrix + assemble_base_stiffness(mesh, base.modulus)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
         force += assemble_base_force(mesh, base.kept)
-    unknowns = _solve_unknowns(law, mesh, contact, matrix, force)
+    unknowns = solve_blocks(
+        build_ordering(
+            mesh.template, has_pressures=law.element == "mixed", couples_net=False
+        ),
+        blocks,
+        force,
+        free_unknowns(law, mesh, contact),
+        friction_shares(law, mesh, contact),
+        is_definite=law.element == "velocity",
+    )
     stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
     base_shear = None
     if base is not None:
         base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
     advanced = FlowState(
         unknowns=unknowns,
-        reaction=force + matrix @ unknowns,
+        reaction=force + sum(block.multiply(unknowns) for block in blocks),
         stress=stress,
         base_shear=base_shear,
         contact=contact,
@@ -220,33 +234,6 @@ def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
     lifted = np.append(False, contact.is_lifted)
     bears = ~(lifted[:-2:2] & lifted[1::2] & lifted[2::2])[:, None]
     return Tangent(modulus=tangent.modulus * bears, kept=tangent.kept * bears)
-
-
-def _solve_unknowns(
-    law: FlowLaw,
-    mesh: PlacedMesh,
-    contact: Contact,
-    matrix: sparse.csr_matrix,
-    force: Floats,
-) -> Floats:
-    """Unknowns in equilibrium, with friction at its limit where the snow slips."""
-    friction = friction_rows(law, mesh, contact)
-    if friction is not None:
-        matrix = matrix + friction @ matrix
-        force = force + friction @ force
-    places = np.flatnonzero(free_unknowns(law, mesh, contact))
-    try:
-        factors = splu(
-            matrix[places][:, places].tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.01,
-            options={"SymmetricMode": True},
-        )
-    except RuntimeError as error:  # how SuperLU tells of a singular matrix
-        raise _SingularError(str(error)) from None
-    unknowns = np.zeros(mesh.n_dofs)
-    unknowns[places] = factors.solve(-force[places])
-    return unknowns
 
 
 def _gravity_load(law: FlowLaw, material: Material, mesh: PlacedMesh) -> Floats:

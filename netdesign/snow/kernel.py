@@ -18,6 +18,7 @@ import scipy.sparse as sparse
 from skfem import ElementTriP1, ElementTriP2
 from skfem.quadrature import get_quadrature
 
+from netdesign.snow.linear import Blocks
 from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 
 # Degree of exactness: the strain rates of straight triangles are linear, the creep
@@ -164,6 +165,12 @@ def point_heights(template: MeshTemplate) -> Floats:
     return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
 
 
+def interpolate_reference(template: MeshTemplate) -> Floats:
+    """Reference coordinates of the points, shape (2, n_triangles, n_points)."""
+    shape, _, _ = reference_element()
+    return np.asarray(template.nodes[:, template.triangles.T] @ shape.T)
+
+
 def interpolate(mesh: PlacedMesh, nodal: Floats) -> Floats:
     """Values at the points, shape (.., n_triangles, n_points), of nodal (.., n)."""
     shape, _, _ = reference_element()
@@ -186,16 +193,18 @@ def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
     return gather(mesh.dofs, weighted @ operator, mesh.n_dofs)
 
 
-def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, R, R)."""
+def build_stiffness(mesh: PlacedMesh, moduli: Floats) -> Blocks:
+    """Element blocks of moduli, shape (n_triangles, n_points, R, R)."""
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
     flat = (n_triangles, n_points * n_rows, n_columns)
     stresses = (moduli * mesh.weights[..., None, None]) @ mesh.operator
-    blocks = mesh.operator.reshape(flat).transpose(0, 2, 1) @ stresses.reshape(flat)
-    rows = np.repeat(mesh.dofs, n_columns, axis=1).ravel()
-    columns = np.tile(mesh.dofs, (1, n_columns)).ravel()
-    shape = (mesh.n_dofs, mesh.n_dofs)
-    return sparse.csr_matrix((blocks.ravel(), (rows, columns)), shape=shape)
+    values = mesh.operator.reshape(flat).transpose(0, 2, 1) @ stresses.reshape(flat)
+    return Blocks(mesh.dofs, values, n_paired=12)
+
+
+def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
+    """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, R, R)."""
+    return _assemble(build_stiffness(mesh, moduli), mesh.n_dofs)
 
 
 def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
@@ -216,14 +225,26 @@ def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     return gather(base.dofs, forces, mesh.n_dofs)
 
 
+def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
+    """Edge blocks of a base modulus (n_edges, n_points)."""
+    base = mesh.base
+    weighted = base.weights * modulus
+    values = np.einsum("eq,qi,qj->eij", weighted, base.shape, base.shape)
+    return Blocks(base.dofs, values, n_paired=0)
+
+
 def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
     """Matrix (n_dofs, n_dofs) of a base modulus (n_edges, n_points)."""
-    base = mesh.base
-    blocks = np.einsum("eq,qi,qj->eij", base.weights * modulus, base.shape, base.shape)
-    rows = np.repeat(base.dofs, 3, axis=1).ravel()
-    columns = np.tile(base.dofs, (1, 3)).ravel()
-    shape = (mesh.n_dofs, mesh.n_dofs)
-    return sparse.csr_matrix((blocks.ravel(), (rows, columns)), shape=shape)
+    return _assemble(build_base_stiffness(mesh, modulus), mesh.n_dofs)
+
+
+def _assemble(blocks: Blocks, size: int) -> sparse.csr_matrix:
+    count = blocks.dofs.shape[1]
+    rows = np.repeat(blocks.dofs, count, axis=1).ravel()
+    columns = np.tile(blocks.dofs, (1, count)).ravel()
+    return sparse.csr_matrix(
+        (blocks.values.ravel(), (rows, columns)), shape=(size, size)
+    )
 
 
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:

@@ -99,11 +99,6 @@ class Material(NamedTuple):
     density: float | Floats
 
     @property
-    def compliance(self) -> Floats:
-        """M^-1 of eq. (F2), shape (.., 3, 3)."""
-        return np.asarray(np.linalg.inv(self.stiffness))
-
-    @property
     def stiffness(self) -> Floats:
         """M of eq. (F2), shape (.., 3, 3): stress over strain rate, linear law."""
         coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
@@ -199,7 +194,14 @@ def squared_size(law: FlowLaw, material: Material, stress: Floats) -> Floats:
         return _quadratic(_DEVIATOR_COMPLIANCE, deviator) + pressure**2 / (
             material.bulk_ratio
         )
-    return _quadratic(material.compliance, stress)
+    # sigma . M^-1 sigma, M^-1 = diag(1/2, 1/2, 1) - k / (4 (1 + k)) u u^T, written out
+    coupling = np.asarray(material.bulk_ratio) - 2.0 / 3.0
+    first, second, shear = stress[..., 0], stress[..., 1], stress[..., 2]
+    return np.asarray(
+        (first**2 + second**2) / 2.0
+        + shear**2
+        - coupling / (4.0 * (1.0 + coupling)) * (first + second) ** 2
+    )
 
 
 def _linearise_mixed(law: FlowLaw, material: Material, stress: Floats) -> Tangent:

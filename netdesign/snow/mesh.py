@@ -101,7 +101,7 @@ class MeshTemplate:
         return np.asarray(self.nodes[1, self.net])
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=256)
 def build_template(
     aspect: float, size: MeshSize, interfaces: tuple[float, ...] = ()
 ) -> MeshTemplate:

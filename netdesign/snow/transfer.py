@@ -1,0 +1,69 @@
+"""A flow on one mesh as the start of that on another."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from netdesign.snow.contact import Contact
+from netdesign.snow.flow import FlowState
+from netdesign.snow.kernel import PlacedMesh, interpolate_reference
+from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+
+
+def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowState:
+    """State on ``old`` carried to ``new``: a guess, in equilibrium with nothing.
+
+    Stresses are those of the nearest quadrature point, contacts those of the nearest
+    support node, both in reference coordinates; velocities and reactions are 0 and
+    take the first step to be right.
+    """
+    source, target = old.template, new.template
+    points = _nearest_points(source, target)
+    stress = state.stress.reshape(-1, state.stress.shape[-1])[points]
+    on_net = _nearest(source.net_fractions[1:], target.net_fractions[1:])
+    on_ground = _nearest(
+        source.nodes[0, source.ground[1:]], target.nodes[0, target.ground[1:]]
+    )
+    base_shear = None
+    if state.base_shear is not None:
+        base_shear = _resample_base(state.base_shear, source, target)
+    contact = state.contact
+    return FlowState(
+        unknowns=np.zeros(new.n_dofs),
+        reaction=np.zeros(new.n_dofs),
+        stress=stress.reshape(*new.weights.shape, -1),
+        base_shear=base_shear,
+        contact=Contact(
+            sign=contact.sign[on_net],
+            is_pressed=contact.is_pressed[on_net],
+            is_open=contact.is_open[on_net],
+            is_lifted=contact.is_lifted[on_ground],
+        ),
+    )
+
+
+@lru_cache(maxsize=256)
+def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
+    tree = cKDTree(_list_points(source))
+    _, nearest = tree.query(_list_points(target))
+    return np.asarray(nearest, dtype=np.int64)
+
+
+def _list_points(template: MeshTemplate) -> Floats:
+    """Reference coordinates (n, 2) of all quadrature points."""
+    return interpolate_reference(template).reshape(2, -1).T
+
+
+def _nearest(known: Floats, wanted: Floats) -> Ints:
+    return np.asarray(np.abs(wanted[:, None] - known[None]).argmin(axis=1))
+
+
+def _resample_base(shear: Floats, source: MeshTemplate, target: MeshTemplate) -> Floats:
+    """Mean shear of the edges, at the nearest edge's."""
+    middles = [
+        template.nodes[0, template.ground[1::2]] for template in (source, target)
+    ]
+    return np.asarray(shear[_nearest(*middles)])

@@ -1,0 +1,169 @@
+"""Where a history begins: shapes of known length, snow at rest against them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.cable.response import measure_arcs, respond
+from netdesign.coupling.net_start import build_start, guess_bulge
+from netdesign.coupling.problem import build_problem
+from netdesign.coupling.start import guess_pressure
+from netdesign.coupling.transient import TRANSIENT_LEVELS
+from netdesign.snow.mesh import build_template
+
+SLACKS = [0.0, 0.02, 0.15]
+
+
+def begin(scene, start, level=1):
+    problem = build_problem(scene, densifies=True)
+    template = build_template(5.0, TRANSIENT_LEVELS[level], scene.layer_tops)
+    return problem, build_start(problem, template, start)
+
+
+def points_of(problem, state):
+    nodes = state.body.vertices[:, state.carried]
+    return np.column_stack([np.zeros(2), nodes, problem.head])
+
+
+def largest_sag(problem, points):
+    """Distance from the chord downslope, over the chord."""
+    along = problem.head / np.hypot(*problem.head)
+    across = along[1] * points[0] - along[0] * points[1]
+    return across.max() / np.hypot(*problem.head)
+
+
+def parabola_length(sag):
+    """Over the chord, of y = 4 f x (1 - x), by fine chords."""
+    x = np.linspace(0.0, 1.0, 20001)
+    return np.hypot(np.diff(x), np.diff(4.0 * sag * x * (1.0 - x))).sum()
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_straight_net_is_a_line_without_tension(a_scene, inclination):
+    problem, state = begin(a_scene(inclination_deg=inclination), "straight")
+    points = points_of(problem, state)
+    assert largest_sag(problem, points) < 1e-8
+    chords = np.hypot(*np.diff(points))
+    np.testing.assert_allclose(state.lengths, chords, rtol=1e-8)
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+    assert not state.velocity.any()
+    assert state.time == state.step == 0.0
+
+
+@pytest.mark.parametrize("slack", SLACKS[1:])
+@pytest.mark.parametrize("inclination", [0.0, 20.0])
+def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
+    """A parabola as long as the net: c (1 + slack)."""
+    problem, state = begin(
+        a_scene(slack=slack, inclination_deg=inclination), "straight", level=2
+    )
+    points = points_of(problem, state)
+    assert parabola_length(largest_sag(problem, points)) == pytest.approx(
+        1.0 + slack, rel=1e-4
+    )
+    # the nodes' arcs are those of the parabola up to their fourth order
+    assert measure_arcs(points).sum() == pytest.approx(problem.length, rel=1e-4)
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+
+
+@pytest.mark.parametrize("slack", SLACKS)
+@pytest.mark.parametrize("ground", ["free", "no-slip"])
+def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
+    """Parabola of the guideline: H = p c / (8 f), V = p / 2, T = ES strain."""
+    problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", level=2)
+    points = points_of(problem, state)
+    sag = largest_sag(problem, points)
+    pressure = guess_pressure(problem.law, 5.0)
+    tension = pressure * math.hypot(1.0 / (8.0 * sag), 1.0 / 2.0)
+    # force of half the load at each end: p c / 2
+    strain = parabola_length(sag) / (1.0 + slack) - 1.0
+    middle = pressure / (8.0 * sag)
+    assert middle <= strain * problem.stiffness <= tension * (1.0 + 1e-3)
+    net = respond(points, state.lengths, friction=0.5, stiffness=problem.stiffness)
+    assert net.sliding.tensions.min() > 0.0
+    assert state.lengths.sum() == pytest.approx(problem.length, rel=1e-14)
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_snow_fills_the_bulge(a_scene, start):
+    """L d and two thirds of chord times sag, on chords between vertices."""
+    problem, state = begin(a_scene(slack=0.05), start, level=2)
+    sag = largest_sag(problem, points_of(problem, state))
+    expected = 5.0 + 2.0 / 3.0 * sag
+    assert state.body.mass.sum() == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_head_above_the_snow_leaves_a_free_segment(a_scene, start):
+    problem, state = begin(a_scene(height_m=4.8, slack=0.03), start)
+    assert state.top == "on-net"
+    net = state.body.topology.net
+    assert state.carried.size == net.size - 1  # all but the foot
+    assert state.lengths.size == net.size
+    top = state.body.vertices[:, net[-1]]
+    assert top[1] == pytest.approx(1.0, abs=1e-12)
+    assert problem.head[1] == pytest.approx(1.2, rel=1e-12)
+
+
+def test_head_in_the_surface_holds_the_corner(a_scene):
+    problem, state = begin(a_scene(slack=0.03), "sagged")
+    assert state.top == "held"
+    net = state.body.topology.net
+    np.testing.assert_array_equal(state.carried, net[1:-1])
+    np.testing.assert_allclose(
+        state.body.vertices[:, net[-1]], problem.head, atol=1e-14
+    )
+
+
+# --- first bulge -------------------------------------------------------------
+
+
+def test_first_bulge_lies_downslope_and_ends_on_the_chord(a_scene):
+    problem, state = begin(a_scene(inclination_deg=30.0), "straight")
+    bulge = guess_bulge(problem, state)
+    assert bulge.shape == (2, state.carried.size)
+    along = problem.head / np.hypot(*problem.head)
+    np.testing.assert_allclose(along @ bulge, 0.0, atol=1e-12)
+    across = along[1] * bulge[0] - along[0] * bulge[1]
+    assert (across > 0.0).all()
+    assert across.max() == pytest.approx(across[across.size // 2], rel=0.1)
+    assert across.max() < 0.1
+
+
+def test_stiff_net_is_guessed_to_bulge_less(a_scene):
+    sizes = []
+    for stiffness in (2e3, 2e4, 1e5):
+        problem, state = begin(a_scene(stiffness_kN_per_m=stiffness), "straight")
+        sizes.append(np.hypot(*guess_bulge(problem, state)).max())
+    assert sizes[0] > sizes[1] > sizes[2] > 0.0
+
+
+# --- mean pressure -----------------------------------------------------------
+
+
+def test_pressure_of_freely_gliding_snow_is_its_weight(a_flow_law):
+    law = a_flow_law(slope_deg=40.0)
+    expected = math.sin(math.radians(40.0)) * 7.0
+    assert guess_pressure(law, 7.0) == pytest.approx(expected, rel=1e-14)
+
+
+def test_rough_ground_holds_all_but_the_nearest_snow(a_flow_law):
+    law = a_flow_law(ground="no-slip")
+    weight = math.sin(math.radians(40.0))
+    assert guess_pressure(law, 7.0) == pytest.approx(weight, rel=1e-14)
+    assert guess_pressure(law, 0.5) == pytest.approx(0.5 * weight, rel=1e-14)
+
+
+def test_sliding_ground_lies_between(a_flow_law):
+    between = [
+        guess_pressure(a_flow_law(ground="sliding", slip_ratio=ratio), 7.0)
+        for ratio in (0.1, 1.0, 100.0)
+    ]
+    rough = guess_pressure(a_flow_law(ground="no-slip"), 7.0)
+    free = guess_pressure(a_flow_law(), 7.0)
+    assert rough < between[0] < between[1] < between[2] == free
+
+
+def test_flat_ground_still_gives_a_start(a_flow_law):
+    assert guess_pressure(a_flow_law(slope_deg=0.0), 5.0) == pytest.approx(0.25)

@@ -1,0 +1,82 @@
+"""Curve through points: exact on parabolas, third order, local."""
+
+import numpy as np
+import pytest
+
+from netdesign.numerics.curve import interpolate_curve
+
+UNEVEN = np.array([0.0, 0.1, 0.35, 0.5, 0.8, 1.0])
+
+
+def sines(parameter):
+    return np.array([np.sin(2.0 * parameter), np.cos(3.0 * parameter)])
+
+
+def test_curve_goes_through_its_points():
+    points = np.random.default_rng(1).normal(size=(2, UNEVEN.size))
+    found = interpolate_curve(UNEVEN, points, UNEVEN)
+    np.testing.assert_allclose(found, points, atol=1e-15)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_parabola_is_met_between_uneven_points(seed):
+    """Its three-point slopes are exact, at the ends too."""
+    squared, linear, constant = np.random.default_rng(seed).normal(size=(3, 2, 1))
+    wanted = np.linspace(0.0, 1.0, 41)
+    found = interpolate_curve(
+        UNEVEN, squared * UNEVEN**2 + linear * UNEVEN + constant, wanted
+    )
+    expected = squared * wanted**2 + linear * wanted + constant
+    np.testing.assert_allclose(found, expected, atol=1e-14)
+
+
+def test_order_three_on_a_smooth_curve():
+    errors = []
+    wanted = np.linspace(0.0, 1.0, 401)
+    for count in (9, 17, 33, 65):
+        # uneven: neighbours differ by a smooth factor
+        known = np.linspace(0.0, 1.0, count) ** 1.3
+        found = interpolate_curve(known, sines(known), wanted)
+        errors.append(np.abs(found - sines(wanted)).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders.min() > 2.6
+    assert orders[-1] > 2.9
+    assert errors[-1] < 2e-5
+
+
+def test_curve_is_smooth_at_its_points():
+    """One slope on both sides; a polygon would have two."""
+    points = sines(UNEVEN)
+    small = 1e-6
+    inner = UNEVEN[1:-1]
+    before = interpolate_curve(UNEVEN, points, inner - small)
+    after = interpolate_curve(UNEVEN, points, inner + small)
+    middle = points[:, 1:-1]
+    np.testing.assert_allclose(middle - before, after - middle, atol=1e-10)
+
+
+def test_a_moved_point_is_felt_by_two_pieces_on_either_side():
+    known = np.arange(9.0)
+    points = sines(known)
+    moved = points.copy()
+    moved[:, 4] += 1.0
+    wanted = np.linspace(0.0, 8.0, 161)
+    change = interpolate_curve(known, moved, wanted) - interpolate_curve(
+        known, points, wanted
+    )
+    felt = np.abs(change).max(axis=0) > 0.0
+    assert wanted[felt].min() > 2.0
+    assert wanted[felt].max() < 6.0
+
+
+def test_two_points_are_joined_by_a_line():
+    points = np.array([[1.0, 3.0], [2.0, -2.0]])
+    found = interpolate_curve(np.array([0.0, 2.0]), points, np.array([0.0, 0.5, 2.0]))
+    np.testing.assert_allclose(found, [[1.0, 1.5, 3.0], [2.0, 1.0, -2.0]], rtol=1e-15)
+
+
+def test_three_points_are_joined_by_their_parabola():
+    known = np.array([0.0, 1.0, 3.0])
+    points = np.array([known**2, 1.0 - known])
+    found = interpolate_curve(known, points, np.array([0.5, 2.0, 3.0]))
+    np.testing.assert_allclose(found, [[0.25, 4.0, 9.0], [0.5, -1.0, -2.0]], atol=1e-14)

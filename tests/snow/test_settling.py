@@ -1,0 +1,158 @@
+"""Density of settled snow, and the creep law that follows it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.transient import TRANSIENT_LEVELS
+from netdesign.errors import ModelError
+from netdesign.snow.body import build_body
+from netdesign.snow.creep_law import (
+    CREEP_LAWS,
+    DENSEST_SNOW,
+    compute_bulk_factor,
+    compute_factors,
+    compute_shear_factor,
+)
+from netdesign.snow.law import FlowLayer, sample_material
+from netdesign.snow.mesh import build_template
+from netdesign.snow.settling import Settling, build_material, largest_density
+
+LAW = CREEP_LAWS["boutillier-2004"]
+DENSITY = 0.4
+
+
+def a_body(law, tops=()):
+    template = build_template(5.0, TRANSIENT_LEVELS[0], tops)
+    fractions = template.net_fractions
+    return build_body(law, template, np.array([0.0 * fractions, fractions]))
+
+
+def settled(body, jacobian):
+    """The body under an even settling: every area times the Jacobian."""
+    return replace(body, vertices=body.vertices * np.array([[1.0], [jacobian]]))
+
+
+def settling(**changes):
+    return replace(Settling(creep_law=LAW, mean_density=DENSITY), **changes)
+
+
+# --- coefficients ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CREEP_LAWS)
+def test_factors_of_many_densities_are_those_of_each(name):
+    """Both branches, their joint, the clamp and the densest snow."""
+    law = CREEP_LAWS[name]
+    densities = np.array(
+        [
+            *(0.1, 0.3, 0.4, 0.51, 0.7, np.nextafter(law.branch, 0.0)),
+            *(law.branch, 0.9, 0.98, DENSEST_SNOW),
+        ]
+    )
+    shear, bulk = compute_factors(law, densities)
+    expected = [compute_shear_factor(law, float(d)) for d in densities]
+    np.testing.assert_allclose(shear, expected, rtol=1e-14)
+    expected = [compute_bulk_factor(law, float(d)) for d in densities]
+    np.testing.assert_allclose(bulk, expected, rtol=1e-14)
+
+
+def test_factors_keep_the_shape():
+    shear, bulk = compute_factors(LAW, np.full((2, 3), 0.5))
+    assert shear.shape == bulk.shape == (2, 3)
+
+
+def test_denser_than_the_densest_counts_as_that():
+    shear, bulk = compute_factors(LAW, np.array([DENSEST_SNOW, 1.0, 1.5]))
+    assert len(set(shear)) == len(set(bulk)) == 1
+    assert shear[0] == pytest.approx(compute_shear_factor(LAW, DENSEST_SNOW))
+
+
+@pytest.mark.parametrize("wrong", [0.0, -0.1, np.nan])
+def test_a_density_that_no_snow_has_is_refused(wrong):
+    with pytest.raises(ModelError, match="relative density"):
+        compute_factors(LAW, np.array([0.4, wrong, 0.5]))
+
+
+# --- material ----------------------------------------------------------------
+
+
+def test_undeformed_snow_has_the_material_of_the_scene(a_flow_law):
+    shear, bulk = (f(LAW, DENSITY) for f in (compute_shear_factor, compute_bulk_factor))
+    law = a_flow_law(bulk_ratio=shear / bulk)
+    found = build_material(settling(), law, a_body(law))
+    expected = sample_material(law, a_body(law).topology.template)
+    for name in ("bulk_ratio", "fluidity", "density"):
+        np.testing.assert_allclose(
+            getattr(found, name), getattr(expected, name), rtol=1e-12
+        )
+
+
+@pytest.mark.parametrize("jacobian", [0.9, 1.05])
+def test_density_is_that_of_the_start_over_the_jacobian(a_flow_law, jacobian):
+    """a and b are taken there; the fluidity goes with a^((n + 1) / 2), n = 3."""
+    law = a_flow_law()
+    found = build_material(settling(), law, settled(a_body(law), jacobian))
+    density = DENSITY / jacobian
+    shear, bulk = (f(LAW, density) for f in (compute_shear_factor, compute_bulk_factor))
+    np.testing.assert_allclose(found.density, 1.0 / jacobian, rtol=1e-12)
+    np.testing.assert_allclose(found.bulk_ratio, shear / bulk, rtol=1e-11)
+    softer = (shear / compute_shear_factor(LAW, DENSITY)) ** 2
+    np.testing.assert_allclose(found.fluidity, softer, rtol=1e-11)
+    assert found.density.shape == (a_body(law).mass.size, 1)
+
+
+def test_exponent_one_creeps_with_the_first_power(a_flow_law):
+    linear = replace(LAW, exponent=1.0)
+    law = a_flow_law(exponent=1.0)
+    found = build_material(settling(creep_law=linear), law, settled(a_body(law), 0.9))
+    ratio = compute_shear_factor(linear, DENSITY / 0.9) / compute_shear_factor(
+        linear, DENSITY
+    )
+    np.testing.assert_allclose(found.fluidity, ratio, rtol=1e-11)
+
+
+def test_warm_snow_stays_warm(a_flow_law):
+    """Warmth multiplies the fluidity, whatever the density has become."""
+    law = a_flow_law()
+    body = settled(a_body(law), 0.9)
+    cold = build_material(settling(), law, body)
+    warm = build_material(
+        settling(), law, replace(body, warmth=np.full_like(body.warmth, 3.0))
+    )
+    np.testing.assert_allclose(warm.fluidity, 3.0 * cold.fluidity, rtol=1e-14)
+    np.testing.assert_array_equal(warm.bulk_ratio, cold.bulk_ratio)
+
+
+@pytest.mark.parametrize("tops", [(), (0.4,)], ids=["uniform", "layers"])
+def test_without_densification_the_material_is_that_of_the_start(a_flow_law, tops):
+    law = a_flow_law()
+    if tops:
+        below = FlowLayer(top=0.4, bulk_ratio=2.5, fluidity=0.7, density=1.2)
+        above = FlowLayer(top=1.0, bulk_ratio=1.4, fluidity=2.0, density=0.867)
+        law = replace(law, layers=(below, above))
+    body = settled(a_body(law, tops), 0.8)
+    found = build_material(settling(densifies=False), law, body)
+    expected = sample_material(law, body.topology.template)
+    for name in ("bulk_ratio", "fluidity", "density"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))
+    assert np.any(
+        build_material(settling(), law, body).fluidity != np.asarray(found.fluidity)
+    )
+
+
+# --- the largest density -----------------------------------------------------
+
+
+def test_largest_density_of_a_body(a_flow_law):
+    body = settled(a_body(a_flow_law()), 0.8)
+    mass = body.mass.copy()
+    mass[3] *= 1.1
+    found = largest_density(settling(), replace(body, mass=mass))
+    assert found == pytest.approx(1.1 * DENSITY / 0.8, rel=1e-12)
+
+
+def test_largest_density_is_that_of_ice_at_most(a_flow_law):
+    body = settled(a_body(a_flow_law()), 0.3)
+    assert largest_density(settling(), body) == DENSEST_SNOW
