@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign import __version__
@@ -23,6 +23,7 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.envelope.runner import Runner
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
@@ -68,7 +69,7 @@ def count_cases(site: Site) -> int:
 
 
 def solve_site(
-    site: Site, run: CheckRun, on_done: Callable[[CaseResult], None] | None = None
+    site: Site, run: CheckRun, runner: Runner | None = None
 ) -> list[list[CaseResult]]:
     """Solve all cases of all net rows; no limit profile is needed for it.
 
@@ -78,8 +79,8 @@ def solve_site(
         What the engineer gives.
     run : CheckRun
         Settings.
-    on_done : callable, optional
-        Called after each case, for a progress display.
+    runner : Runner, optional
+        Where cases are solved and kept; this process unless told otherwise.
 
     Returns
     -------
@@ -88,7 +89,7 @@ def solve_site(
     """
     cases = build_cases(site.ranges)
     tasks = [task for row in site.rows for task in _build_tasks(row, cases, run)]
-    results = run_cases(tasks, jobs=run.jobs, on_done=on_done)
+    results = run_cases(tasks, runner)
     count = len(cases)
     return [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
 

@@ -16,7 +16,12 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.envelope.surrogate import Surrogate, count_trend_terms, fit_surrogate
+from netdesign.envelope.surrogate import (
+    REACH,
+    Surrogate,
+    count_trend_terms,
+    fit_surrogate,
+)
 from netdesign.errors import ModelError
 from netdesign.guards import require_count, require_within
 
@@ -30,10 +35,12 @@ MOST_PARAMETERS = 6
 _GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.
 _LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
+_WANTED = 200  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 256.0
+_BESIDE = 1.0 / 16.0
+_TEST_APART = 0.125  # least distance of a test from every known case
 _APART = 0.2  # least distance between the cases of one batch
-_TESTED_AROUND = 1.0  # tests look where the bound comes within so many tolerances
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,12 +134,21 @@ class Maxima:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Surprise:
+    """A case that lay outside what the bound allowed around it."""
+
+    place: Floats
+    ratio: Floats  # error over what was allowed, shape (quantities,)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Bounds:
     """What the model allows, and where."""
 
     best: Floats
     tolerance: Floats  # shape (quantities,)
     upper: Floats
+    summits: tuple[Point, ...]  # where the best values were found
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
@@ -179,22 +195,30 @@ def search_maxima(dimension: int, settings: SearchSettings) -> Search:
     log = [_note_first(*one) for one in zip(points, values, strict=True)]
     lattice = _build_lattice(dimension)
     passed = 0
+    surprises: list[_Surprise] = []
     while True:
         solved = [k for k, value in enumerate(values) if value is not None]
         if len(solved) <= count_trend_terms(dimension):
             return _finish(points, values, log, None, None, is_closed=False)
         places = np.array([points[k] for k in solved])
         model = fit_surrogate(places, np.array([values[k] for k in solved]))
-        bounds = _bound(model, np.array([values[k] for k in solved]), lattice, settings)
+        known = np.array([values[k] for k in solved])
+        bounds = _bound(model, known, lattice, settings, surprises)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
         if is_done or not batch or len(points) >= settings.max_cases:
             is_closed = bounds.is_closed and (is_done or not batch)
             return _finish(points, values, log, model, bounds, is_closed=is_closed)
         answers = yield tuple(point for point, _ in batch)
-        held = _note_batch(model, batch, answers, log, is_test=bounds.is_closed)
-        is_good = bool(np.all(held <= bounds.tolerance / 2.0))
-        passed = passed + 1 if is_good else 0
+        held, claimed = _hold_out(model, batch, answers, log, bounds)
+        # the bound must have held for every case that was not yet known
+        covered = np.maximum(settings.certainty * claimed, bounds.tolerance / 2.0)
+        passed = passed + 1 if bounds.is_closed and np.all(held <= covered) else 0
+        surprises += [
+            _Surprise(place=np.array(point), ratio=ratio)
+            for (point, _), ratio in zip(batch, held / covered, strict=True)
+            if np.any(ratio > 1.0)
+        ]
         points = (*points, *(point for point, _ in batch))
         values = [*values, *answers]
 
@@ -237,7 +261,11 @@ def _build_lattice(dimension: int) -> Floats:
 
 
 def _bound(
-    model: Surrogate, values: Floats, lattice: Floats, settings: SearchSettings
+    model: Surrogate,
+    values: Floats,
+    lattice: Floats,
+    settings: SearchSettings,
+    surprises: Sequence[_Surprise],
 ) -> _Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it."""
     best = values.max(axis=0)
@@ -248,7 +276,8 @@ def _bound(
 
     def reach(at: Floats) -> Floats:
         mean, claim = model.predict(at)
-        result: Floats = mean + settings.certainty * claim
+        stretch = _stretch(at, surprises, len(best))
+        result: Floats = mean + settings.certainty * stretch * claim
         return result
 
     allowed = reach(looked_at)
@@ -260,14 +289,29 @@ def _bound(
         starts = looked_at[order[:_STARTS]]
         tops, heights = _climb(starts, quantity, reach, spacing)
         upper[quantity] = max(upper[quantity], heights.max())
-        places = [*tops, *looked_at[order[: 10 * _STARTS]]]
-        reached = [*heights, *allowed[order[: 10 * _STARTS], quantity]]
+        places = [*tops, *looked_at[order[:_WANTED]]]
+        reached = [*heights, *allowed[order[:_WANTED], quantity]]
         for place, height in zip(places, reached, strict=True):
             excess = (height - best[quantity]) / tolerance[quantity] - 1.0
-            if excess > -_TESTED_AROUND:
-                wanted.append((float(excess), _settle(place), quantity))
+            wanted.append((float(excess), _settle(place), quantity))
     wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
-    return _Bounds(best=best, tolerance=tolerance, upper=upper, wanted=tuple(wanted))
+    return _Bounds(
+        best=best,
+        tolerance=tolerance,
+        upper=upper,
+        summits=tuple(_settle(place) for place in around),
+        wanted=tuple(wanted),
+    )
+
+
+def _stretch(at: Floats, surprises: Sequence[_Surprise], quantities: int) -> Floats:
+    """How much wider than the model's own claims are around what surprised it."""
+    stretch = np.ones((len(at), quantities))
+    for surprise in surprises:
+        distance = np.linalg.norm(at - surprise.place, axis=1)
+        share = np.exp(-((distance / REACH) ** 2))[:, None]
+        stretch = np.maximum(stretch, 1.0 + share * (surprise.ratio - 1.0))
+    return stretch
 
 
 def _surround(place: Floats) -> Floats:
@@ -305,48 +349,67 @@ def _settle(place: Floats) -> Point:
 def _choose(
     bounds: _Bounds, points: Sequence[Point], settings: SearchSettings
 ) -> list[tuple[Point, int]]:
-    """Next cases, most excessive first and well apart; tests once none exceeds."""
-    least = -_TESTED_AROUND if bounds.is_closed else 0.0
+    """Next cases: where a quantity could exceed; once none can, tests of that."""
+    room = settings.max_cases - len(points)
     known = set(points)
+    if bounds.is_closed:
+        beside = [one for one in _list_neighbours(bounds) if one[0] not in known]
+        if beside:
+            return beside[:room]
+    least = -math.inf if bounds.is_closed else 0.0
+    apart = list(points) if bounds.is_closed else []
     chosen: list[tuple[Point, int]] = []
-    room = min(settings.batch, settings.max_cases - len(points))
     for excess, point, quantity in bounds.wanted:
-        if excess <= least or len(chosen) >= room:
+        if excess <= least or len(chosen) >= min(settings.batch, room):
             break
         is_apart = all(math.dist(point, other) > _APART for other, _ in chosen)
-        if point not in known and is_apart:
+        is_new = all(math.dist(point, other) >= _TEST_APART for other in apart)
+        if point not in known and is_apart and is_new:
             chosen.append((point, quantity))
     return chosen
 
 
-def _note_batch(
+def _list_neighbours(bounds: _Bounds) -> list[tuple[Point, int]]:
+    """Points just beside every maximum, along each axis: they tell if it is one."""
+    found: dict[Point, int] = {}
+    for quantity, place in enumerate(bounds.summits):
+        for axis, side in product(range(len(place)), (-_BESIDE, _BESIDE)):
+            value = place[axis] + side
+            if 0.0 <= value <= 1.0:
+                found.setdefault((*place[:axis], value, *place[axis + 1 :]), quantity)
+    return list(found.items())
+
+
+def _hold_out(
     model: Surrogate,
     batch: Sequence[tuple[Point, int]],
     answers: Sequence[Values | None],
     log: list[Addition],
-    *,
-    is_test: bool,
-) -> Floats:
-    """Log what the model expected of a batch; largest error of each quantity."""
-    prediction = model.predict(np.array([point for point, _ in batch]))
+    bounds: _Bounds,
+) -> tuple[Floats, Floats]:
+    """Log a batch against what the model expected of it.
+
+    Returns the errors of the predictions and their claims, shape (batch, quantities);
+    a failed case has no error.
+    """
+    mean, claim = model.predict(np.array([point for point, _ in batch]))
     number = log[-1].round + 1
-    errors = np.zeros_like(prediction.mean)
+    errors = np.zeros_like(mean)
     for k, ((point, quantity), answer) in enumerate(zip(batch, answers, strict=True)):
         log.append(
             Addition(
                 point=point,
                 round=number,
-                reason="test" if is_test else "could exceed",
+                reason="test" if bounds.is_closed else "could exceed",
                 quantity=quantity,
-                predicted=float(prediction.mean[k, quantity]),
-                claimed=float(prediction.claim[k, quantity]),
+                predicted=float(mean[k, quantity]),
+                claimed=float(claim[k, quantity]),
                 found=math.nan if answer is None else answer[quantity],
             )
         )
-        # a test that gives no answer is no test passed
-        errors[k] = np.inf if answer is None else np.abs(answer - prediction.mean[k])
-    largest: Floats = errors.max(axis=0)
-    return largest
+        if answer is not None:
+            errors[k] = np.abs(np.array(answer) - mean[k])
+    return errors, claim
 
 
 def _finish(
