@@ -31,6 +31,9 @@ Values = tuple[float, ...]
 Search = Generator[tuple[Point, ...], Sequence[Values | None], "Maxima"]
 
 MOST_PARAMETERS = 6
+# The first design sees features at least as wide at half their height, as a share of
+# a range; narrower ones may hide, and every result says so.
+RESOLVED_SHARE = 0.5
 # Coordinates are multiples of this share of a range: equal cases have equal keys.
 _GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.

@@ -48,11 +48,15 @@ class Ranges:
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class Case:
-    """One point of the ranges. SI units; angles in radians."""
+    """One point of the ranges. SI units; angles in radians.
+
+    ``others`` names further quantities that range, as in ``envelope.parameters``.
+    """
 
     density: float
     friction_angle: float
     inclination: float
+    others: tuple[tuple[str, float], ...] = ()
 
 
 def build_cases(ranges: Ranges) -> tuple[Case, ...]:
