@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign import __version__
@@ -20,10 +20,20 @@ from netdesign.checks import (
     check_member,
 )
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges, build_cases
+from netdesign.envelope.parameters import Box
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.envelope.runner import Runner
+from netdesign.envelope.search import (
+    RowEnvelope,
+    RowTask,
+    Wave,
+    refine_settings,
+    search_rows,
+)
+from netdesign.envelope_record import record_envelope
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
@@ -43,12 +53,18 @@ from netdesign.study import (
     RowStudy,
     Study,
 )
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    newton_from_kilonewton,
+)
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
+_USUAL_SEARCH = 55  # cases of a row, for --dry-run only
+_CLOSEST_GAP = 1e-3  # however accurate the cases are
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
@@ -64,8 +80,60 @@ class CheckRun:
 
 
 def count_cases(site: Site) -> int:
-    """Number of cases that ``solve_site`` will solve."""
-    return len(site.rows) * len(build_cases(site.ranges))
+    """Number of cases of a grid; about that of a search, which nobody knows yet."""
+    if site.ranges.is_grid:
+        return len(site.rows) * len(build_cases(site.ranges))
+    return len(site.rows) * _USUAL_SEARCH
+
+
+def search_site(
+    site: Site,
+    run: CheckRun,
+    runner: Runner | None = None,
+    on_wave: Callable[[Wave], None] = lambda _: None,
+) -> list[RowEnvelope]:
+    """Search the largest forces of all net rows; no limit profile is needed for it.
+
+    Parameters
+    ----------
+    site : Site
+        What the engineer gives.
+    run : CheckRun
+        Settings; their accuracy is the gap that is asked for, too.
+    runner : Runner, optional
+        Where cases are solved and kept; this process unless told otherwise.
+    on_wave : callable, optional
+        Called after each wave of cases.
+
+    Returns
+    -------
+    list of RowEnvelope
+        One a row, each with its upper bounds and governing cases confirmed.
+    """
+    tasks = [_build_search(row, site.ranges, run) for row in site.rows]
+    return search_rows(tasks, runner or Runner(), on_wave)
+
+
+def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
+    middle = Case(
+        density=ranges.density.low,
+        friction_angle=ranges.friction_angle.low,
+        inclination=ranges.inclination.low,
+    )
+    return RowTask(
+        scene=_build_scene(row, middle, run),
+        box=Box(
+            intervals=(
+                ("density", ranges.density),
+                ("friction_angle", ranges.friction_angle),
+                ("inclination", ranges.inclination),
+            )
+        ),
+        layout=row.layout,
+        settings=run.settings,
+        search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
+        confirmed_by=refine_settings(run.settings),
+    )
 
 
 def solve_site(
@@ -99,6 +167,7 @@ def judge_site(
     results: Sequence[Sequence[CaseResult]],
     standard: Standard,
     run: CheckRun,
+    envelopes: Sequence[RowEnvelope] | None = None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -107,11 +176,13 @@ def judge_site(
     site : Site
         What the engineer gives.
     results : sequence of sequence of CaseResult
-        As ``solve_site`` returns them.
+        As ``solve_site`` returns them; of searched rows their ``results``.
     standard : Standard
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
+    envelopes : sequence of RowEnvelope, optional
+        As ``search_site`` returns them: their upper bounds are what is checked.
 
     Returns
     -------
@@ -119,8 +190,10 @@ def judge_site(
         Complete; a failed case is in it by name.
     """
     rows = [
-        _judge_row(row, site.ranges, of_row, standard, run.creep_law)
-        for row, of_row in zip(site.rows, results, strict=True)
+        _judge_row(row, site.ranges, of_row, standard, run.creep_law, searched)
+        for row, of_row, searched in zip(
+            site.rows, results, envelopes or [None] * len(site.rows), strict=True
+        )
     ]
     return Study(
         schema=SCHEMA,
@@ -134,27 +207,36 @@ def judge_site(
     )
 
 
-def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
-    def build_scene(case: Case) -> Scene:
-        return Scene(
-            snowpack=Snowpack(
-                slope_angle=row.slope_angle,
-                thickness=row.snow_thickness,
-                upslope_length=row.upslope_length,
-                density=case.density,
-            ),
-            ground=row.ground,
-            net=Net(
-                height_normal=row.net_height,
-                inclination=case.inclination,
-                stiffness_per_m=row.net_stiffness_per_m,
-                slack=row.slack,
-                friction_angle=case.friction_angle,
-            ),
-            creep_law=run.creep_law,
-        )
+def _build_scene(row: NetRow, case: Case, run: CheckRun) -> Scene:
+    return Scene(
+        snowpack=Snowpack(
+            slope_angle=row.slope_angle,
+            thickness=row.snow_thickness,
+            upslope_length=row.upslope_length,
+            density=case.density,
+        ),
+        ground=row.ground,
+        net=Net(
+            height_normal=row.net_height,
+            inclination=case.inclination,
+            stiffness_per_m=row.net_stiffness_per_m,
+            slack=row.slack,
+            friction_angle=case.friction_angle,
+        ),
+        creep_law=run.creep_law,
+    )
 
-    return [build_task(case, build_scene, row.layout, run.settings) for case in cases]
+
+def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
+    return [
+        build_task(
+            case,
+            lambda point: _build_scene(row, point, run),
+            row.layout,
+            run.settings,
+        )
+        for case in cases
+    ]
 
 
 def _judge_row(
@@ -163,9 +245,10 @@ def _judge_row(
     results: Sequence[CaseResult],
     standard: Standard,
     law: CreepLaw,
+    envelope: RowEnvelope | None,
 ) -> RowStudy:
-    extremes = find_extremes(results)
-    gap = describe_gap(results)
+    extremes = _bound_extremes(results, envelope)
+    gap = describe_gap(results) if envelope is None else envelope.gap
     checks = [
         _record_check(
             check_member(_force_of(extremes, given.member), given, standard, gap=gap),
@@ -190,7 +273,7 @@ def _judge_row(
         verdict=merge_verdicts(check.verdict for check in checks),
         checks=checks,
         extremes=[
-            _record_extreme(extremes[member])
+            _record_extreme(extremes[member], envelope)
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
@@ -198,7 +281,39 @@ def _judge_row(
         inputs=list(row.inputs),
         drawing=_draw(row, _governing_result(checks, extremes)),
         reasons=unproven,
+        envelope=(
+            None
+            if envelope is None
+            else record_envelope(envelope, REPORTED_MEMBERS, _list_levels(checks))
+        ),
     )
+
+
+def _bound_extremes(
+    results: Sequence[CaseResult], envelope: RowEnvelope | None
+) -> dict[str, Extreme]:
+    """Largest forces; of a search with all that may hide between its cases."""
+    extremes = find_extremes(results)
+    if envelope is None:
+        return extremes
+    return {
+        member: Extreme(
+            member=member,
+            force=envelope.bound(member),
+            governing=envelope.governing(member),
+        )
+        for member in extremes
+    }
+
+
+def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, float]]]:
+    """Characteristic force at which each check is just met, by member [N]."""
+    levels: dict[str, list[tuple[str, float]]] = {}
+    for check in checks:
+        if check.resistance_kN is not None and check.action_factor:
+            level = newton_from_kilonewton(check.resistance_kN / check.action_factor)
+            levels.setdefault(check.member, []).append((check.id, level))
+    return levels
 
 
 def _force_of(extremes: Mapping[str, Extreme], member: str) -> Band | None:
@@ -236,7 +351,9 @@ def _record_check(
     )
 
 
-def _record_extreme(extreme: Extreme) -> ExtremeRecord:
+def _record_extreme(
+    extreme: Extreme, envelope: RowEnvelope | None = None
+) -> ExtremeRecord:
     coincident = extreme.governing.member_forces
     return ExtremeRecord(
         quantity=extreme.member,
@@ -249,7 +366,13 @@ def _record_extreme(extreme: Extreme) -> ExtremeRecord:
             for member in REPORTED_MEMBERS
             if member != extreme.member
         },
+        upper_bound_kN=None if envelope is None else _bound_of(envelope, extreme),
     )
+
+
+def _bound_of(envelope: RowEnvelope, extreme: Extreme) -> float:
+    place = envelope.members.index(extreme.member)
+    return kilonewton_from_newton(envelope.maxima.upper_bound[place])
 
 
 def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:

@@ -14,12 +14,17 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import click
 
 from netdesign import __version__
+from netdesign.commands.envelope import envelope
+from netdesign.commands.options import solving_options
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.check_site import CheckRun
+    from netdesign.envelope.run import CaseResult
+    from netdesign.envelope.search import RowEnvelope
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -44,6 +49,9 @@ def cli() -> None:
     netdesign init site.xlsx           an input workbook to fill in
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     """
+
+
+cli.add_command(envelope)
 
 
 @cli.command()
@@ -71,9 +79,7 @@ def cli() -> None:
     expose_value=False,  # the only one yet
     help="Coupling of snow and net.",
 )
-@click.option(
-    "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
-)
+@solving_options
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -93,6 +99,8 @@ def check(
     standards: tuple[str, ...],
     accuracy: float,
     jobs: int | None,
+    executor: str,
+    cache: bool,
     out: Path | None,
     html: bool,
     excel: bool,
@@ -109,11 +117,13 @@ def check(
     netdesign check site.xlsx --out reports --jobs 2
     netdesign check site.xlsx --json > study.json
     """
-    from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
+    from netdesign.threads import pin_threads
+
+    pin_threads()
+    from netdesign.check_site import CheckRun, count_cases, judge_site
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
-    from netdesign.progress import show_progress
     from netdesign.report.files import (
         STUDY_FILE,
         list_reports,
@@ -143,9 +153,8 @@ def check(
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
-        results = solve_site(site, run, on_done)
-    studies = [judge_site(site, results, profile, run) for profile in profiles]
+    results, envelopes = _solve(site, run, executor=executor, cache=cache, quiet=quiet)
+    studies = [judge_site(site, results, one, run, envelopes) for one in profiles]
     write_files(render_files(studies, names))
     _show(studies, as_json=as_json)
     _report_places(names, quiet=quiet or as_json)
@@ -345,7 +354,7 @@ def main() -> NoReturn:
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted; run the same command again", err=True)
+        click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
         error.show()
@@ -386,6 +395,31 @@ def _read_site(site_file: Path | None) -> Site:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
         return read_site(path)
+
+
+def _solve(
+    site: Site, run: CheckRun, *, executor: str, cache: bool, quiet: bool
+) -> tuple[Sequence[Sequence[CaseResult]], list[RowEnvelope] | None]:
+    """Search or sample the rows of a site; the envelopes of a search."""
+    from netdesign.check_site import search_site, solve_site
+    from netdesign.envelope.session import open_runner
+    from netdesign.envelope.store import find_store
+    from netdesign.progress import show_search
+
+    with (
+        show_search(len(site.rows), quiet=quiet) as progress,
+        open_runner(
+            executor=executor,
+            processes=run.jobs,
+            store=find_store() if cache else None,
+            say=lambda text: click.echo(text, err=True),
+            on_done=progress.count_case,
+        ) as runner,
+    ):
+        if site.ranges.is_grid:
+            return solve_site(site, run, runner), None
+        envelopes = search_site(site, run, runner, progress.tell_wave)
+        return [one.results for one in envelopes], envelopes
 
 
 def _show(studies: Sequence[Study], *, as_json: bool) -> None:

@@ -155,11 +155,20 @@ class _Bounds:
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
+    def gap(self) -> float:
+        """Largest gap over its tolerance."""
+        return float(np.max((self.upper - self.best) / self.tolerance))
+
+    @property
     def is_closed(self) -> bool:
-        return bool(np.all(self.upper - self.best <= self.tolerance * (1.0 + 1e-9)))
+        return self.gap <= 1.0 + 1e-9
 
 
-def search_maxima(dimension: int, settings: SearchSettings) -> Search:
+def search_maxima(
+    dimension: int,
+    settings: SearchSettings,
+    on_round: Callable[[float], None] = lambda _: None,
+) -> Search:
     """Ask for values until every maximum is bounded; ``send`` answers each question.
 
     Parameters
@@ -168,6 +177,8 @@ def search_maxima(dimension: int, settings: SearchSettings) -> Search:
         Number of parameters, 1 to 6.
     settings : SearchSettings
         When to stop.
+    on_round : callable, optional
+        Takes the largest gap left after each round, over its quantity [-].
 
     Yields
     ------
@@ -207,6 +218,7 @@ def search_maxima(dimension: int, settings: SearchSettings) -> Search:
         model = fit_surrogate(places, np.array([values[k] for k in solved]))
         known = np.array([values[k] for k in solved])
         bounds = _bound(model, known, lattice, settings, surprises)
+        on_round(bounds.gap * settings.gap)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
         if is_done or not batch or len(points) >= settings.max_cases:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+import math
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -24,6 +27,7 @@ from netdesign.envelope.run import (
     build_job,
     build_task,
     resolve_case,
+    run_cases,
 )
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd
@@ -150,6 +154,15 @@ class RowEnvelope:
         return self.results[self.maxima.governing[self.members.index(member)]]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wave:
+    """Where a search of several rows stands; ``gap`` is the largest left [-]."""
+
+    rows_open: int
+    cases_waiting: int
+    gap: float
+
+
 def refine_settings(settings: SolverSettings) -> SolverSettings:
     """Settings of a confirmation: coarsest mesh left out, tighter accuracy."""
     levels = settings.levels[1:] if len(settings.levels) > 2 else settings.levels
@@ -157,7 +170,9 @@ def refine_settings(settings: SolverSettings) -> SolverSettings:
     return replace(settings, accuracy=accuracy, levels=levels)
 
 
-def search_row(task: RowTask) -> Conversation:
+def search_row(
+    task: RowTask, on_gap: Callable[[float], None] = lambda _: None
+) -> Conversation:
     """Ask for the ends of jobs until the row's envelope is known.
 
     Yields
@@ -174,7 +189,7 @@ def search_row(task: RowTask) -> Conversation:
     -----------
     tests/envelope/test_search.py
     """
-    search = search_maxima(len(task.box.axes), task.search)
+    search = search_maxima(len(task.box.axes), task.search, on_gap)
     skip = FrictionSkip(task.box.axes)
     results: list[CaseResult] = []
     points = next(search)
@@ -204,7 +219,7 @@ def search_row(task: RowTask) -> Conversation:
 def search_rows(
     tasks: Sequence[RowTask],
     runner: Runner,
-    on_wave: Callable[[Sequence[RowEnvelope | None]], None] = lambda _: None,
+    on_wave: Callable[[Wave], None] = lambda _: None,
 ) -> list[RowEnvelope]:
     """Search all rows together: each wave holds the next cases of every row.
 
@@ -215,7 +230,7 @@ def search_rows(
     runner : Runner
         Where cases are solved and kept; rows with the same net and snow share them.
     on_wave : callable, optional
-        Called after each wave with what is finished.
+        Called after each wave.
 
     Returns
     -------
@@ -223,7 +238,11 @@ def search_rows(
         In the order of the tasks.
     """
     finished: list[RowEnvelope | None] = [None] * len(tasks)
-    open_rows = {place: search_row(task) for place, task in enumerate(tasks)}
+    gaps = dict.fromkeys(range(len(tasks)), math.inf)
+    open_rows = {
+        place: search_row(task, partial(gaps.__setitem__, place))
+        for place, task in enumerate(tasks)
+    }
     asked = {place: next(talk) for place, talk in open_rows.items()}
     while asked:
         ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
@@ -234,8 +253,20 @@ def search_rows(
                 asked[place] = open_rows[place].send(answer)
             except StopIteration as end:
                 finished[place] = end.value
-        on_wave(finished)
+        waiting = sum(len(jobs) for jobs in asked.values())
+        gap = max((gaps[place] for place in asked), default=0.0)
+        on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
     return [one for one in finished if one is not None]
+
+
+def run_grid(
+    task: RowTask, counts: Mapping[str, int | None], runner: Runner
+) -> list[CaseResult]:
+    """All cases of a tensor grid with so many samples of each axis."""
+    samples = [counts[name] or 2 for name in task.box.axes]
+    axes = [[k / (count - 1) for k in range(count)] for count in samples]
+    points = [tuple(point) for point in product(*axes)]
+    return run_cases([_build_task(task, point) for point in points], runner)
 
 
 def _build_task(

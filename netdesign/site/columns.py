@@ -9,7 +9,7 @@ from netdesign.units import degree_from_radian
 
 # Chosen low: a tauter net pulls harder on its anchors.
 DEFAULT_SLACK = 0.02
-DEFAULT_SAMPLES = 3
+SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 DEFAULT_INCLINATION_DEG = (25.0, 35.0)
 
 
@@ -352,7 +352,7 @@ RANGES = SheetPlan(
             aliases=("count", "nombre", "Anzahl"),
             kind="count",
             bounds=(1.0, 25.0),
-            note="number of values from low to high; left empty: 3",
+            note="number of values from low to high; left empty: the worst case is searched, with a bound",
         ),
     ),
 )
