@@ -15,16 +15,14 @@ import click
 
 from netdesign import __version__
 from netdesign.commands.envelope import envelope
-from netdesign.commands.options import solving_options
+from netdesign.commands.glide import glide
+from netdesign.commands.solving import solve_rows, solving_options
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from netdesign.check_site import CheckRun
-    from netdesign.envelope.run import CaseResult
-    from netdesign.envelope.search import RowEnvelope
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -52,6 +50,7 @@ def cli() -> None:
 
 
 cli.add_command(envelope)
+cli.add_command(glide)
 
 
 @cli.command()
@@ -120,7 +119,7 @@ def check(
     from netdesign.threads import pin_threads
 
     pin_threads()
-    from netdesign.check_site import CheckRun, count_cases, judge_site
+    from netdesign.check_site import judge_site
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
@@ -130,6 +129,7 @@ def check(
         name_files,
         render_files,
     )
+    from netdesign.site_cases import CheckRun, count_cases
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -153,7 +153,9 @@ def check(
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    results, envelopes = _solve(site, run, executor=executor, cache=cache, quiet=quiet)
+    results, envelopes = solve_rows(
+        site, run, executor=executor, cache=cache, quiet=quiet
+    )
     studies = [judge_site(site, results, one, run, envelopes) for one in profiles]
     write_files(render_files(studies, names))
     _show(studies, as_json=as_json)
@@ -259,20 +261,6 @@ def report(
     write_files(render_files([study], names))
     _report_places(names, quiet=False)
     sys.exit(_exit_code([study]))
-
-
-@cli.command()
-def glide() -> None:
-    """Measure the glide factors of slip lengths again, beside the stored table."""
-    from netdesign.coupling.glide import measure_glide_factor
-    from netdesign.snow.creep_law import CREEP_LAWS
-    from netdesign.snow.ground import load_glide_tables
-
-    click.echo("creep law          slip length / d   N stored   N measured")
-    for name, table in load_glide_tables().items():
-        for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
-            measured = measure_glide_factor(CREEP_LAWS[name], ratio)
-            click.echo(f"{name:18} {ratio:15g} {stored:10.3f} {measured:12.3f}")
 
 
 @cli.command()
@@ -395,31 +383,6 @@ def _read_site(site_file: Path | None) -> Site:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
         return read_site(path)
-
-
-def _solve(
-    site: Site, run: CheckRun, *, executor: str, cache: bool, quiet: bool
-) -> tuple[Sequence[Sequence[CaseResult]], list[RowEnvelope] | None]:
-    """Search or sample the rows of a site; the envelopes of a search."""
-    from netdesign.check_site import search_site, solve_site
-    from netdesign.envelope.session import open_runner
-    from netdesign.envelope.store import find_store
-    from netdesign.progress import show_search
-
-    with (
-        show_search(len(site.rows), quiet=quiet) as progress,
-        open_runner(
-            executor=executor,
-            processes=run.jobs,
-            store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
-            on_done=progress.count_case,
-        ) as runner,
-    ):
-        if site.ranges.is_grid:
-            return solve_site(site, run, runner), None
-        envelopes = search_site(site, run, runner, progress.tell_wave)
-        return [one.results for one in envelopes], envelopes
 
 
 def _show(studies: Sequence[Study], *, as_json: bool) -> None:

@@ -6,13 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.check_site import (
-    REPORTED_MEMBERS,
-    CheckRun,
-    count_cases,
-    judge_site,
-    solve_site,
-)
+from netdesign.check_site import REPORTED_MEMBERS, judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Interval, Ranges, build_cases
@@ -26,6 +20,7 @@ from netdesign.site.model import (
     Resistance,
     Site,
 )
+from netdesign.site_cases import CheckRun, count_cases, solve_site
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 

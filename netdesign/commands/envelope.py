@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.commands.options import solving_options
 from netdesign.commands.ranges import RANGE, GivenRange
+from netdesign.commands.solving import solving_options
 
 if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene

@@ -352,7 +352,8 @@ RANGES = SheetPlan(
             aliases=("count", "nombre", "Anzahl"),
             kind="count",
             bounds=(1.0, 25.0),
-            note="number of values from low to high; left empty: the worst case is searched, with a bound",
+            note="number of values from low to high; left empty: the worst case is "
+            "searched, with a bound",
         ),
     ),
 )
