@@ -116,9 +116,6 @@ def check(
     netdesign check site.xlsx --out reports --jobs 2
     netdesign check site.xlsx --json > study.json
     """
-    from netdesign.threads import pin_threads
-
-    pin_threads()
     from netdesign.check_site import judge_site
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings

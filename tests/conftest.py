@@ -7,9 +7,16 @@ order of a threaded sum must not decide a last digit.
 from __future__ import annotations
 
 import os
+import tempfile
 
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"
+
+# Runs of the program must neither use nor fill the user's store of finished cases.
+if "NETDESIGN_STORE" not in os.environ:
+    os.environ["NETDESIGN_STORE"] = os.path.join(  # noqa: PTH118
+        tempfile.mkdtemp(prefix="netdesign-tests-"), "cases.sqlite"
+    )
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402
@@ -150,3 +157,15 @@ def a_mesh() -> Callable[..., PlacedMesh]:
 def solved() -> Callable[..., Solution]:
     """Converged solution of ``a_scene(...)`` on two coarse levels; solved once."""
     return _solve
+
+
+def pytest_collection_modifyitems(
+    config: pytest.Config, items: list[pytest.Item]
+) -> None:
+    """Long tests run when asked for: ``-m slow``."""
+    if "slow" in config.getoption("-m"):
+        return
+    skip = pytest.mark.skip(reason="long; run with -m slow")
+    for item in items:
+        if "slow" in item.keywords:
+            item.add_marker(skip)

@@ -11,6 +11,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
+from netdesign.envelope.runner import Runner
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import (
     MEMBER_MODES,
@@ -166,8 +167,9 @@ def test_each_row_gets_its_own_forces(results):
 
 def test_progress_sees_every_case(results):
     seen = []
-    solve_site(build_site(ROWS[0]), RUN, seen.append)
-    assert [one.case for one in seen] == [one.case for one in results[0]]
+    solve_site(build_site(ROWS[0]), RUN, Runner(on_done=seen.append))
+    pulls = [one.state.foot for one in seen]
+    assert pulls == [one.solution.foot for one in results[0]]
 
 
 def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):

@@ -28,9 +28,10 @@ ROWS = (
     {"coupling"},
     {"envelope"},
     {"site"},
-    {"study", "check_site", "scene_file", "solution_file", "verification"},
+    {"study", "check_site", "scene_file", "solution_file", "verification"}
+    | {"site_cases", "envelope_record", "envelope_file"},
     {"report"},
-    {"cli"},
+    {"cli", "commands"},
 )
 
 # Neighbours on one row do not see each other, but for these.
@@ -40,15 +41,22 @@ NEIGHBOURS = {
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares
+    ("check_site", "site_cases"),  # judges what site_cases.py solved
+    ("check_site", "envelope_record"),
+    ("envelope_record", "study"),
+    ("envelope_file", "envelope_record"),
+    ("envelope_file", "study"),
+    ("cli", "commands"),
 }
 
 # Third-party packages, and the modules that may import them.
 THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.grid", "solution_file", "verification.*"),
+        *("envelope.*", "solution_file", "verification.*"),
     ),
-    "scipy": ("snow.*", "verification.*"),
+    "scipy": ("snow.*", "envelope.store", "verification.*"),
+    "distributed": ("envelope.workers",),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),
     "openpyxl": ("site.spreadsheet",),
     "defusedxml": ("site.spreadsheet",),
@@ -59,7 +67,7 @@ THIRD_PARTY = {
     "markupsafe": ("report.html",),
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
-    "click": ("cli",),
+    "click": ("cli", "commands.*"),
     "rich": ("cli", "progress", "report.terminal", "report.verification_table"),
 }
 
@@ -68,6 +76,7 @@ ONLY_INSIDE_FUNCTIONS = {"openpyxl", "defusedxml", "xlsxwriter", "jinja2"} | {
     "matplotlib",
     "pandas",
     "rich",
+    "distributed",
 }
 
 

@@ -84,9 +84,6 @@ def envelope(
     netdesign envelope scene.toml --inclination 25:35 --json
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
-    from netdesign.threads import pin_threads
-
-    pin_threads()
     from netdesign.envelope.parameters import require_valid
     from netdesign.envelope.search import run_grid, search_rows
     from netdesign.envelope.session import open_runner

@@ -33,15 +33,16 @@ Search = Generator[tuple[Point, ...], Sequence[Values | None], "Maxima"]
 MOST_PARAMETERS = 6
 # The first design sees features at least as wide at half their height, as a share of
 # a range; narrower ones may hide, and every result says so.
-RESOLVED_SHARE = 0.5
+RESOLVED_SHARE = 0.6
 # Coordinates are multiples of this share of a range: equal cases have equal keys.
 _GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.
 _LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
 _WANTED = 200  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
-_FINEST_STEP = 1.0 / 256.0
-_BESIDE = 1.0 / 16.0
+_FINEST_STEP = 1.0 / 1024.0
+_BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
+_MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
 _TEST_APART = 0.125  # least distance of a test from every known case
 _APART = 0.2  # least distance between the cases of one batch
 
@@ -313,7 +314,7 @@ def _bound(
     return _Bounds(
         best=best,
         tolerance=tolerance,
-        upper=upper,
+        upper=upper + _MARGIN * tolerance,
         summits=tuple(_settle(place) for place in around),
         wanted=tuple(wanted),
     )
@@ -347,11 +348,12 @@ def _climb(
     places = starts
     while True:
         step /= 2.0
-        tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-        heights = reach(tried.reshape(-1, dimension))[:, quantity]
-        heights = heights.reshape(len(moves), count)
-        chosen = heights.argmax(axis=0)
-        places = tried[chosen, np.arange(count)]
+        for _ in range(dimension):  # one move an axis
+            tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
+            heights = reach(tried.reshape(-1, dimension))[:, quantity]
+            heights = heights.reshape(len(moves), count)
+            chosen = heights.argmax(axis=0)
+            places = tried[chosen, np.arange(count)]
         if step <= _FINEST_STEP:
             return places, heights.max(axis=0)
 

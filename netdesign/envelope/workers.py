@@ -21,7 +21,6 @@ from netdesign.envelope.state import CaseEnd, keep_state
 from netdesign.envelope.store import identify_solver
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
-from netdesign.threads import pin_threads
 
 DIED = "a worker process ended abruptly"
 _AHEAD = 2  # jobs in the hands of a pool, for each of its processes
@@ -141,7 +140,6 @@ class ProcessPool:
 
     def _start(self) -> ProcessPoolExecutor:
         if self._pool is None:
-            pin_threads()  # inherited by the processes
             self._pool = _start_pool(self._processes)
         return self._pool
 
