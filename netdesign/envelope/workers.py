@@ -200,7 +200,7 @@ class DaskCluster:
             self._client.submit(solve_job, job, pure=False): place
             for place, job in enumerate(jobs)
         }
-        for future in as_completed(list(places)):
+        for future in as_completed(list(places), loop=self._client.loop):
             try:
                 end = future.result()
             except KilledWorker:
@@ -241,9 +241,6 @@ def _begin() -> None:
 def _stop(pool: ProcessPoolExecutor) -> None:
     """End a pool without waiting for the cases in hand."""
     # The pool has no public way to stop a running call before Python 3.14.
-    processes = list((getattr(pool, "_processes", None) or {}).values())
-    pool.shutdown(wait=False, cancel_futures=True)
-    for process in processes:
+    for process in list((getattr(pool, "_processes", None) or {}).values()):
         process.terminate()
-    for process in processes:
-        process.join()
+    pool.shutdown(wait=True, cancel_futures=True)
