@@ -193,19 +193,33 @@ class DaskCluster:
             )
 
     def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
-        """Solve all jobs; the scheduler gives a job up that kills its workers."""
+        """Solve all jobs; those lost with a worker are tried again one by one.
+
+        The scheduler gives up every job that waited with one that kills workers.
+        """
         from distributed import KilledWorker, as_completed
 
         places = {
             self._client.submit(solve_job, job, pure=False): place
             for place, job in enumerate(jobs)
         }
+        suspects: list[int] = []
         for future in as_completed(list(places), loop=self._client.loop):
             try:
-                end = future.result()
+                yield places[future], future.result()
             except KilledWorker:
-                end = CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
-            yield places[future], end
+                suspects.append(places[future])
+        for place in sorted(suspects):
+            yield place, self._try_alone(jobs[place])
+
+    def _try_alone(self, job: Job) -> CaseEnd:
+        from distributed import KilledWorker
+
+        try:
+            end: CaseEnd = self._client.submit(solve_job, job, pure=False).result()
+        except KilledWorker:
+            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+        return end
 
     def close(self) -> None:
         """Disconnect; what still runs for this client is cancelled."""
