@@ -164,10 +164,14 @@ class Wave:
 
 
 def refine_settings(settings: SolverSettings) -> SolverSettings:
-    """Settings of a confirmation: coarsest mesh left out, tighter accuracy."""
-    levels = settings.levels[1:] if len(settings.levels) > 2 else settings.levels
+    """Settings of a confirmation: coarsest meshes left out, tighter accuracy.
+
+    A screening ends on the second mesh or a little above; this starts on the third
+    where there are enough, so that it ends on a finer one.
+    """
+    left_out = max(0, min(2, len(settings.levels) - 2))
     accuracy = max(_TIGHTEST, _CONFIRMED_SHARE * settings.accuracy)
-    return replace(settings, accuracy=accuracy, levels=levels)
+    return replace(settings, accuracy=accuracy, levels=settings.levels[left_out:])
 
 
 def search_row(

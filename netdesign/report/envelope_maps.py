@@ -50,9 +50,11 @@ def draw_maps(record: EnvelopeRecord, name: str) -> str:
             )
             least = min(min(min(row) for row in one.force_kN) for one in bound.maps)
             for one, axes in zip(bound.maps, line, strict=False):
-                _draw_map(figure, axes, one, bound, least)
+                shades = _draw_map(axes, one, least, bound.upper_bound_kN)
                 if one is nearest:
                     _ring(axes, bound.case["density_kg_m3"], bound.case["friction_deg"])
+            if shades is not None:
+                figure.colorbar(shades, ax=list(line), pad=0.01)
             line[0].set_ylabel(
                 f"{_name(bound, record)}\n{_label('friction_deg')}", fontsize=TEXT_PT
             )
@@ -101,21 +103,18 @@ def draw_drivers(record: EnvelopeRecord, name: str) -> str:
         return write_svg(figure, name, "What drives each force")
 
 
-def _draw_map(
-    figure: Figure, axes: Any, one: MapRecord, bound: BoundRecord, least: float
-) -> None:
-    levels = [
-        least + (bound.upper_bound_kN - least) * k / _STEPS for k in range(_STEPS + 1)
-    ]
-    if levels[-1] > levels[0]:
-        shades = axes.contourf(
-            one.density_kg_m3, one.friction_deg, one.force_kN, levels, cmap=_SHADES
-        )
-        figure.colorbar(shades, ax=axes, pad=0.02)
+def _draw_map(axes: Any, one: MapRecord, least: float, most: float) -> Any:
+    """Shades of one map; None where the force does not vary."""
     axes.set_title(
         f"θ = {show_given(round(one.inclination_deg, 3))}°",
         loc="right",
         fontsize=TEXT_PT,
+    )
+    if not most > least:
+        return None
+    levels = [least + (most - least) * k / _STEPS for k in range(_STEPS + 1)]
+    return axes.contourf(
+        one.density_kg_m3, one.friction_deg, one.force_kN, levels, cmap=_SHADES
     )
 
 

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from netdesign.report.envelope_figure import draw_envelope
+from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
 from netdesign.report.section_figure import draw_section
 from netdesign.report.view import ReportView, build_view
@@ -81,10 +82,13 @@ def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
     from markupsafe import Markup
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
-    envelope = draw_envelope(row, f"{anchor}-e")
+    record = row.envelope
     return {
         "section": Markup(section),
-        "envelope": Markup(envelope),
+        "envelope": Markup("" if record else draw_envelope(row, f"{anchor}-e")),
+        "maps": Markup(draw_maps(record, f"{anchor}-m") if record else ""),
+        "lines": Markup(draw_lines(record, f"{anchor}-l") if record else ""),
+        "drivers": Markup(draw_drivers(record, f"{anchor}-d") if record else ""),
     }
 
 
