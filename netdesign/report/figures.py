@@ -67,10 +67,4 @@ def write_svg(figure: Figure, name: str, title: str) -> str:
     text = re.sub(r"<style[^>]*>.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r' (id|xlink:href)="(#?)', rf' \1="\2{name}-', text)
     text = text.replace("url(#", f"url(#{name}-")
-    text = re.sub(r' d="[^"]*"', _shorten, text)
     return text.replace("<svg ", f'<svg role="img" aria-label="{title}" ', 1)
-
-
-def _shorten(path: re.Match[str]) -> str:
-    """Path with coordinates to a hundredth of a point: half the size on the page."""
-    return re.sub(r"(\.\d\d)\d+", r"\1", path[0])
