@@ -31,6 +31,7 @@ ROWS = (
     {"study", "check_site", "scene_file", "solution_file", "verification"}
     | {"site_cases", "envelope_record", "envelope_file"},
     {"report"},
+    {"benchmark"},
     {"cli", "commands"},
 )
 

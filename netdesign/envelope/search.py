@@ -239,28 +239,28 @@ def search_rows(
     Returns
     -------
     list of RowEnvelope
-        In the order of the tasks.
+        In the order of the tasks; equal tasks share one.
     """
-    finished: list[RowEnvelope | None] = [None] * len(tasks)
-    gaps = dict.fromkeys(range(len(tasks)), math.inf)
+    distinct = list(dict.fromkeys(tasks))
+    finished: dict[RowTask, RowEnvelope] = {}
+    gaps = dict.fromkeys(distinct, math.inf)
     open_rows = {
-        place: search_row(task, partial(gaps.__setitem__, place))
-        for place, task in enumerate(tasks)
+        task: search_row(task, partial(gaps.__setitem__, task)) for task in distinct
     }
-    asked = {place: next(talk) for place, talk in open_rows.items()}
+    asked = {task: next(talk) for task, talk in open_rows.items()}
     while asked:
         ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
-        answers = {p: [next(ends) for _ in jobs] for p, jobs in asked.items()}
+        answers = {task: [next(ends) for _ in jobs] for task, jobs in asked.items()}
         asked = {}
-        for place, answer in answers.items():
+        for task, answer in answers.items():
             try:
-                asked[place] = open_rows[place].send(answer)
+                asked[task] = open_rows[task].send(answer)
             except StopIteration as end:
-                finished[place] = end.value
+                finished[task] = end.value
         waiting = sum(len(jobs) for jobs in asked.values())
-        gap = max((gaps[place] for place in asked), default=0.0)
+        gap = max((gaps[task] for task in asked), default=0.0)
         on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
-    return [one for one in finished if one is not None]
+    return [finished[task] for task in tasks]
 
 
 def run_grid(
