@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from netdesign.errors import SiteDataError
+
 Severity = Literal["error", "note"]
 
 _LONGEST_QUOTE = 60
@@ -68,6 +70,17 @@ class Finding:
         if self.cell:
             return "the cell"
         return "the sheet" if self.sheet else "the file"
+
+
+def refuse_file(file: str, rule: str, accepted: str, sheet: str = "") -> SiteDataError:
+    """Error for a file, or one sheet of it, that cannot be read as a whole."""
+    finding = Finding(file=file, sheet=sheet, rule=rule, accepted=accepted)
+    return SiteDataError([finding])
+
+
+def note_file(file: str, rule: str, sheet: str = "") -> Finding:
+    """Remark on a file, or one sheet of it, that is read all the same."""
+    return Finding(file=file, sheet=sheet, rule=rule, severity="note")
 
 
 def quote(text: str) -> str:

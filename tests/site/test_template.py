@@ -81,7 +81,7 @@ def test_headings_have_units_notes_and_stay_in_view(example):
     assert headings == [field.heading for field in NETS.fields]
     assert nets.freeze_panes == "B2"
     assert all(cell.comment is not None for cell in nets[1])
-    assert "units: [deg] or [%]" in nets["B1"].comment.text
+    assert "units: [deg] or [%] or [rad]" in nets["B1"].comment.text
     assert "left empty: 0.02" in nets["K1"].comment.text
 
 
