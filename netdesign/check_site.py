@@ -128,7 +128,11 @@ def judge_site(
         profile=_record_profile(standard),
         rows=rows,
         range_inputs=list(site.range_inputs),
-        notes=[*site.notes, *_validity_notes(site.ranges, run.creep_law)],
+        notes=[
+            *site.notes,
+            *_validity_notes(site.ranges, run.creep_law),
+            *_layer_notes(site),
+        ],
         provenance=_record_provenance(site, run),
     )
 
@@ -141,6 +145,7 @@ def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[Case
                 thickness=row.snow_thickness,
                 upslope_length=row.upslope_length,
                 density=case.density,
+                layers=row.layers_at(case.density),
             ),
             ground=row.ground,
             net=Net(
@@ -193,7 +198,7 @@ def _judge_row(
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, law) for result in results],
+        cases=[_record_case(result, law, row) for result in results],
         inputs=list(row.inputs),
         drawing=_draw(row, _governing_result(checks, extremes)),
         reasons=unproven,
@@ -251,7 +256,7 @@ def _record_extreme(extreme: Extreme) -> ExtremeRecord:
     )
 
 
-def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
+def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     forces = {
         f"{member}_kN": _kilonewton(
             result.member_forces[member].value if result.is_converged else None
@@ -265,9 +270,18 @@ def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
-        is_calibrated=law.is_calibrated(result.case.density / ICE_DENSITY),
+        is_calibrated=all(
+            law.is_calibrated(density / ICE_DENSITY)
+            for density in _list_densities(row, result.case)
+        ),
         **forces,
     )
+
+
+def _list_densities(row: NetRow, case: Case) -> tuple[float, ...]:
+    """Density of each layer of a case [kg/m3]; of uniform snow the case's own."""
+    layers = row.layers_at(case.density)
+    return tuple(layer.density for layer in layers) or (case.density,)
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:
@@ -393,6 +407,17 @@ def _validity_notes(ranges: Ranges, law: CreepLaw) -> list[str]:
         f"snow densities of {ranges.density.low:g} to {ranges.density.high:g} kg/m3 "
         f"reach outside the {low:.0f} to {high:.0f} kg/m3 for which the creep law "
         f"{law.name} is given"
+    ]
+
+
+def _layer_notes(site: Site) -> list[str]:
+    """Say what the range of density does to layered snow."""
+    return [
+        f"net row {row.id}: its {len(row.layers)} layers of mean density "
+        f"{row.mean_density:.4g} kg/m3 keep their proportions; their mean follows the "
+        "range of density"
+        for row in site.rows
+        if row.layers
     ]
 
 

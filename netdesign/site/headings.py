@@ -247,7 +247,7 @@ def _find_unit(
             findings.append(below.finding(Refusal(rule, "one unit")))
             return None
         unit, cell = unit_below, below
-    if not unit and "-" in field.units and not example.is_percent:
+    if not unit and "-" in field.units:
         return "-"
     if unit in field.units:
         return unit

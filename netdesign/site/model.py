@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from netdesign.envelope.grid import Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.site.diagnostics import Finding
 from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 
 # What a member can fail by; the keys under which resistances are given.
@@ -65,6 +67,19 @@ class NetRow:
     layout: SupportLayout
     resistances: tuple[Resistance, ...]
     inputs: tuple[InputEcho, ...] = ()
+    layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
+
+    @property
+    def mean_density(self) -> float:
+        """Mean density of layered snow [kg/m3]."""
+        return compute_mean_density(self.layers)
+
+    def layers_at(self, density: float) -> tuple[Layer, ...]:
+        """Layers scaled to a mean density [kg/m3]; none for uniform snow."""
+        return tuple(
+            replace(layer, density=layer.density * density / self.mean_density)
+            for layer in self.layers
+        )
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -98,5 +113,6 @@ class Site:
     file_name: str
     sha256: str
     notes: tuple[str, ...] = ()  # e.g. columns that were not understood
+    findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)

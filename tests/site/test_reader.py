@@ -306,7 +306,8 @@ def test_a_percent_format_counts_as_shown_and_against_degrees_is_refused(
     sheets["Nets"][HEADINGS][1] = "slope angle [%]"
     sheets["Nets"][FIRST][1], sheets["Nets"][SECOND][1] = 0.7, 70
     rows = read_site(save(sheets, show_slope_as_percent)).rows
-    assert rows[0].slope_angle == rows[1].slope_angle == math.atan(0.7)
+    assert rows[0].slope_angle == rows[1].slope_angle
+    assert rows[0].slope_angle == pytest.approx(math.atan(0.7), rel=1e-15)
     assert echoes(rows[0])["slope angle"].text == "70 %"
 
 
