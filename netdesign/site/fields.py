@@ -120,6 +120,11 @@ class Field:
             return ", ".join(self.words)
         return "text"
 
+    def heading_for(self, language: Language) -> str:
+        """Label in a language, with the unit in brackets."""
+        label = self.wording(language).label
+        return f"{label} [{self.unit}]" if self.unit else label
+
     def heading_in(self, unit: str) -> str:
         """Label with another of the accepted units."""
         return f"{self.label} [{unit}]" if unit else self.label

@@ -9,9 +9,9 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from netdesign.site.fields import Field, SheetPlan, Wording
+from netdesign.site.fields import Field, Language, SheetPlan, Wording
 
-LANGUAGES = ("en", "fr", "de")
+LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 _TRANSLATED = ("fr", "de")  # English stands in columns.py, beside the fields
 
 
@@ -20,6 +20,11 @@ def load_words(language: str) -> Mapping[str, Any]:
     """Tables of a language's file, by sheet, then field."""
     file = files(__package__) / "words" / f"{language}.toml"
     return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def load_text(language: Language) -> Mapping[str, str]:
+    """General texts of the workbook; a missing one in English."""
+    return {**load_words("en")["text"], **load_words(language)["text"]}
 
 
 def word_field(field: Field, table: str) -> Field:
