@@ -94,6 +94,12 @@ class MergedRange:
     last_row: int
     last_column: int
 
+    @property
+    def size(self) -> int:
+        """Number of its cells."""
+        rows = self.last_row - self.row + 1
+        return rows * (self.last_column - self.column + 1)
+
     def covers(self, row: int, column: int) -> bool:
         """Whether a cell belongs to the range."""
         return (

@@ -418,5 +418,7 @@ PROJECT = word_plan(
 )
 
 SHEETS: tuple[SheetPlan, ...] = (PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS)
-# Sheets of `netdesign init` that hold nothing to read.
-QUIET_SHEETS: tuple[str, ...] = ("Notes", "Notice", "Hinweise")
+# The sheet that an annotated copy lists its findings on.
+FINDINGS_SHEET = "netdesign findings"
+# Sheets of the program's own that hold nothing to read.
+QUIET_SHEETS: tuple[str, ...] = ("Notes", "Notice", "Hinweise", FINDINGS_SHEET)

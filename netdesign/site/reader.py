@@ -52,7 +52,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
-    workbook = read_workbook(path, _is_wanted, is_heading, text_format)
+    workbook = read_cells(path, text_format)
     findings = list(workbook.remarks)
     tables = {plan.name: find_table(workbook, plan, findings) for plan in SHEETS}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
@@ -81,6 +81,11 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         range_inputs=built_ranges[1],
         project_cells=project_cells,
     )
+
+
+def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
+    """Cells of the sheets that a site workbook has; nothing is understood yet."""
+    return read_workbook(path, _is_wanted, is_heading, text_format)
 
 
 def is_heading(text: str) -> bool:

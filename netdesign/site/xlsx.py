@@ -7,11 +7,19 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from netdesign.errors import NetDesignError
 from netdesign.site.cells import Cell, MergedRange, Sheet, group_by_row
-from netdesign.site.limits import MAX_COLUMNS, MAX_ROWS, require_columns, require_rows
+from netdesign.site.diagnostics import refuse_file
+from netdesign.site.limits import (
+    MAX_COLUMNS,
+    MAX_ROWS,
+    guard_archive,
+    require_columns,
+    require_rows,
+)
 from netdesign.site.numbers import DecimalMark
 
 if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
@@ -27,6 +35,34 @@ def _open(content: bytes, *, stored_results: bool) -> OpenWorkbook:
     return openpyxl.load_workbook(
         BytesIO(content), read_only=True, data_only=stored_results, keep_links=False
     )
+
+
+_MOST_MERGED = 100_000
+
+
+def open_for_editing(path: Path) -> OpenWorkbook:
+    """Workbook with its formats and formulas, to be changed and saved; no macros.
+
+    Raises
+    ------
+    SiteDataError
+        If it is too large for that: in this mode every merged cell costs memory.
+    """
+    import openpyxl
+
+    content = path.read_bytes()
+    guard_archive(path.name, content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for sheet in _open(content, stored_results=True).worksheets:
+            layout = _scan_layout(sheet)
+            require_rows(path.name, sheet.title, layout.last_row)
+            if sum(merged.size for merged in layout.merged) > _MOST_MERGED:
+                accepted = f"at most {_MOST_MERGED} cells"
+                raise refuse_file(
+                    path.name, "has too many merged cells", accepted, sheet.title
+                )
+        return openpyxl.load_workbook(BytesIO(content), keep_links=False)
 
 
 def read_xlsx(
