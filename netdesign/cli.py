@@ -14,6 +14,12 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import click
 
 from netdesign import __version__
+from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
+from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
+from netdesign.commands.diff import diff
+from netdesign.commands.doctor import doctor
+from netdesign.commands.site_input import open_site, site_options
+from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
@@ -43,12 +49,20 @@ def cli() -> None:
     netdesign check --example          a first look
     netdesign init site.xlsx           an input workbook to fill in
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
+    netdesign diff old.json new.json   what changed between two studies
     """
 
 
-@cli.command()
+cli.add_command(completion)
+cli.add_command(diff)
+cli.add_command(doctor)
+cli.add_command(standards)
+
+
+@cli.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
 @click.option("--example", is_flag=True, help="Use the built-in example site.")
+@site_options
 @click.option(
     "--standard",
     "standards",
@@ -101,13 +115,20 @@ def check(
     dry_run: bool,
     force: bool,
     quiet: bool,
+    **reading: Any,
 ) -> None:
-    """Check every anchor of a site workbook and write the reports.
+    """Check every anchor of a site and write the reports.
 
     \b
     netdesign check --example
     netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
+    netdesign check site.csv --delimiter ";" --decimal-mark comma
     netdesign check site.xlsx --json > study.json
+
+    The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
+    may stand in netdesign.toml beside it, or in variables such as
+    NETDESIGN_CHECK_JOBS.
     """
     from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
     from netdesign.checks import load_standard
@@ -125,7 +146,7 @@ def check(
         raise click.UsageError(
             "give a site workbook, or --example for the built-in one"
         )
-    site = _read_site(site_file)
+    site = _read_site(site_file, overwrite=force, **reading)
     chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
     profiles = [load_standard(name) for name in chosen]
     if len({profile.id for profile in profiles}) < len(profiles):
@@ -155,19 +176,29 @@ def check(
 @cli.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--example", is_flag=True, help="Fill in the built-in example site.")
+@click.option(
+    "--language",
+    type=click.Choice(["en", "fr", "de"]),
+    default="en",
+    show_default=True,
+    help="Of headings, words and notes; all three are read.",
+)
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
-def init(site_file: Path, *, example: bool, force: bool) -> None:
+def init(
+    site_file: Path, *, example: bool, language: Literal["en", "fr", "de"], force: bool
+) -> None:
     """Write an input workbook to fill in.
 
     \b
     netdesign init site.xlsx
+    netdesign init chantier.xlsx --language fr
     netdesign init example.xlsx --example
     """
     from netdesign.output import require_free
     from netdesign.site.template import write_site_workbook
 
     require_free([site_file], overwrite=force)
-    write_site_workbook(site_file, example=example, overwrite=force)
+    write_site_workbook(site_file, example=example, overwrite=force, language=language)
     click.echo(f"wrote {site_file}", err=True)
 
 
@@ -235,15 +266,11 @@ def report(
     \b
     netdesign report netdesign-out/study.json --out again
     """
-    from netdesign.errors import StudyError
     from netdesign.output import require_free, write_files
     from netdesign.report.files import list_reports, name_files, render_files
-    from netdesign.study import read_document
+    from netdesign.study import load_study
 
-    try:
-        study = read_document(study_file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"{study_file}: cannot be read: {error}") from None
+    study = load_study(study_file)
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(out, [study.profile.id], kinds)
     require_free(names[0], overwrite=force)
@@ -291,56 +318,15 @@ def verify(*, as_json: bool) -> None:
     sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
-@cli.group()
-def standards() -> None:
-    """Show the limit profiles.
-
-    \b
-    netdesign standards list
-    netdesign standards show nf-p-95-304-style
-    netdesign standards validate my-profile/
-    """
-
-
-@standards.command("list")
-def list_profiles() -> None:
-    """List the profiles that come with the program."""
-    from netdesign.checks import list_standards, load_standard
-
-    for name in list_standards():
-        click.echo(f"{name}  {load_standard(name).title}")
-
-
-@standards.command("show")
-@click.argument("name", metavar="ID")
-def show_profile(name: str) -> None:
-    """Show every value of a profile with its status and source."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(name)
-    click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
-    click.echo(f"sha256 {profile.sha256}\n\n{profile.what_it_is}")
-    click.echo(f"{profile.what_it_is_not}\n")
-    for entry in profile.values:
-        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
-        click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
-
-
-@standards.command("validate")
-@click.argument("folder", type=click.Path(path_type=Path))
-def validate_profile(folder: Path) -> None:
-    """Validate a profile folder; every fault is told."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(folder)
-    click.echo(f"{profile.id}: {len(profile.values)} values, sha256 {profile.sha256}")
-
-
 def main() -> NoReturn:
     """Entry point: every way of ending has its own exit code."""
+    if instruction := os.environ.get(COMPLETE_VARIABLE):
+        sys.exit(answer_shell(cli, instruction))
     try:
         # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
-        with cli.make_context("netdesign", sys.argv[1:]) as context:
+        with cli.make_context(
+            "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
+        ) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
@@ -372,12 +358,10 @@ def main() -> NoReturn:
     sys.exit(0)
 
 
-def _read_site(site_file: Path | None) -> Site:
-    """Site from a workbook; the example goes through a real workbook too."""
-    from netdesign.site.reader import read_site
-
+def _read_site(site_file: Path | None, **reading: Any) -> Site:
+    """Site from a file; the example goes through a real workbook too."""
     if site_file is not None:
-        return read_site(site_file)
+        return open_site(site_file, **reading)
     import tempfile
 
     from netdesign.site.template import write_site_workbook
@@ -385,7 +369,7 @@ def _read_site(site_file: Path | None) -> Site:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
-        return read_site(path)
+        return open_site(path, **reading)
 
 
 def _show(studies: Sequence[Study], *, as_json: bool) -> None:
