@@ -147,7 +147,7 @@ def _understand_thickness(
     """Snow thickness normal to the slope [m]: of one column, or of the layers."""
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
-    if "faulty" in (thickness.state, height.state, slope_angle.state):
+    if "faulty" in (thickness.state, height.state):
         return None
     if thickness.state == height.state == "given":
         rule = f"is given beside the snow thickness in {thickness.place}"
@@ -163,6 +163,8 @@ def _understand_thickness(
         empty = thickness if thickness.cell is not None else height
         rule = "is empty: neither snow thickness nor vertical height is given"
         refuse(empty, rule, empty.field.accepted, findings)
+        return None
+    if slope_angle.state == "faulty":
         return None
     return height.si * math.cos(slope_angle.si)
 

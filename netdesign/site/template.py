@@ -51,9 +51,9 @@ _OPTIONS = {
     "strings_to_numbers": False,
     "strings_to_urls": False,
     "in_memory": True,
-    # Every office has it or its double, so that widths are the same in all programs.
-    "default_format_properties": {"font_name": "Arial", "font_size": 10},
 }
+# Every office has it or its double, so that widths are the same in all programs.
+_FONT = {"font_name": "Arial", "font_size": 10}
 
 _Lines = Sequence[Mapping[str, object]]  # of one sheet, by field key
 
@@ -103,7 +103,9 @@ def write_site_workbook(
     require_free([path], overwrite=overwrite)
     lines = load_example() if example else _starting_lines()
     content = BytesIO()
-    workbook = xlsxwriter.Workbook(content, _OPTIONS)
+    # a copy of the font: XlsxWriter writes into what it is given
+    options = {**_OPTIONS, "default_format_properties": dict(_FONT)}
+    workbook = xlsxwriter.Workbook(content, options)
     title = load_text(language)["title"]
     workbook.set_properties({"title": title, "created": _CREATED})
     book = _Book(workbook, language, _add_formats(workbook))
@@ -243,8 +245,8 @@ def _validation(field: Field, book: _Book) -> dict[str, Any] | None:
         return {"validate": "list", "source": words}
     if field.refers_to:
         # A warning only: the type may be defined afterwards.
-        name = next(plan for plan in SHEETS if plan.name == field.refers_to)
-        ids = f"='{name.name_in(book.language)}'!$A$2:$A${_LAST_ROW + 1}"
+        plan = next(plan for plan in SHEETS if plan.name == field.refers_to)
+        ids = f"='{plan.name_in(book.language)}'!$A$2:$A${_LAST_ROW + 1}"
         return {"validate": "list", "source": ids, "error_type": "warning"}
     low, high = field.bounds
     if low == high:  # ends of ranges: their bounds depend on the line
@@ -264,13 +266,11 @@ def _validation(field: Field, book: _Book) -> dict[str, Any] | None:
 
 def _offer_profiles(sheet: Worksheet, lines: _Lines) -> None:
     """Offer the limit profiles beside the item that names one; others are folders."""
-    row = next(k for k, line in enumerate(lines, 1) if line["item"] == "standard")
-    profiles = {
-        "validate": "list",
-        "source": list(list_standards()),
-        "error_type": "warning",
-    }
-    sheet.data_validation(row, 1, row, 1, profiles)
+    ids = list(list_standards())
+    profiles = {"validate": "list", "source": ids, "error_type": "warning"}
+    for row, line in enumerate(lines, start=1):
+        if line["item"] == "standard":
+            sheet.data_validation(row, 1, row, 1, profiles)
 
 
 def _offer_quantities(sheet: Worksheet, book: _Book) -> None:

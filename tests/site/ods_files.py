@@ -14,7 +14,8 @@ NAMES = " ".join(
         "table": "urn:oasis:names:tc:opendocument:xmlns:table:1.0",
         "text": "urn:oasis:names:tc:opendocument:xmlns:text:1.0",
         "style": "urn:oasis:names:tc:opendocument:xmlns:style:1.0",
-        "calcext": "urn:org:documentfoundation:names:experimental:calc:xmlns:calcext:1.0",
+        "calcext": "urn:org:documentfoundation:names:experimental:calc:xmlns:"
+        "calcext:1.0",
     }.items()
 )
 

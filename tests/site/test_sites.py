@@ -6,12 +6,6 @@ import subprocess
 
 import openpyxl
 import pytest
-
-from netdesign.errors import SiteDataError
-from netdesign.site.annotate import annotate_workbook
-from netdesign.site.model import MEMBER_MODES
-from netdesign.site.reader import read_site
-from netdesign.snow.ground import build_ground_from_glide_factor
 from ods_files import write_ods
 from whole_sites import (
     DAMAGED_FINDINGS,
@@ -23,6 +17,12 @@ from whole_sites import (
     french_site,
     german_site,
 )
+
+from netdesign.errors import SiteDataError
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+from netdesign.snow.ground import build_ground_from_glide_factor
 
 
 def merge_german_headings(workbook):
@@ -115,14 +115,14 @@ def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
 
 
 def test_the_german_site_saved_by_libreoffice(save):
-    check_german(
-        read_site(convert(save(german_site(), merge_german_headings), "ods"))
-    )
+    check_german(read_site(convert(save(german_site(), merge_german_headings), "ods")))
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):
     findings = refused(save(damaged_site()))
-    errors = {(f"{f.sheet}!{f.cell}", f.rule) for f in findings if f.severity == "error"}
+    errors = {
+        (f"{f.sheet}!{f.cell}", f.rule) for f in findings if f.severity == "error"
+    }
     assert errors == DAMAGED_FINDINGS
     accepted = {f.cell: f.accepted for f in findings}
     assert '(nearest: "A32" in Anchors!A2)' in accepted["I3"]

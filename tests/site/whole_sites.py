@@ -85,8 +85,10 @@ def german_site() -> Sheets:
                 *("Stützenabstand", "Stützenneigung", "Anker", None, None),
                 *("Abspannseil", None, "Stütze"),
             ],
-            [*[None] * 10, "Fuß", "bergseitiger", "talseitiger"]
-            + ["bergseitiges", "talseitiges"],
+            [
+                *([None] * 10),
+                *("Fuß", "bergseitiger", "talseitiger", "bergseitiges", "talseitiges"),
+            ],
             ["", "°", "cm", "m", "", "m", "m", "N/m", "m", "gon"],
             [
                 *("W1", "38,5", "280", "20", "frei", None, "3,2", "12.500.000"),
@@ -134,8 +136,10 @@ def damaged_site() -> Sheets:
             ],
             ["R1", 40, 3.0, 20, "free", 3.5, "1,234", 3.5, "A32", "G18", "fine"],
             ["R1", "4O", 3.0, 20, "slipery", 3.5, 9000, "=7/2", "A23", "G81", None],
-            ["R3", 38, 3.0, 20, "free", 3.5, "#REF!"]
-            + [datetime.datetime(2026, 5, 3), "A32", None, None],
+            [
+                *("R3", 38, 3.0, 20, "free", 3.5, "#REF!"),
+                *(datetime.datetime(2026, 5, 3), "A32", None, None),
+            ],
         ],
         "Ranges": [
             ["quantity", "low", "high"],
@@ -149,7 +153,10 @@ def damaged_site() -> Sheets:
 
 
 DAMAGED_FINDINGS = {
-    ("Nets!B1", "has no unit: B2 could be 40 deg or 40 % (21.8 deg) or 40 gon (36 deg)"),
+    (
+        "Nets!B1",
+        "has no unit: B2 could be 40 deg or 40 % (21.8 deg) or 40 gon (36 deg)",
+    ),
     (
         "Nets!C1",
         'is ambiguous: "snow thickness [m]" or "snow height vertical [m]"',
