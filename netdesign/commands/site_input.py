@@ -102,9 +102,8 @@ def _write_copy(
     findings = [one for one in read.findings if isinstance(one, Finding)]
     try:
         content = annotate_workbook(path, findings, text_format)
-    except SiteDataError:
-        message = f"{path} cannot be read at all: there is no copy to annotate"
-        click.echo(message, err=True)
+    except SiteDataError as error:
+        click.echo(f"no annotated copy: {error}", err=True)
         return
     write_files({copy: content})
     click.echo(f"wrote {copy}", err=True)

@@ -11,10 +11,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from netdesign.errors import SiteDataError
 from netdesign.site.cells import UNDECLARED, Sheet, TextFormat
 from netdesign.site.columns import FINDINGS_SHEET
-from netdesign.site.diagnostics import Finding
+from netdesign.site.diagnostics import Finding, quote, refuse_file
+from netdesign.site.limits import DAMAGE
 from netdesign.site.reader import read_cells
 from netdesign.site.xlsx import open_for_editing
 
@@ -58,13 +58,14 @@ def annotate_workbook(
     """
     import openpyxl
 
+    cells = read_cells(path, text_format)  # refuses what cannot be read at all
     if path.suffix.casefold() in _WORKBOOK_SUFFIXES:
-        workbook = open_for_editing(path)
+        workbook = _open(path)
         _remove_old_marks(workbook)
     else:
         workbook = openpyxl.Workbook()
         workbook.remove(workbook.worksheets[0])
-        for sheet in read_cells(path, text_format).sheets:
+        for sheet in cells.sheets:
             _copy_sheet(workbook, sheet)
     for finding in findings:
         if finding.cell and finding.sheet in workbook.sheetnames:
@@ -75,9 +76,13 @@ def annotate_workbook(
     return content.getvalue()
 
 
-def find_findings(error: SiteDataError) -> list[Finding]:
-    """Findings of a refusal."""
-    return [finding for finding in error.findings if isinstance(finding, Finding)]
+def _open(path: Path) -> OpenWorkbook:
+    try:
+        return open_for_editing(path)
+    except DAMAGE as error:  # in a part that reading the site does not look at
+        detail = quote(f"{type(error).__name__}: {error}")
+        rule = f"holds something that cannot be copied ({detail})"
+        raise refuse_file(path.name, rule, "a copy saved without it") from error
 
 
 def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+import zlib
 from collections.abc import Iterable
 from io import BytesIO
 
@@ -17,6 +18,21 @@ MAX_ENTRIES = 500
 MAX_RATIO = 200.0
 MAX_ROWS = 2000
 MAX_COLUMNS = 200
+
+# What zipfile, the XML parsers and openpyxl raise on damaged or hostile files.
+DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 _RATIO_COUNTS_ABOVE = 2**20  # small parts may be as regular as they like
 _CHUNK = 2**16

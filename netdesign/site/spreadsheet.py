@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import zipfile
-import zlib
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -12,7 +11,7 @@ from pathlib import Path
 from netdesign.site.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.delimited import read_delimited
 from netdesign.site.diagnostics import Finding, note_file, quote, refuse_file
-from netdesign.site.limits import MAX_FILE_BYTES, guard_archive
+from netdesign.site.limits import DAMAGE, MAX_FILE_BYTES, guard_archive
 from netdesign.site.ods import read_ods
 from netdesign.site.xlsx import read_xlsx
 
@@ -21,21 +20,6 @@ _ZIP_MAGIC = b"PK"
 _ACCEPTED_FILE = "a workbook saved as .xlsx, .xlsm or .ods without password, or csv"
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 _MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
-
-# What zipfile, the XML parsers and openpyxl raise on damaged or hostile files.
-_DAMAGE = (
-    ArithmeticError,
-    AttributeError,
-    EOFError,
-    LookupError,
-    OSError,
-    RuntimeError,
-    SyntaxError,
-    TypeError,
-    ValueError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
 
 _Content = tuple[tuple[Sheet, ...], tuple[str, ...], tuple[Finding, ...]]
 
@@ -109,7 +93,7 @@ def _read_archive(
         read = (read_ods if is_ods else read_xlsx)(
             file, content, is_wanted, text_format.decimal_mark
         )
-    except _DAMAGE as error:
+    except DAMAGE as error:
         cause = error.__cause__ or error  # openpyxl wraps what the parser says
         detail = quote(f"{type(cause).__name__}: {cause}")
         raise refuse_file(

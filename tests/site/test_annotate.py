@@ -2,6 +2,7 @@ import zipfile
 
 import openpyxl
 import pytest
+from openpyxl.comments import Comment
 
 from netdesign.errors import SiteDataError
 from netdesign.site.annotate import annotate_workbook
@@ -33,8 +34,6 @@ def test_a_mended_copy_is_read_clean_and_its_marks_go(sheets, save, tmp_path):
 
 
 def test_a_comment_of_the_engineer_stays(sheets, save, tmp_path):
-    from openpyxl.comments import Comment
-
     sheets["Nets"][1][1] = "4O"
 
     def remark(workbook):
@@ -89,4 +88,20 @@ def test_a_workbook_merged_all_over_is_not_opened(sheets, save, tmp_path):
         for name, content in parts.items():
             archive.writestr(name, content.replace(b'"A9:B9"', b'"A9:XFD9999"'))
     with pytest.raises(SiteDataError, match="too many merged cells"):
+        annotate_workbook(path, [])
+
+
+def test_a_part_that_only_the_copy_needs_may_be_damaged(sheets, save):
+    def remark(workbook):
+        workbook["Posts"]["A2"].comment = Comment("from the maker", "engineer")
+
+    path = save(sheets, remark)
+    with zipfile.ZipFile(path) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    comments = next(name for name in parts if "/comment" in name and ".xml" in name)
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in parts.items():
+            archive.writestr(name, b"<broken" if name == comments else content)
+    assert len(read_site(path).rows) == 2
+    with pytest.raises(SiteDataError, match="cannot be copied"):
         annotate_workbook(path, [])
