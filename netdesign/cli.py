@@ -458,7 +458,7 @@ def _exit_code(studies: Sequence[Study]) -> int:
 
 def _count_findings(error: SiteDataError) -> str:
     count = len(error.findings)
-    return f"{count} finding{'s' if count != 1 else ''}; nothing was written"
+    return f"{count} finding{'s' if count != 1 else ''}; nothing was checked"
 
 
 def _own_command() -> str:

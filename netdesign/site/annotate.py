@@ -15,6 +15,7 @@ from netdesign.site.cells import UNDECLARED, Sheet, TextFormat
 from netdesign.site.columns import FINDINGS_SHEET
 from netdesign.site.diagnostics import Finding, quote, refuse_file
 from netdesign.site.limits import DAMAGE
+from netdesign.site.notes_sheet import count_lines
 from netdesign.site.reader import read_cells
 from netdesign.site.xlsx import open_for_editing
 
@@ -34,6 +35,7 @@ _HEADINGS = (
 )
 _WIDTHS = (10, 16, 8, 28, 24, 60, 60)
 _WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
+_FONT, _LINE = "Arial", 13.5  # height of a line [pt]
 _COMMENT_SIZE = (320, 130)  # [px]
 
 
@@ -139,7 +141,7 @@ def _list_findings(workbook: OpenWorkbook, findings: Sequence[Finding]) -> None:
     for column, (heading, width) in enumerate(
         zip(_HEADINGS, _WIDTHS, strict=True), start=1
     ):
-        sheet.cell(1, column, heading).font = Font(bold=True)
+        sheet.cell(1, column, heading).font = Font(name=_FONT, size=10, bold=True)
         sheet.column_dimensions[get_column_letter(column)].width = width
     for row, finding in enumerate(findings, start=2):
         texts = (
@@ -150,13 +152,16 @@ def _list_findings(workbook: OpenWorkbook, findings: Sequence[Finding]) -> None:
             cell = sheet.cell(row, column)
             _write(cell, text)
             cell.alignment = Alignment(wrap_text=True, vertical="top")
+            cell.font = Font(name=_FONT, size=10)
+        lines = max(map(count_lines, texts, _WIDTHS))
+        sheet.row_dimensions[row].height = _LINE * lines
         sheet.cell(row, 1).fill = PatternFill(
             "solid", start_color=_COLOURS[finding.severity]
         )
         if finding.cell and finding.sheet in workbook.sheetnames:
             target = finding.sheet.replace("'", "''")
             sheet.cell(row, 3).hyperlink = f"#'{target}'!{finding.cell}"
-            sheet.cell(row, 3).style = "Hyperlink"
+            sheet.cell(row, 3).font = Font(name=_FONT, size=10, underline="single")
     sheet.freeze_panes = "A2"
     sheet.print_title_rows = "1:1"
     sheet.page_setup.orientation = "landscape"

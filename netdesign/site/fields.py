@@ -93,15 +93,15 @@ class Field:
 
     @property
     def spellings(self) -> dict[str, str]:
-        """Word of the table by each of its spellings, normalised."""
+        """Word of the table by each of its spellings in every language."""
         found = {
-            normalise(spelling): word
+            spelling: word
             for word, aliases in self.words.items()
             for spelling in (word, *aliases)
         }
         for wording in self.wordings.values():
             for word, names in wording.words.items():
-                found |= {normalise(name): word for name in names}
+                found |= dict.fromkeys(names, word)
         return found
 
     def wording(self, language: Language) -> Wording:

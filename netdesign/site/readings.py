@@ -161,6 +161,18 @@ def refuse_stored(cell: Cell) -> Refusal | None:
     return None
 
 
+def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
+    """Read a cell whose column has no usable unit: only what no unit can mend."""
+    if cell.is_blank:
+        refusal = Refusal("is empty", field.accepted) if field.required else None
+    else:
+        number = refuse_stored(cell) or _parse(cell)
+        refusal = number if isinstance(number, Refusal) else None
+    if refusal:
+        findings.append(cell.finding(refusal, field.label))
+    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+
+
 def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:
     if refusal := refuse_stored(cell):
         return refusal
@@ -207,7 +219,8 @@ def _take_percentage(cell: Cell, unit: str) -> float | Refusal:
 
 
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:
-    word = field.spellings.get(normalise(str(cell.value)))
+    spellings = {normalise(name): word for name, word in field.spellings.items()}
+    word = spellings.get(normalise(str(cell.value)))
     if word is None:
         accepted = add_nearest(field.accepted, str(cell.value), field.spellings)
         return Refusal("is not a known word", accepted)

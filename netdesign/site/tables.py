@@ -11,7 +11,13 @@ from netdesign.site.cells import Cell, Sheet, Workbook
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest
 from netdesign.site.fields import Field, SheetPlan
 from netdesign.site.headings import Column, Headings, find_cover, find_headings
-from netdesign.site.readings import Reading, Row, read_cell, read_nothing
+from netdesign.site.readings import (
+    Reading,
+    Row,
+    read_cell,
+    read_nothing,
+    read_without_unit,
+)
 
 # What makes a single text below a table a note and not the start of another line.
 _NOTE = re.compile(
@@ -97,7 +103,7 @@ def _read_field(
         return read_nothing(field, None)
     cell = table.sheet.cell(row, column.number)
     if column.unit is None:  # so is the unit
-        return Reading(field=field, state="faulty", cell=cell)
+        return read_without_unit(cell, field, findings)
     return read_cell(cell, field, column.unit, findings)
 
 

@@ -169,6 +169,7 @@ DAMAGED_FINDINGS = {
     ("Nets!", 'lacks the heading "net height [m]"'),
     ("Nets!G2", "is ambiguous: 1.234 or 1234"),
     ("Nets!A3", "is used twice: also in Nets!A2"),
+    ("Nets!B3", "is not a number"),
     ("Nets!E3", "is not a known word"),
     ("Nets!H3", "is a formula without a stored result"),
     ("Nets!I3", "is no id of sheet Anchors"),
