@@ -18,6 +18,7 @@ from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, compl
 from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
 from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
+from netdesign.commands.dry_run import announce
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
@@ -33,8 +34,6 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
 DEFAULT_FOLDER = "netdesign-out"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
-# Rough time of one case on one core of a small server; for --dry-run only.
-_SECONDS_A_CASE = 0.12
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 130 interrupted."
@@ -158,7 +157,7 @@ def check(
         started=_now(),
     )
     if dry_run:
-        _announce(site, count_cases(site), run.jobs, as_json=as_json)
+        announce(site, run, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_reports(html=html, excel=excel, csv=csv)
@@ -428,26 +427,6 @@ def _show_plateau(document: dict[str, Any]) -> None:
 def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
     for path in [] if quiet else [path for group in names for path in group]:
         click.echo(f"wrote {path}", err=True)
-
-
-def _announce(site: Site, cases: int, jobs: int, *, as_json: bool) -> None:
-    seconds = max(1.0, cases * _SECONDS_A_CASE / jobs)
-    if as_json:
-        plan = {
-            "schema": "netdesign.plan/1",
-            "net_rows": len(site.rows),
-            "cases": cases,
-            "predicted_s": seconds,
-            "notes": list(site.notes),
-        }
-        click.echo(json.dumps(plan, indent=1))
-        return
-    click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
-        f"{seconds:.0f} s with {jobs} processes; nothing was written"
-    )
-    for note in site.notes:
-        click.echo(f"note: {note}")
 
 
 def _exit_code(studies: Sequence[Study]) -> int:
