@@ -66,7 +66,11 @@ def solve_rigid(
         balance = measure_balance(
             end.law, end.mesh, end.forces, force.vector, None, scale
         )
-        check_balance(balance, chosen.balance_tolerance)
+        check_balance(
+            balance,
+            chosen.balance_tolerance,
+            friction_tolerance=chosen.stress_tolerance,
+        )
     except SolveError as failure:
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
     nodes = end.mesh.nodes[:, end.mesh.template.net]

@@ -6,7 +6,7 @@ are (normal, tangential); pressures and shears are forces of the snow on its sup
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +85,22 @@ def update_contact(
     )
 
 
+def change_first(contact: Contact, wanted: Contact) -> Contact:
+    """Contact with only the first of the wanted changes on the net, and on the ground.
+
+    Murty's rule: where changing every node at once goes round in circles, changing
+    the first one alone does not.
+    """
+    sign, is_open = contact.sign.copy(), contact.is_open.copy()
+    on_net = (sign != wanted.sign) | (is_open != wanted.is_open)
+    first = np.flatnonzero(on_net)[:1]
+    sign[first], is_open[first] = wanted.sign[first], wanted.is_open[first]
+    is_lifted = contact.is_lifted.copy()
+    first = np.flatnonzero(is_lifted != wanted.is_lifted)[:1]
+    is_lifted[first] = wanted.is_lifted[first]
+    return replace(wanted, sign=sign, is_open=is_open, is_lifted=is_lifted)
+
+
 def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     """Mask (n_dofs,) of unknowns that neither net nor ground holds."""
     free = np.ones(mesh.n_dofs, dtype=bool)
@@ -95,7 +111,9 @@ def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     free[tangential] = contact.is_open | (contact.sign != 0)
     free[2 * ground + 1] = contact.is_lifted
     if law.ground == "no-slip":
-        free[2 * ground] = contact.is_lifted
+        free[2 * ground[:-1]] = contact.is_lifted[:-1]
+        # the corner upslope still adheres where it lifts: free, it would sink again
+        free[2 * ground[-1]] = False
     return free
 
 
@@ -131,8 +149,11 @@ def _update_slip(
     exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
     released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
     with_friction = np.where(against_sign, released, contact.sign)
-    frictionless = np.where(velocity < 0.0, -1, 1)
-    return np.where(limit > 0.0, with_friction, frictionless).astype(np.int64)
+    as_it_moves = np.where(velocity < 0.0, -1, 1)
+    # snow that slid without friction goes on the way it went
+    was_loose = (contact.sign != 0) & ~contact.is_pressed & (velocity != 0.0)
+    keeps_friction = (limit > 0.0) & ~was_loose
+    return np.where(keeps_friction, with_friction, as_it_moves).astype(np.int64)
 
 
 def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:
