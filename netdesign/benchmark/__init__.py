@@ -1,0 +1,1 @@
+"""Run time against error, and stability, of the program itself."""
