@@ -119,10 +119,9 @@ def _assemble_force(
 def _assemble_base_matrix(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
     base = _build_base_basis(mesh)
     form = skfem.BilinearForm(lambda v, w, at: at.modulus * v[0] * w[0])
-    matrix = form.assemble(base.basis, modulus=_on_base(base, modulus))
-    grown = sparse.csr_matrix(matrix)
-    grown.resize(mesh.n_dofs, mesh.n_dofs)
-    return grown
+    matrix = form.assemble(base.basis, modulus=_on_base(base, modulus)).tocoo()
+    entries = (matrix.data, (matrix.row, matrix.col))
+    return sparse.csr_matrix(entries, shape=(mesh.n_dofs, mesh.n_dofs))
 
 
 def _assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
@@ -153,7 +152,8 @@ def _solve(
     if shares is not None:
         # normal rows are added to the tangential rows after them, eq. (F6)
         friction = sparse.identity(mesh.n_dofs) + sparse.diags(shares[1:], -1)
-        matrix, force = friction @ matrix, friction @ force
+        matrix = sparse.csr_matrix(friction @ matrix)
+        force = np.asarray(friction @ force)
     held = np.flatnonzero(~free_unknowns(law, mesh, contact))
     condensed = skfem.condense(sparse.csc_matrix(matrix), -force, D=held)
     return np.asarray(skfem.solve(*condensed))

@@ -13,13 +13,14 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from statistics import quantiles
 from typing import Any, Literal
 
 from netdesign.benchmark.random_scenes import Tables, draw_scene
 from netdesign.benchmark.spread import spread
+from netdesign.benchmark.statistics import summarise_times
+from netdesign.benchmark.truth import state_error
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady import solve_steady
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
@@ -139,11 +140,6 @@ def _solve(
     )
 
 
-def state_error(solution: Solution) -> float:
-    """Larger relative error of the end forces that a solution states [-]."""
-    return max(pull.error / pull.size for pull in (solution.foot, solution.head))
-
-
 def write_stress(
     attempts: Sequence[Attempt], seed: int, accuracy: float = DEFAULT_ACCURACY
 ) -> dict[str, Any]:
@@ -169,14 +165,6 @@ def write_stress(
             for one in by_time[:_SLOWEST_SHOWN]
         ],
     }
-
-
-def summarise_times(times: Sequence[float]) -> dict[str, float | None]:
-    """Median and 95th percentile [s]; None of fewer than two."""
-    if len(times) < 2:
-        return {"median_s": None, "p95_s": None}
-    parts = quantiles(times, n=20, method="inclusive")
-    return {"median_s": parts[9], "p95_s": parts[18]}
 
 
 def generalise(reason: str) -> str:
