@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from statistics import quantiles
 
 import numpy as np
@@ -20,3 +20,9 @@ def fit_order(sizes: Sequence[float], values: Sequence[float]) -> float:
     """Power p of the best fit values ~ sizes^p, on logarithms [-]."""
     slope, _ = np.polyfit(np.log(sizes), np.log(values), 1)
     return float(slope)
+
+
+def share(holds: Iterable[bool]) -> float | None:
+    """Share of what holds; None of nothing."""
+    found = list(holds)
+    return sum(found) / len(found) if found else None

@@ -153,6 +153,7 @@ def write_stress(
         "seed": seed,
         "accuracy": accuracy,
         "converged": len(converged),
+        "pass": not any(one.kind == "failed" for one in attempts),
         "refused": _count_refusals(attempts),
         "failures": [_write_failure(one) for one in attempts if one.kind == "failed"],
         "accuracy_missed": sum(not one.stated_error <= accuracy for one in converged),
