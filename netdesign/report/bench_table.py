@@ -11,16 +11,14 @@ from netdesign.benchmark.summary import summarise
 if TYPE_CHECKING:
     from rich.console import Console
 
-_HEADINGS = (
-    *("Elements", "Unknowns", "Time ms", "Error %", "Stated %", "Solves", "MB"),
-)
+_HEADINGS = ("Elements", "Time ms", "Error %", "Stated %", "Solves", "MB")
 
 
 def print_rows(rows: Sequence[Row], console: Console) -> None:
     """Print one line per row, then what they say together."""
     from rich.table import Table
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
     for heading in ("Scene", "Method", "Path"):
         table.add_column(heading, no_wrap=True)
     for heading in _HEADINGS:
@@ -31,7 +29,6 @@ def print_rows(rows: Sequence[Row], console: Console) -> None:
             row.method,
             row.path,
             f"{row.elements}",
-            f"{row.degrees_of_freedom}",
             f"{1e3 * row.wall_s:.1f}",
             f"{100 * row.error:.3f}",
             f"{100 * row.stated_error:.3f}",
@@ -70,10 +67,10 @@ def print_errors(document: Mapping[str, Any], console: Console) -> None:
         document[f"share_{what}"] for what in ("inside_stated_error", "below_accuracy")
     ]
     lines = [
-        f"{document['compared']} of {document['scenes']} scenes compared with a mesh four "
-        "times finer",
-        f"true error inside the stated one: {_show(share[0], '.1%')}; below the accuracy "
-        f"of {document['accuracy']:g}: {_show(share[1], '.1%')}",
+        f"{document['compared']} of {document['scenes']} scenes compared with a mesh "
+        "four times finer",
+        f"true error inside the stated one: {_show(share[0], '.1%')}; below the "
+        f"accuracy of {document['accuracy']:g}: {_show(share[1], '.1%')}",
         f"time: median {_show(document['median_s'], '.3f')} s, 95 % below "
         f"{_show(document['p95_s'], '.3f')} s",
         *(
@@ -95,14 +92,15 @@ def _describe(rows: Sequence[Row]) -> list[str]:
     lines = []
     if found.times_faster is not None:
         lines.append(
-            f"fast path: {found.times_faster:.1f} times faster than plain scikit-fem on "
-            f"the same mesh (median; {found.least_times_faster:.1f} to "
+            f"fast path: {found.times_faster:.1f} times faster than plain scikit-fem "
+            f"on the same mesh (median; {found.least_times_faster:.1f} to "
             f"{found.most_times_faster:.1f})"
         )
     if found.cost_order is not None:
         lines.append(
             f"time grows as unknowns^{found.cost_order:.2f} (median; at most "
-            f"{found.worst_cost_order:.2f}), the error falls as h^{found.error_order:.1f}"
+            f"{found.worst_cost_order:.2f}), the error falls as "
+            f"h^{found.error_order:.1f}"
         )
     return lines
 
