@@ -83,7 +83,7 @@ def run_stress(
 
     Verified by
     -----------
-    tests/benchmark/test_stress.py
+    tests/benchmark/test_stress_report.py
     """
     work = partial(attempt_scene, seed=seed, accuracy=accuracy)
     return spread(work, range(count), jobs=jobs, on_done=on_done)

@@ -40,6 +40,9 @@ class Truth:
 def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth:
     """End pulls on a mesh ``FINER`` times finer than ``size`` in each direction.
 
+    All lengths of the mesh are divided and all sectors of its rings; how fast rings
+    and columns grow away from the net's ends stays as it is.
+
     Raises
     ------
     SolveError

@@ -37,7 +37,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         axes.set_ylabel("run time [ms]")
         axes.invert_xaxis()
         axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)
-        axes.legend(frameon=False, loc="upper left")
+        figure.legend(frameon=False, loc="outside upper left", ncols=3)
     return write_svg(figure, "work-precision", "Run time against error")
 
 

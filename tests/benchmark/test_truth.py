@@ -20,13 +20,17 @@ from netdesign.snow.mesh import MeshSize, build_template
 
 
 def test_a_finer_mesh_is_finer_in_each_direction():
-    size = MeshSize(net_spacing=0.2, corner=0.01, sectors=2, upslope_spacing=1.0)
+    size = MeshSize(net_spacing=0.2, corner=0.01, sectors=2, upslope_spacing=0.5)
     assert refine_size(size, 4) == MeshSize(
-        net_spacing=0.05, corner=0.0025, sectors=8, upslope_spacing=0.25
+        net_spacing=0.05, corner=0.0025, sectors=8, upslope_spacing=0.125
     )
-    coarse, fine = (build_template(5.0, s) for s in (size, refine_size(size, 4)))
-    # rings around the ends do not grow in number as fast as the triangles between
-    assert fine.triangles.shape[1] > 8 * coarse.triangles.shape[1]
+    coarse, fine = (build_template(20.0, s) for s in (size, refine_size(size, 4)))
+    # 16 times as many triangles far upslope; beside the ends growth limits them
+    far = [
+        int((template.nodes[0, template.triangles[:3]].mean(axis=0) > 5.0).sum())
+        for template in (coarse, fine)
+    ]
+    assert far[1] == pytest.approx(16 * far[0], rel=0.25)
 
 
 def test_errors_are_those_of_the_vectors(solved):

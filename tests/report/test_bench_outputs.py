@@ -72,7 +72,7 @@ def test_honesty_on_a_terminal():
     ]
     text = printed(print_errors, write_errors(findings, 1, 0.005))
     assert "2 of 3 scenes compared" in text
-    assert "inside the stated one: 50.0%; below the accuracy of 0.005: 50.0%" in text
+    assert "inside the stated one: 33.3%; below the accuracy of 0.005: 33.3%" in text
     assert "outside: scene 1, true 2.00%, stated 1.00%" in text
     assert "not compared: scene 2, finer mesh: diverged" in text
 
