@@ -29,7 +29,9 @@ ROWS = (
     {"envelope"},
     {"site"},
     {"study", "check_site", "scene_file", "solution_file", "verification"},
+    {"benchmark"},
     {"report"},
+    {"commands"},
     {"cli"},
 )
 
@@ -46,10 +48,10 @@ NEIGHBOURS = {
 THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.grid", "solution_file", "verification.*"),
+        *("envelope.grid", "solution_file", "verification.*", "benchmark.*"),
     ),
-    "scipy": ("snow.*", "verification.*"),
-    "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),
+    "scipy": ("snow.*", "verification.*", "benchmark.reference_path"),
+    "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),
     "openpyxl": ("site.spreadsheet",),
     "defusedxml": ("site.spreadsheet",),
     "xlsxwriter": ("site.template", "report.*"),
@@ -59,8 +61,11 @@ THIRD_PARTY = {
     "markupsafe": ("report.html",),
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
-    "click": ("cli",),
-    "rich": ("cli", "progress", "report.terminal", "report.verification_table"),
+    "click": ("cli", "commands.bench"),
+    "rich": (
+        *("cli", "progress", "report.terminal", "report.verification_table"),
+        *("commands.bench", "report.bench_table"),
+    ),
 }
 
 # Slow to import: only inside functions, so that help is there at once.

@@ -21,6 +21,7 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
     require_admissible,
 )
+from netdesign.snow.flow import Step
 from netdesign.snow.fluidity import (
     FLUIDITY_EXPONENT,
     PAPER_FLUIDITY,
@@ -235,6 +236,8 @@ class SolverSettings:
         Rounds between snow and net; Newton steps in one of them.
     levels : tuple of MeshSize
         Meshes from coarse to fine, at least two.
+    step : callable, optional
+        Takes the Newton steps of the snow; default is the fast kernel.
     """
 
     accuracy: float = 0.01
@@ -244,6 +247,7 @@ class SolverSettings:
     max_rounds: int = 80
     max_iterations: int = 40
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
+    step: Step | None = None
 
     def __post_init__(self) -> None:
         """Refuse settings that would make every result look converged."""

@@ -181,6 +181,7 @@ def _couple(
             state,
             tolerance=wanted,
             max_iterations=settings.max_iterations,
+            step=settings.step,
         )
         solves += flow.linear_solves
         if flow.outcome is not Outcome.CONVERGED:

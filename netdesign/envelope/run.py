@@ -101,7 +101,7 @@ def run_cases(
             notify(results[-1])
         return results
     with (
-        _single_threaded_workers(),
+        single_threaded_workers(),
         ProcessPoolExecutor(
             min(jobs, len(tasks)), mp_context=get_context("spawn")
         ) as pool,
@@ -248,7 +248,7 @@ def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:
 
 
 @contextmanager
-def _single_threaded_workers() -> Iterator[None]:
+def single_threaded_workers() -> Iterator[None]:
     """Worker processes inherit one BLAS thread each: there is one worker a core."""
     before = {name: os.environ.get(name) for name in _THREAD_VARIABLES}
     os.environ.update(dict.fromkeys(_THREAD_VARIABLES, "1"))
