@@ -179,30 +179,47 @@ def init(site_file: Path, *, example: bool, force: bool) -> None:
     help="Steady state, history, or the source paper's exchange [the scene's].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a page with drawings, the solution, a history's table.",
+)
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
 def solve(
     scene_file: Path,
     *,
     method: Literal["steady", "transient", "staggered"] | None,
     as_json: bool,
+    out: Path | None,
+    force: bool,
 ) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
     netdesign solve scene.toml
     netdesign solve scene.toml --json
-    netdesign solve scene.toml --method transient
+    netdesign solve scene.toml --method transient --out history
     """
     import time
 
+    from netdesign.commands.solve_folder import (
+        require_free_folder,
+        write_solution_folder,
+    )
     from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
     scene, settings = read_scene(scene_file, method)
+    if out is not None:
+        require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
+    if out is not None:
+        written = write_solution_folder(out, solution, document, scene_file.name)
+        _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
     elif document["outcome"] == "converged":
