@@ -36,7 +36,7 @@ _CLOCK = (
     *((3600 * _SECOND * n, f"{n} h") for n in (1, 6)),
     *((1.0 * n, f"{n} d") for n in (1, 10, 100, 1000)),
 )
-_LABEL_ROOM = 1.24  # share by which an axis is longer than its data, for the labels
+_LETTER_IN = 0.066  # width of a letter in a label
 _LINE_GAP = 0.075  # least distance of two labels, in heights of the panel
 
 
@@ -109,7 +109,7 @@ def draw_panels(
         figure = Figure(figsize=(WIDTH_IN, height))
         grid = figure.subplots(down, across, squeeze=False)
         for panel, axes in zip(panels, grid.flat, strict=False):
-            _draw_panel(axes, panel, is_log=is_log)
+            _draw_panel(axes, panel, across, is_log=is_log)
         for axes in grid.flat[len(panels) :]:
             axes.set_axis_off()
         for axes in grid[-1]:
@@ -137,7 +137,7 @@ def _arrange(figure: Figure, height: float, across: int) -> None:
     )
 
 
-def _draw_panel(axes: Axes, panel: Panel, *, is_log: bool) -> None:
+def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
     dress(axes, panel.title)
     for line in panel.lines:
         shade, dashes = SHADES[line.style % len(SHADES)]
@@ -151,10 +151,12 @@ def _draw_panel(axes: Axes, panel: Panel, *, is_log: bool) -> None:
         )
     low = min((min(line.x) for line in panel.lines if len(line.x)), default=1.0)
     high = max((max(line.x) for line in panel.lines if len(line.x)), default=1.0)
+    longest = max((len(line.label) for line in panel.lines), default=0)
+    room = (longest * _LETTER_IN + 0.06) * across / WIDTH_IN  # of the axis, for labels
     if is_log:
-        _set_clock(axes, low, high)
+        _set_clock(axes, low, high, room)
     else:
-        axes.set_xlim(low, low + (high - low) * (_LABEL_ROOM - 0.04))
+        axes.set_xlim(low, low + (high - low) / (1.0 - room))
     if panel.from_zero:
         axes.set_ylim(bottom=0.0)
     axes.margins(y=0.12)
@@ -163,11 +165,10 @@ def _draw_panel(axes: Axes, panel: Panel, *, is_log: bool) -> None:
     _label_ends(axes, panel.lines)
 
 
-def _set_clock(axes: Axes, low: float, high: float) -> None:
+def _set_clock(axes: Axes, low: float, high: float, room: float) -> None:
     """Logarithmic time with ticks that a reader can picture."""
     axes.set_xscale("log")
-    room = (high / low) ** (_LABEL_ROOM - 1.0)
-    axes.set_xlim(low, high * room)
+    axes.set_xlim(low, low * (high / low) ** (1.0 / (1.0 - room)))
     shown = [(days, word) for days, word in _CLOCK if low <= days <= high * 1.001]
     axes.set_xticks([days for days, _ in shown], [word for _, word in shown])
     axes.minorticks_off()

@@ -32,6 +32,11 @@ Floats = NDArray[np.float64]
 _DARK = "#4d5761"  # of the densest snow; text stays readable beside it
 _LONGEST_ARROW = 0.42  # heights of the net
 _SIMPSON = (1.0 / 6.0, 4.0 / 6.0)  # corner, midpoint of a quadratic edge
+_STEPS = 24  # of the density scale
+_ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
+# Share of the triangles, at each end, that the colours need not tell apart: one that
+# is all but empty at the overhanging surface would flatten all others.
+_OUTLIERS = 0.01
 _NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
 
 
@@ -65,8 +70,7 @@ class Face:
     @property
     def tractions(self) -> tuple[Floats, Floats]:
         """Pressure and shear of the nodes, foot to head positive [Pa]."""
-        along = np.gradient(self.points, axis=1)
-        along /= np.hypot(*along)
+        along = _bisect(self.points)
         normal = np.array([along[1], -along[0]])
         shares = self._lengths()
         return (
@@ -86,6 +90,16 @@ class Face:
         shares[2::2] += corner * edges
         shares[1::2] = middle * edges
         return shares
+
+
+def _bisect(points: Floats) -> Floats:
+    """Unit directions along a polygon, halfway between those of its segments."""
+    segments = np.diff(points, axis=1)
+    segments /= np.hypot(*segments)
+    both = np.column_stack(
+        [segments[:, 0], segments[:, :-1] + segments[:, 1:], segments[:, -1]]
+    )
+    return np.asarray(both / np.hypot(*both))
 
 
 def find_face(solution: Solution | WallSolution) -> Face:
@@ -190,8 +204,12 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
     scale = (WIDTH_IN - 0.3) / (1.02 * wide)
     each = scale * tall * 1.06 + 0.3
     height = each * len(pictures) + 0.5
-    low = min(float(picture.density.min()) for picture in pictures)
-    high = max(float(picture.density.max()) for picture in pictures)
+    ends = [_OUTLIERS, 1.0 - _OUTLIERS]
+    quantiles = [np.quantile(picture.density, ends) for picture in pictures]
+    low, high = (
+        float(min(low for low, _ in quantiles)),
+        float(max(high for _, high in quantiles)),
+    )
     right = max(float(picture.face[0].max()) for picture in pictures)
     with use_style(name):
         figure = Figure(figsize=(WIDTH_IN, height))
@@ -293,29 +311,26 @@ def _draw_mesh(axes: Axes, picture: MeshPicture, limits: tuple[float, float]) ->
 
 
 def _draw_scale(figure: Figure, limits: tuple[float, float], height: float) -> None:
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
+    """Density scale made of rectangles: a drawing without an embedded picture."""
     low, high = limits
-    if high - low < 0.5:
+    if high - low < _ONE_DENSITY:
         figure.text(0.015, 0.12 / height, f"density {low:.0f} kg/m³ throughout")
         return
     axes = figure.add_axes((0.015, 0.27 / height, 0.3, 0.09 / height))
-    bar = figure.colorbar(
-        ScalarMappable(Normalize(*_widen(limits)), _colours()),
-        cax=axes,
-        orientation="horizontal",
-        ticks=[low, (low + high) / 2, high],
-        format="%.0f",
-    )
-    bar.outline.set_visible(False)  # type: ignore[operator]
-    bar.solids.set_edgecolor("face")
+    for step in range(_STEPS):
+        left, right = step / _STEPS, (step + 1.1) / _STEPS
+        axes.axvspan(left, min(right, 1.0), color=_colours()((step + 0.5) / _STEPS))
+    axes.set_xlim(0, 1)
+    axes.set_yticks([])
+    middle = (low + high) / 2
+    axes.set_xticks([0, 0.5, 1], [f"{value:.0f}" for value in (low, middle, high)])
+    axes.spines[:].set_visible(False)
     figure.text(0.335, 0.27 / height, "density [kg/m³]", va="bottom")
 
 
 def _widen(limits: tuple[float, float]) -> tuple[float, float]:
     low, high = limits
-    return (low, high) if high - low >= 0.5 else (low - 50.0, low + 50.0)
+    return (low, high) if high - low >= _ONE_DENSITY else (low - 50.0, low + 50.0)
 
 
 def _colours() -> Any:

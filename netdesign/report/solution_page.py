@@ -37,10 +37,10 @@ PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history
 _CAPTIONS = {
     "history": "Pull on the net's ends against time. The scale of time is logarithmic: "
     "a plateau is a slow drift, and looks level here.",
-    "node_forces": "What the snow does to the net, foot to head. Left to scale; right "
-    "per square metre of net, without the end nodes, where pressure has no bound.",
+    "node_forces": "What the snow does, from the foot upwards. Left to scale; right "
+    "per square metre, without the end nodes, where pressure has no bound.",
     "stick_slip": "Where the shear reaches p tan φ the snow slips.",
-    "mesh": "Snow mesh with its density; the net in red.",
+    "mesh": "Snow mesh with its density; in red what holds it.",
 }
 _METHODS = {
     "steady": "steady state",
@@ -176,7 +176,11 @@ def _render_page(
         without_plateau=without_plateau,
         outcome=document["outcome"].replace("_", " "),
         reason=show_text(document.get("reason", "")),
-        flags=[show_text(flag) for flag in document.get("flags", ())],
+        flags=[
+            show_text(flag)
+            for flag in document.get("flags", ())
+            if not flag.startswith("no plateau")  # the page opens with it
+        ],
         criterion=plateau["criterion"] if plateau else "",
         figures=[
             {"caption": drawn.caption, "svg": mark_safe(drawn.svg), "name": drawn.name}
@@ -264,7 +268,7 @@ def _tabulate_quality(document: dict[str, Any]) -> Table:
         "Share of the ground's normal force that is tension": show_number(
             "utilisation", balance["ground_tension_share"]
         ),
-        "Share of the net's normal force that is suction": show_number(
+        "Share of the normal force that is suction": show_number(
             "utilisation", balance["suction_share"]
         ),
         "Triangles, finest mesh": show_given(cost["elements"]),
