@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import click
 
 from netdesign import __version__
+from netdesign.commands.paper import paper
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
@@ -306,6 +307,9 @@ def verify(*, as_json: bool) -> None:
 
         print_cases(cases, Console())
     sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
+
+
+cli.add_command(paper)
 
 
 @cli.group()

@@ -34,7 +34,8 @@ class PaperCase:
     """One run; angles in degrees, as the paper gives them.
 
     ``drag`` is the base drag of a staggered run; ``is_coarse`` takes the coarsest mesh
-    alone, to compare with staggered runs, which have no other.
+    alone, to compare with staggered runs, which have no other. ``until`` ends a run
+    at a time of its own [s]; 0 takes that of the settings.
     """
 
     method: Method
@@ -45,6 +46,7 @@ class PaperCase:
     densifies: bool = True
     drag: float = 0.0
     is_coarse: bool = False
+    until: float = 0.0
 
     @property
     def scene(self) -> Scene:
@@ -91,8 +93,8 @@ class PaperSettings:
     levels: tuple[MeshSize, ...] = field(default=TRANSIENT_LEVELS[:2])
     horizon: float = second_from_day(30.0)
     undensified_horizon: float = second_from_day(0.1)
-    exchange_drag: float = 0.1
-    exchange_time: float = 0.33
+    exchange_drag: float = 0.05
+    exchange_time: float = 0.36
     drags: tuple[float, ...] = (0.2, 0.1, 0.05, 0.02)
     trend_time: float = 0.06
 
@@ -139,6 +141,11 @@ def find_trend(settings: PaperSettings) -> list[PaperCase]:
     ]
 
 
+def find_paper_time(friction_deg: float = MIDDLE_FRICTION_DEG) -> PaperCase:
+    """History that ends where the paper's computations did."""
+    return replace(find_history(NORMAL_NET_DEG, friction_deg), until=PAPER_TIME)
+
+
 def list_cases(settings: PaperSettings) -> list[PaperCase]:
     """All runs of the study, the long ones first, each once."""
     nets = (NORMAL_NET_DEG, DESIGN_NET_DEG)
@@ -156,13 +163,23 @@ def list_cases(settings: PaperSettings) -> list[PaperCase]:
     exchanges.append(find_exchange(DESIGN_NET_DEG, settings))
     steady = [find_steady(case) for case in histories]
     return list(
-        dict.fromkeys([*exchanges, *histories, *find_trend(settings), *steady])
+        dict.fromkeys(
+            [
+                *exchanges,
+                *histories,
+                find_paper_time(),
+                *find_trend(settings),
+                *steady,
+            ]
+        )
     )
 
 
 def horizon_of(case: PaperCase, settings: PaperSettings) -> float:
     """Time that a run follows [s]."""
     scale = case.scene.time_scale
+    if case.until:
+        return case.until
     if case.is_coarse:
         return settings.trend_time * scale
     if case.method == "staggered":

@@ -78,6 +78,14 @@ class Shape:
     curve: Floats
     sag: float
 
+    @property
+    def mean_density(self) -> float:
+        """Of the snow's area [kg/m3]."""
+        first, second, third = self.nodes[:, self.triangles].transpose(1, 0, 2)
+        one, other = second - first, third - first
+        areas = np.abs(one[0] * other[1] - one[1] * other[0])
+        return float((self.density * areas).sum() / areas.sum())
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PaperRun:
@@ -189,9 +197,7 @@ def _at_plateau(track: Track) -> dict[str, float | None]:
 
 def _track_of(history: History, heights: Floats) -> Track:
     moments = history.moments
-    lower, upper = (
-        _nearest(heights, share) for share in (LOWER_HEIGHT, UPPER_HEIGHT)
-    )
+    lower, upper = (_nearest(heights, share) for share in (LOWER_HEIGHT, UPPER_HEIGHT))
     return Track(
         times=np.array([moment.time for moment in moments]),
         foot=_sizes([moment.foot for moment in moments]),

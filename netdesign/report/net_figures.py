@@ -16,7 +16,6 @@ from netdesign.report.figures import (
     ACCENT,
     GREY,
     INK,
-    SNOW,
     TEXT_PT,
     WIDTH_IN,
     use_style,
