@@ -7,7 +7,6 @@ from pathlib import Path
 
 import click
 
-
 _NOT_PROVEN = 4
 
 

@@ -283,11 +283,22 @@ def _decide_settlement(study: PaperStudy) -> Finding:
                     return Finding(key="settlement", call="not decided")
                 numbers[f"{name}_{end}_{inclination:g}"] = change
     own = [abs(value) for key, value in numbers.items() if key.endswith("_0")]
+    late = find_history(NORMAL_NET_DEG)
+    ends = [
+        float(track.foot[-1])
+        for case in (late, replace(late, gravity="parallel"))
+        if (track := study[case].track) is not None
+    ]
     agrees = max(own) < LITTLE
     return Finding(
         key="settlement",
         call="agrees" if agrees else "does not agree",
-        numbers={**numbers, "largest": max(own), "little": LITTLE},
+        numbers={
+            **numbers,
+            "largest": max(own),
+            "little": LITTLE,
+            "late_foot_0": ends[-1] / ends[0] - 1.0,
+        },
     )
 
 

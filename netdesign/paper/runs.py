@@ -158,7 +158,8 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
     track = _track_of(solution.history, solution.net_curve[1, 1:])
     return PaperRun(
         case=case,
-        **_at_plateau(track),
+        foot=_at_plateau(track, "foot"),
+        head=_at_plateau(track, "head"),
         foot_error=solution.foot.error,
         head_error=solution.head.error,
         track=track,
@@ -185,14 +186,19 @@ def _run_one_mesh(case: PaperCase, settings: PaperSettings) -> PaperRun:
     body = run.state.body
     heights = body.vertices[1, body.topology.net][1:] * scene.snowpack.thickness
     track = _track_of(history, heights)
-    return PaperRun(case=case, **_at_plateau(track), track=track)
+    return PaperRun(
+        case=case,
+        foot=_at_plateau(track, "foot"),
+        head=_at_plateau(track, "head"),
+        track=track,
+    )
 
 
-def _at_plateau(track: Track) -> dict[str, float | None]:
+def _at_plateau(track: Track, end: str) -> float | None:
+    """Pull where the plateau begins; None without one."""
     if track.plateau is None:
-        return {"foot": None, "head": None}
-    place = track.plateau
-    return {"foot": float(track.foot[place]), "head": float(track.head[place])}
+        return None
+    return float(getattr(track, end)[track.plateau])
 
 
 def _track_of(history: History, heights: Floats) -> Track:

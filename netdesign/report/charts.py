@@ -37,6 +37,7 @@ _CLOCK = (
     *((1.0 * n, f"{n} d") for n in (1, 10, 100, 1000)),
 )
 _LETTER_IN = 0.066  # width of a letter in a label
+_TICK_GAP = 0.05  # least distance of two ticks, in widths of a panel
 _LINE_GAP = 0.075  # least distance of two labels, in heights of the panel
 
 
@@ -146,7 +147,7 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
             line.y,
             color=ACCENT if line.is_accent else shade,
             linestyle=dashes,
-            linewidth=0.45 if line.is_thin else 1.2,
+            linewidth=0.5 if line.is_thin else 1.2,
             zorder=2 if line.is_thin else 3,
         )
     low = min((min(line.x) for line in panel.lines if len(line.x)), default=1.0)
@@ -154,7 +155,7 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
     longest = max((len(line.label) for line in panel.lines), default=0)
     room = (longest * _LETTER_IN + 0.06) * across / WIDTH_IN  # of the axis, for labels
     if is_log:
-        _set_clock(axes, low, high, room)
+        _set_clock(axes, (low, high), room, across)
     else:
         axes.set_xlim(low, low + (high - low) / (1.0 - room))
     if panel.from_zero:
@@ -165,11 +166,20 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
     _label_ends(axes, panel.lines)
 
 
-def _set_clock(axes: Axes, low: float, high: float, room: float) -> None:
-    """Logarithmic time with ticks that a reader can picture."""
+def _set_clock(
+    axes: Axes, limits: tuple[float, float], room: float, across: int
+) -> None:
+    """Logarithmic time with ticks that a reader can picture, none too close."""
+    low, high = limits
+    efolds = math.log(max(high / low, 1.01)) / (1.0 - room)
     axes.set_xscale("log")
-    axes.set_xlim(low, low * (high / low) ** (1.0 / (1.0 - room)))
-    shown = [(days, word) for days, word in _CLOCK if low <= days <= high * 1.001]
+    axes.set_xlim(low, low * math.exp(efolds))
+    shown: list[tuple[float, str]] = []
+    for days, word in _CLOCK:
+        near = _TICK_GAP * across * efolds
+        is_apart = not shown or math.log(days / shown[-1][0]) >= near
+        if low <= days <= high * 1.001 and is_apart:
+            shown.append((days, word))
     axes.set_xticks([days for days, _ in shown], [word for _, word in shown])
     axes.minorticks_off()
 
@@ -192,8 +202,17 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
 def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
     """Name each line at its end; names that would overlap are moved apart."""
     low, high = axes.get_ylim()
-    shown = [line for line in lines if line.label and len(line.x)]
-    shown.sort(key=lambda line: line.y[-1])
+    named = [line for line in lines if line.label and len(line.x)]
+    ends = sorted({line.x[-1] for line in named})
+    for end in ends:  # only names at one place can overlap
+        _label_group(axes, [line for line in named if line.x[-1] == end], (low, high))
+
+
+def _label_group(
+    axes: Axes, lines: Sequence[Line], limits: tuple[float, float]
+) -> None:
+    low, high = limits
+    shown = sorted(lines, key=lambda line: line.y[-1])
     heights = [(line.y[-1] - low) / (high - low) for line in shown]
     for line, height in zip(shown, spread(heights, _LINE_GAP), strict=True):
         shade, _ = SHADES[line.style % len(SHADES)]

@@ -33,9 +33,9 @@ _LONGEST_ARROW = 0.42  # heights of the net
 _SIMPSON = (1.0 / 6.0, 4.0 / 6.0)  # corner, midpoint of a quadratic edge
 _STEPS = 24  # of the density scale
 _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
-# Share of the triangles, at each end, that the colours need not tell apart: one that
+# Share of the snow's area, at each end, that the colours need not tell apart: one that
 # is all but empty at the overhanging surface would flatten all others.
-_OUTLIERS = 0.01
+_OUTLIERS = 0.005
 _NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
 
 
@@ -203,8 +203,7 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
     scale = (WIDTH_IN - 0.3) / (1.02 * wide)
     each = scale * tall * 1.06 + 0.3
     height = each * len(pictures) + 0.5
-    ends = [_OUTLIERS, 1.0 - _OUTLIERS]
-    quantiles = [np.quantile(picture.density, ends) for picture in pictures]
+    quantiles = [_find_ends(picture) for picture in pictures]
     low, high = (
         float(min(low for low, _ in quantiles)),
         float(max(high for _, high in quantiles)),
@@ -222,15 +221,27 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
         return write_svg(figure, name, "Snow mesh coloured by density")
 
 
+def _find_ends(picture: MeshPicture) -> tuple[float, float]:
+    """Densities that all but a little of the snow's area lies between."""
+    first, second, third = picture.nodes[:, picture.triangles].transpose(1, 0, 2)
+    one, other = second - first, third - first
+    areas = np.abs(one[0] * other[1] - one[1] * other[0])
+    order = np.argsort(picture.density)
+    shares = np.cumsum(areas[order]) / areas.sum()
+    low, high = np.searchsorted(shares, [_OUTLIERS, 1.0 - _OUTLIERS])
+    return float(picture.density[order[low]]), float(picture.density[order[high]])
+
+
 def picture_mesh(solution: Solution | WallSolution, title: str) -> MeshPicture:
     """Mesh of a solution at its end."""
-    wall = isinstance(solution, WallSolution)
     return MeshPicture(
         title=title,
         nodes=solution.mesh_nodes,
         triangles=solution.mesh_triangles,
         density=solution.mesh_density,
-        face=solution.wall_nodes if wall else solution.net_curve,
+        face=solution.wall_nodes
+        if isinstance(solution, WallSolution)
+        else solution.net_curve,
     )
 
 
@@ -294,7 +305,7 @@ def _draw_mesh(axes: Axes, picture: MeshPicture, limits: tuple[float, float]) ->
     axes.set_axis_off()
     axes.set_aspect("equal", adjustable="box", anchor="SE")
     axes.set_title(picture.title, loc="left", fontsize=TEXT_PT, fontweight="bold")
-    corners = picture.nodes[:, picture.triangles].transpose(2, 1, 0)
+    corners = list(picture.nodes[:, picture.triangles].transpose(2, 1, 0))
     mesh = PolyCollection(
         corners, cmap=_colours(), edgecolors="white", linewidths=0.25, zorder=1
     )

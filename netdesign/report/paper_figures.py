@@ -18,7 +18,7 @@ from netdesign.paper.cases import (
     find_trend,
 )
 from netdesign.paper.findings import SETTLED
-from netdesign.paper.runs import PaperRun, Track
+from netdesign.paper.runs import Track
 from netdesign.paper.study import PaperStudy
 from netdesign.report.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.net_figures import MeshPicture, draw_meshes
@@ -62,27 +62,30 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
         ]
         for phi in FRICTIONS_DEG
     ]
-    tracks = [run.track for run in runs if run.track is not None]
+    tracks = [(run.case, run.track) for run in runs if run.track is not None]
     if len(tracks) < len(runs):
         return None
     panels = [
         Panel(
             title=f"{title}, {axis.upper()} [kN/m]",
             lines=[
-                _line(
-                    study,
-                    run,
-                    [part / 1e3 for part in getattr(run.track, node)[place]],
-                    f"{run.case.friction_deg:.0f}°",
-                    2 - style,
+                replace(
+                    _line(
+                        case,
+                        track,
+                        [part / 1e3 for part in getattr(track, node)[place]],
+                        f"{case.friction_deg:.0f}°",
+                        2 - style,
+                    ),
+                    is_thin=kind == "staggered",
                 )
-                for style, run in enumerate(runs)
+                for style, (case, track) in enumerate(tracks)
             ],
         )
         for node, title in _NODES
         for place, axis in enumerate("xy")
     ]
-    lower, upper = tracks[0].heights
+    lower, upper = tracks[0][1].heights
     caption = (
         f"Force of the net on the snow at nodes {lower:.2f} m and {upper:.2f} m above "
         "the ground, for friction angles of 15°, 30°, 45°; net normal to the slope, "
@@ -97,10 +100,7 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
         )
     else:
         heading = "The same forces, implicit in the net's stiffness"
-        caption += (
-            "No oscillation is left once the net has its shape; friction hardly "
-            "matters. The mesh is finer, so that a node stands for less of the net."
-        )
+        caption += "The mesh is finer: a node stands for less of the net."
     svg = draw_panels(
         panels, f"nodes-{kind}", heading, across=2, time_label=_SINCE, panel_in=1.7
     )
@@ -173,6 +173,8 @@ def _plate_trend(study: PaperStudy) -> Plate | None:
     lines += [
         replace(line, is_accent=True) for line in _pulls(study, history, "implicit", 0)
     ]
+    end = day_from_second(study.settings.trend_time * history.scene.time_scale)
+    lines = [_cut(line, end) for line in lines]
     return _plate(
         [Panel(title="Foot, θ = 0° [kN/m]", lines=lines)] if lines else [],
         "trend",
@@ -192,14 +194,14 @@ def _plate_drift(study: PaperStudy) -> Plate | None:
                 case = replace(find_history(net), densifies=densifies)
                 if start == "sagged":
                     case = replace(case, start="sagged")
-                word = "densifying" if densifies else "not densifying"
+                word = f"{start} start" if densifies else ""
                 lines += [
                     replace(
                         line,
                         y=[1e5 * value / steady for value in line.y],
                         is_accent=densifies,
                     )
-                    for line in _pulls(study, case, f"{start}, {word}", style)
+                    for line in _pulls(study, case, word, style)
                     if steady
                 ]
         if lines:
@@ -210,8 +212,9 @@ def _plate_drift(study: PaperStudy) -> Plate | None:
         panels,
         "drift",
         "After the plateau: a slow drift",
-        "A plateau is a slow drift. With densification (red) the settling snow comes "
-        "to rest; without, it goes on leaning over the head, and the history ends.",
+        "Red: with densification; black: without, followed for a shorter time. Full "
+        "lines: the net sags and the snow lies against it at the start; dashed: the net "
+        "is straight. The table of drifts has the rates per e-fold of time.",
     )
 
 
@@ -258,7 +261,8 @@ def _plate_gravity(study: PaperStudy) -> Plate | None:
         panels,
         "gravity",
         "Announced and not shown: gravity",
-        "Full gravity against its part along the slope alone.",
+        "Full gravity (full lines) against its part along the slope alone (dotted), "
+        "friction 30°, straight start.",
         across=2,
     )
 
@@ -292,6 +296,12 @@ def _with_steady(
     return Panel(title=f"{title} [kN/m]", lines=lines, marks=marks)
 
 
+def _cut(line: Line, end: float) -> Line:
+    """Line up to a time [d]."""
+    count = sum(time <= end * 1.001 for time in line.x)
+    return replace(line, x=line.x[:count], y=line.y[:count])
+
+
 def _pulls(
     study: PaperStudy, case: PaperCase, label: str, style: int, end: str = "foot"
 ) -> list[Line]:
@@ -300,17 +310,14 @@ def _pulls(
     if run.track is None:
         return []
     values = [value / 1e3 for value in getattr(run.track, end)]
-    return [_line(study, run, values, label, style)]
+    return [_line(run.case, run.track, values, label, style)]
 
 
 def _line(
-    study: PaperStudy, run: PaperRun, values: Sequence[float], label: str, style: int
+    case: PaperCase, track: Track, values: Sequence[float], label: str, style: int
 ) -> Line:
     """Line from when a straight net has its first shape."""
-    track = run.track
-    assert isinstance(track, Track)  # noqa: S101  (callers have looked)
-    settled = SETTLED * run.case.scene.time_scale
-    first = int((track.times <= settled).sum())
-    first = min(first, len(track.times) - 1)
+    settled = SETTLED * case.scene.time_scale
+    first = min(int((track.times <= settled).sum()), len(track.times) - 1)
     times = [day_from_second(float(time)) for time in track.times[first:]]
     return Line(label=label, x=times, y=list(values[first:]), style=style)

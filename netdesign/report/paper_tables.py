@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from netdesign.coupling.net_start import Start
 from netdesign.paper.cases import (
     DESIGN_NET_DEG,
     FRICTIONS_DEG,
@@ -34,6 +35,7 @@ from netdesign.units import day_from_second
 
 _FORCE = "foot_size_kN_per_m"
 _NETS = (NORMAL_NET_DEG, DESIGN_NET_DEG)
+_STARTS: tuple[Start, ...] = ("sagged", "straight")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,7 +91,7 @@ def _tabulate_plateaus(study: PaperStudy) -> Listed:
         table=Table(
             caption="Plateau of the paper's scene at a friction of 30°. Errors of "
             "histories and steady states are differences between two meshes; the "
-            "staggered exchange has one mesh only.",
+            "staggered exchange has one mesh only. Without a number: no plateau in its time.",
             columns=(
                 number_column("inclination_deg", "θ [°]"),
                 text_column("Method"),
@@ -164,7 +166,7 @@ def _tabulate_growth(study: PaperStudy) -> Listed:
         table=Table(
             caption="Sizes of forces against friction [kN/m], of histories at the time "
             "when the last of the three has come to its plateau. Change from 15° to "
-            "45°; of a node's component over the node's whole force. Steps up to 1 % "
+            "45°; of a node's component over the node's whole force. Steps up to 1% "
             "count as level.",
             columns=(
                 text_column("Method"),
@@ -220,11 +222,12 @@ def _tabulate_parameters(study: PaperStudy) -> Listed:
 
 def _tabulate_trend(study: PaperStudy) -> Listed:
     *staggered, history = (study[case] for case in find_trend(study.settings))
-    expected = None if history.track is None else float(history.track.foot[-1])
+    end = study.settings.trend_time * history.case.scene.time_scale
+    expected = None if history.track is None else history.track.at(end, "foot")
     rows = []
     for run in staggered:
         track = run.track
-        got = None if track is None else float(track.foot[-1])
+        got = None if track is None else track.at(end, "foot")
         off = None
         if got is not None and expected is not None:
             off = 100.0 * (got / expected - 1.0)
@@ -237,7 +240,6 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
                 _seconds(last_swing(run)),
             )
         )
-    end = study.settings.trend_time * history.case.scene.time_scale
     return Listed(
         name="staggered-trend",
         keys=(
@@ -261,15 +263,14 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
 
 
 def _tabulate_drift(study: PaperStudy) -> Listed:
-    rows = []
-    for net in _NETS:
-        for case in (
-            replace(find_history(net), start="sagged"),
-            replace(find_history(net), start="sagged", densifies=False),
-            find_history(net),
-            replace(find_history(net), densifies=False),
-        ):
-            rows.append(_row_of_drift(study, case))
+    rows = [
+        _row_of_drift(
+            study, replace(find_history(net), start=start, densifies=densifies)
+        )
+        for net in _NETS
+        for start in _STARTS
+        for densifies in (True, False)
+    ]
     return Listed(
         name="drift",
         keys=(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from netdesign.paper.findings import Finding
@@ -33,7 +34,7 @@ _WORDINGS = {
         said="The forces at each node increase with increase of the friction.",
         found=(
             "Net normal to the slope, 15° to 45°, implicit history: of {forces:.0f} "
-            "forces {growing:.0f} grow by more than 1 %, {level:.0f} stay level, "
+            "forces {growing:.0f} grow by more than 1%, {level:.0f} stay level, "
             "{falling:.0f} fall; foot {foot:+.1%}, head {head:+.1%}. In the staggered "
             "exchange {exchange_growing:.0f} of {exchange_forces:.0f} grow."
         ),
@@ -46,10 +47,10 @@ _WORDINGS = {
         ),
     ),
     "oscillation": _Wording(
-        said="After a transient phase with oscillations an asymptotic state is reached.",
+        said="After a transient phase, with oscillations, a plateau is reached.",
         found=(
             "Staggered exchange: the foot's pull turns back {exchange_swings:.0f} "
-            "times by more than 1 % and is smooth after {swings_until:.0f} s; plateau "
+            "times by more than 1% and is smooth after {swings_until:.0f} s; plateau "
             "from {exchange_plateau:.0f} s. Implicit history of the same snow: "
             "{history_swings:.0f} such turns after the first {settled:.1f} s, plateau "
             "from {history_plateau:.0f} s."
@@ -69,10 +70,12 @@ _WORDINGS = {
             "state foot {steady_foot_0:+.1%}, head {steady_head_0:+.1%}."
         ),
         reason=(
-            "True for the paper's net normal to the slope, within {little:.0%}. Not at "
-            "30° inclination, where the wedge of snow above the net leans on it: "
+            "Little is below {little:.0%} for the paper's net, normal to the slope. At "
+            "30° inclination a wedge of snow rests on the net: "
             "history foot {history_foot_30:+.1%}, head {history_head_30:+.1%}; steady "
-            "state foot {steady_foot_30:+.1%}, head {steady_head_30:+.1%}."
+            "state foot {steady_foot_30:+.1%}, head {steady_head_30:+.1%}. Later the "
+            "two drift apart: foot {late_foot_0:+.1%} normal to the slope at the end "
+            "of the histories."
         ),
     ),
     "density": _Wording(
@@ -137,6 +140,11 @@ def word_finding(finding: Finding) -> Claim:
         call=finding.call,
         symbol=_AGREES[finding.call],
         differs=finding.call != "agrees",
-        found=found.replace("-", "−"),
-        reason=reason.replace("-", "−") if "+" in wording.reason else reason,
+        found=_write_minus(found),
+        reason=_write_minus(reason),
     )
+
+
+def _write_minus(text: str) -> str:
+    """Proper minus signs before digits; none before a rounded zero."""
+    return re.sub(r"-(?=\d)", "−", re.sub(r"[+-](?=0\.0%)", "", text))
