@@ -38,6 +38,7 @@ _CLOCK = (
 )
 _LETTER_IN = 0.066  # width of a letter in a label
 _TICK_GAP = 0.05  # least distance of two ticks, in widths of a panel
+_LABEL_REACH = 0.06  # names beginning that close, in widths of a panel, may overlap
 _LINE_GAP = 0.075  # least distance of two labels, in heights of the panel
 
 
@@ -201,26 +202,29 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
 
 def _label_ends(axes: Axes, lines: Sequence[Line]) -> None:
     """Name each line at its end; names that would overlap are moved apart."""
-    low, high = axes.get_ylim()
     named = [line for line in lines if line.label and len(line.x)]
-    ends = sorted({line.x[-1] for line in named})
-    for end in ends:  # only names at one place can overlap
-        _label_group(axes, [line for line in named if line.x[-1] == end], (low, high))
+    to_axes = axes.transData + axes.transAxes.inverted()
+    ends = [to_axes.transform((line.x[-1], line.y[-1])) for line in named]
+    placed = sorted(zip(ends, named, strict=True), key=lambda pair: float(pair[0][0]))
+    last = max((float(end[0]) for end in ends), default=1.0)
+    while placed:
+        first = float(placed[0][0][0])
+        group = [pair for pair in placed if pair[0][0] - first < _LABEL_REACH]
+        # the longer lines go on above or below the name of one that ends early
+        drop = 7.0 if first < last - _LABEL_REACH else 0.0
+        _label_group(axes, sorted(group, key=lambda pair: float(pair[0][1])), drop)
+        placed = placed[len(group) :]
 
 
-def _label_group(
-    axes: Axes, lines: Sequence[Line], limits: tuple[float, float]
-) -> None:
-    low, high = limits
-    shown = sorted(lines, key=lambda line: line.y[-1])
-    heights = [(line.y[-1] - low) / (high - low) for line in shown]
-    for line, height in zip(shown, spread(heights, _LINE_GAP), strict=True):
+def _label_group(axes: Axes, group: Sequence[tuple[Any, Line]], drop: float) -> None:
+    heights = spread([float(end[1]) for end, _ in group], _LINE_GAP)
+    for (end, line), height in zip(group, heights, strict=True):
         shade, _ = SHADES[line.style % len(SHADES)]
         axes.annotate(
             line.label,
-            (line.x[-1], height),
-            xycoords=("data", "axes fraction"),
-            xytext=(3, 0),
+            (float(end[0]), height),
+            xycoords="axes fraction",
+            xytext=(3, -drop),
             textcoords="offset points",
             va="center",
             color=ACCENT if line.is_accent else shade,

@@ -31,6 +31,7 @@ Floats = NDArray[np.float64]
 _DARK = "#4d5761"  # of the densest snow; text stays readable beside it
 _LONGEST_ARROW = 0.42  # heights of the net
 _SIMPSON = (1.0 / 6.0, 4.0 / 6.0)  # corner, midpoint of a quadratic edge
+_STACKED = 0.84  # width of meshes below each other, so that five fit on a page
 _STEPS = 24  # of the density scale
 _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
 # Share of the snow's area, at each end, that the colours need not tell apart: one that
@@ -200,7 +201,8 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
     spans = [np.ptp(picture.nodes, axis=1) for picture in pictures]
     wide = max(float(span[0]) for span in spans)
     tall = max(float(picture.nodes[1].max()) for picture in pictures)
-    scale = (WIDTH_IN - 0.3) / (1.02 * wide)
+    shown = 1.0 if len(pictures) == 1 else _STACKED
+    scale = shown * (WIDTH_IN - 0.3) / (1.02 * wide)
     each = scale * tall * 1.06 + 0.3
     height = each * len(pictures) + 0.5
     quantiles = [_find_ends(picture) for picture in pictures]
@@ -215,7 +217,8 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
             bottom = (height - each * (place + 1)) / height
             axes = figure.add_axes((0.0, bottom, 1.0, (each - 0.26) / height))
             _draw_mesh(axes, picture, (low, high))
-            axes.set_xlim(right + 0.02 * wide - 1.06 * wide, right + 0.02 * wide)
+            edge = right - wide * 1.03
+            axes.set_xlim(edge, edge + WIDTH_IN / scale)
             axes.set_ylim(-0.05 * tall, 1.02 * tall)
         _draw_scale(figure, (low, high), height)
         return write_svg(figure, name, "Snow mesh coloured by density")
@@ -303,7 +306,7 @@ def _draw_mesh(axes: Axes, picture: MeshPicture, limits: tuple[float, float]) ->
     from matplotlib.collections import PolyCollection
 
     axes.set_axis_off()
-    axes.set_aspect("equal", adjustable="box", anchor="SE")
+    axes.set_aspect("equal", adjustable="box", anchor="SW")
     axes.set_title(picture.title, loc="left", fontsize=TEXT_PT, fontweight="bold")
     corners = list(picture.nodes[:, picture.triangles].transpose(2, 1, 0))
     mesh = PolyCollection(

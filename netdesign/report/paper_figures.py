@@ -213,8 +213,8 @@ def _plate_drift(study: PaperStudy) -> Plate | None:
         "drift",
         "After the plateau: a slow drift",
         "Red: with densification; black: without, followed for a shorter time. Full "
-        "lines: the net sags and the snow lies against it at the start; dashed: the net "
-        "is straight. The table of drifts has the rates per e-fold of time.",
+        "lines: at the start the net sags and the snow lies against it; dashed: the "
+        "net is straight. The table of drifts has the rates per e-fold of time.",
     )
 
 

@@ -91,7 +91,8 @@ def _tabulate_plateaus(study: PaperStudy) -> Listed:
         table=Table(
             caption="Plateau of the paper's scene at a friction of 30°. Errors of "
             "histories and steady states are differences between two meshes; the "
-            "staggered exchange has one mesh only. Without a number: no plateau in its time.",
+            "staggered exchange has one mesh only. Without a number: no plateau in its "
+            "time.",
             columns=(
                 number_column("inclination_deg", "θ [°]"),
                 text_column("Method"),
