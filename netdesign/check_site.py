@@ -9,6 +9,7 @@ import importlib.metadata
 import platform
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from netdesign import __version__
 from netdesign.cable.net import Net
@@ -20,6 +21,7 @@ from netdesign.checks import (
     check_member,
 )
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.confirm import build_history_settings, confirm_rows
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
@@ -46,6 +48,10 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+_METHODS = {
+    "steady": "steady",
+    "transient": "steady; governing cases confirmed by a history from a sagged net",
+}
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
@@ -56,6 +62,7 @@ class CheckRun:
     """How a site is to be solved."""
 
     settings: SolverSettings
+    method: Literal["steady", "transient"] = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
     command: str = "netdesign check"
@@ -87,10 +94,15 @@ def solve_site(
         For each row its cases in the order of the grid; failed ones are named.
     """
     cases = build_cases(site.ranges)
-    tasks = [task for row in site.rows for task in _build_tasks(row, cases, run)]
-    results = run_cases(tasks, jobs=run.jobs, on_done=on_done)
+    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    every = [task for of_row in tasks for task in of_row]
+    results = run_cases(every, jobs=run.jobs, on_done=on_done)
     count = len(cases)
-    return [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    if run.method == "steady":
+        return by_row
+    settings = build_history_settings(run.settings)
+    return confirm_rows(tasks, by_row, settings, jobs=run.jobs)
 
 
 def judge_site(
@@ -370,7 +382,7 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": "steady",
+            "method": _METHODS[run.method],
             "creep law": f"{run.creep_law.name} ({run.creep_law.source})",
             "accuracy": f"{settings.accuracy:g}",
             "stress tolerance": f"{settings.stress_tolerance:g}",

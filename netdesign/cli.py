@@ -66,11 +66,10 @@ def cli() -> None:
 )
 @click.option(
     "--method",
-    type=click.Choice(["steady"]),
+    type=click.Choice(["steady", "transient"]),
     default="steady",
     show_default=True,
-    expose_value=False,  # the only one yet
-    help="Coupling of snow and net.",
+    help="Steady states; transient confirms governing cases by their histories.",
 )
 @click.option(
     "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
@@ -93,6 +92,7 @@ def check(
     example: bool,
     standards: tuple[str, ...],
     accuracy: float,
+    method: Literal["steady", "transient"],
     jobs: int | None,
     out: Path | None,
     html: bool,
@@ -133,6 +133,7 @@ def check(
         raise click.UsageError("two of the profiles have the same id")
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
+        method=method,
         jobs=jobs or os.cpu_count() or 1,
         command=_own_command(),
         started=_now(),

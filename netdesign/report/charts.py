@@ -179,7 +179,7 @@ def _set_clock(
     for days, word in _CLOCK:
         near = _TICK_GAP * across * efolds
         is_apart = not shown or math.log(days / shown[-1][0]) >= near
-        if low <= days <= high * 1.001 and is_apart:
+        if low * 0.999 <= days <= high * 1.001 and is_apart:
             shown.append((days, word))
     axes.set_xticks([days for days, _ in shown], [word for _, word in shown])
     axes.minorticks_off()
