@@ -8,7 +8,8 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Literal
 
 from netdesign import __version__
@@ -25,6 +26,7 @@ from netdesign.envelope.confirm import build_history_settings, confirm_rows
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.monitoring import follow_monitoring
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
@@ -38,6 +40,7 @@ from netdesign.study import (
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    MonitoringRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
@@ -105,11 +108,31 @@ def solve_site(
     return confirm_rows(tasks, by_row, settings, jobs=run.jobs)
 
 
+def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+    """Measured series by net row, each beside a history of the middle of the ranges.
+
+    Nothing is solved for rows without a measurement.
+    """
+    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
+    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
+    middle = Case(
+        density=density, friction_angle=friction_angle, inclination=inclination
+    )
+    found = {}
+    for row in site.rows:
+        series = [one for one in site.monitoring if one.row_id == row.id]
+        if series:
+            (task,) = _build_tasks(row, [middle], run)
+            found[row.id] = follow_monitoring(task, series)
+    return found
+
+
 def judge_site(
     site: Site,
     results: Sequence[Sequence[CaseResult]],
     standard: Standard,
     run: CheckRun,
+    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -123,6 +146,8 @@ def judge_site(
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
+    monitoring : mapping of str to list of MonitoringRecord
+        As ``follow_site`` returns it; decides nothing.
 
     Returns
     -------
@@ -133,6 +158,7 @@ def judge_site(
         _judge_row(row, site.ranges, of_row, standard, run.creep_law)
         for row, of_row in zip(site.rows, results, strict=True)
     ]
+    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),

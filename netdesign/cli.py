@@ -110,7 +110,13 @@ def check(
     netdesign check site.xlsx --out reports --jobs 2
     netdesign check site.xlsx --json > study.json
     """
-    from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
+    from netdesign.check_site import (
+        CheckRun,
+        count_cases,
+        follow_site,
+        judge_site,
+        solve_site,
+    )
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
@@ -147,7 +153,8 @@ def check(
     require_free([path for group in names for path in group], overwrite=force)
     with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
-    studies = [judge_site(site, results, profile, run) for profile in profiles]
+    measured = follow_site(site, run)
+    studies = [judge_site(site, results, one, run, measured) for one in profiles]
     write_files(render_files(studies, names))
     _show(studies, as_json=as_json)
     _report_places(names, quiet=quiet or as_json)

@@ -28,7 +28,10 @@ ROWS = (
     {"coupling"},
     {"envelope"},
     {"site"},
-    {"study", "check_site", "scene_file", "solution_file", "verification", "paper"},
+    {
+        *("study", "check_site", "monitoring"),
+        *("scene_file", "solution_file", "verification", "paper"),
+    },
     {"report"},
     {"cli", "commands"},
 )
@@ -40,6 +43,8 @@ NEIGHBOURS = {
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares
+    ("check_site", "monitoring"),
+    ("monitoring", "study"),  # fills in what study.py declares too
     ("cli", "commands"),  # registers what would make it too long
 }
 
@@ -48,7 +53,7 @@ THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.grid", "solution_file", "verification.*"),
-        *("paper.runs", "paper.findings", "report.net_figures"),
+        *("monitoring", "paper.runs", "paper.findings", "report.net_figures"),
     ),
     "scipy": ("snow.*", "verification.*"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),

@@ -56,6 +56,7 @@ class Line:
     style: int = 0
     is_accent: bool = False
     is_thin: bool = False
+    has_dots: bool = False  # at its points, which are measured
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,7 +149,9 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
             line.y,
             color=ACCENT if line.is_accent else shade,
             linestyle=dashes,
-            linewidth=0.5 if line.is_thin else 1.2,
+            linewidth=0.5 if line.is_thin or line.has_dots else 1.2,
+            marker="o" if line.has_dots else None,
+            markersize=2.4,
             zorder=2 if line.is_thin else 3,
         )
     low = min((min(line.x) for line in panel.lines if len(line.x)), default=1.0)

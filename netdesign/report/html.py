@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.gate import require_sections
+from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
 from netdesign.report.view import ReportView, build_view
@@ -69,13 +70,16 @@ def list_sections(view: ReportView) -> list[str]:
 
 
 def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
-    from markupsafe import Markup
+    from markupsafe import Markup, escape
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
     envelope = draw_envelope(row, f"{anchor}-e")
+    measured = draw_monitoring(row.monitoring, f"{anchor}-m")
     return {
         "section": Markup(section),
         "envelope": Markup(envelope),
+        "monitoring": Markup(measured),
+        "monitoring_note": escape(describe_monitoring(row.monitoring)),
     }
 
 
