@@ -57,8 +57,12 @@ def confirm_rows(
 
 
 def find_governing(results: Sequence[CaseResult]) -> list[int]:
-    """Places of the cases that govern some member, ascending."""
-    governing = {id(one.governing) for one in find_extremes(results).values()}
+    """Places of the cases that govern some member that is not slack, ascending."""
+    governing = {
+        id(one.governing)
+        for one in find_extremes(results).values()
+        if one.force.high > 0.0
+    }
     return [place for place, one in enumerate(results) if id(one) in governing]
 
 

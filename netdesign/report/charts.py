@@ -106,13 +106,14 @@ def draw_panels(
     """
     from matplotlib.figure import Figure
 
+    scale = _find_scale(panels, across, is_log=is_log)
     down = math.ceil(len(panels) / across)
     height = down * (panel_in + 0.28) + 0.38
     with use_style(name):
         figure = Figure(figsize=(WIDTH_IN, height))
         grid = figure.subplots(down, across, squeeze=False)
         for panel, axes in zip(panels, grid.flat, strict=False):
-            _draw_panel(axes, panel, across, is_log=is_log)
+            _draw_panel(axes, panel, scale)
         for axes in grid.flat[len(panels) :]:
             axes.set_axis_off()
         for axes in grid[-1]:
@@ -140,7 +141,30 @@ def _arrange(figure: Figure, height: float, across: int) -> None:
     )
 
 
-def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Scale:
+    """Time axis that all panels share; ``room`` is for labels, a share of it."""
+
+    low: float
+    high: float
+    room: float
+    across: int
+    is_log: bool
+
+
+def _find_scale(panels: Sequence[Panel], across: int, *, is_log: bool) -> _Scale:
+    lines = [line for panel in panels for line in panel.lines if len(line.x)]
+    longest = max((len(line.label) for line in lines), default=0)
+    return _Scale(
+        low=min((min(line.x) for line in lines), default=1.0),
+        high=max((max(line.x) for line in lines), default=1.0),
+        room=(longest * _LETTER_IN + 0.06) * across / WIDTH_IN,
+        across=across,
+        is_log=is_log,
+    )
+
+
+def _draw_panel(axes: Axes, panel: Panel, scale: _Scale) -> None:
     dress(axes, panel.title)
     for line in panel.lines:
         shade, dashes = SHADES[line.style % len(SHADES)]
@@ -154,14 +178,11 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
             markersize=2.4,
             zorder=2 if line.is_thin else 3,
         )
-    low = min((min(line.x) for line in panel.lines if len(line.x)), default=1.0)
-    high = max((max(line.x) for line in panel.lines if len(line.x)), default=1.0)
-    longest = max((len(line.label) for line in panel.lines), default=0)
-    room = (longest * _LETTER_IN + 0.06) * across / WIDTH_IN  # of the axis, for labels
-    if is_log:
-        _set_clock(axes, (low, high), room, across)
+    if scale.is_log:
+        _set_clock(axes, scale)
     else:
-        axes.set_xlim(low, low + (high - low) / (1.0 - room))
+        span = max(scale.high - scale.low, 1e-9)
+        axes.set_xlim(scale.low, scale.low + span / (1.0 - scale.room))
     if panel.from_zero:
         axes.set_ylim(bottom=0.0)
     axes.margins(y=0.12)
@@ -170,17 +191,15 @@ def _draw_panel(axes: Axes, panel: Panel, across: int, *, is_log: bool) -> None:
     _label_ends(axes, panel.lines)
 
 
-def _set_clock(
-    axes: Axes, limits: tuple[float, float], room: float, across: int
-) -> None:
+def _set_clock(axes: Axes, scale: _Scale) -> None:
     """Logarithmic time with ticks that a reader can picture, none too close."""
-    low, high = limits
-    efolds = math.log(max(high / low, 1.01)) / (1.0 - room)
+    low, high = scale.low, scale.high
+    efolds = math.log(max(high / low, 1.01)) / (1.0 - scale.room)
     axes.set_xscale("log")
     axes.set_xlim(low, low * math.exp(efolds))
+    near = _TICK_GAP * scale.across * efolds
     shown: list[tuple[float, str]] = []
     for days, word in _CLOCK:
-        near = _TICK_GAP * across * efolds
         is_apart = not shown or math.log(days / shown[-1][0]) >= near
         if low * 0.999 <= days <= high * 1.001 and is_apart:
             shown.append((days, word))

@@ -31,7 +31,8 @@ def describe_monitoring(records: Sequence[MonitoringRecord]) -> str:
         "The model's history starts at the first reading from a "
         f"{' or '.join(sorted(starts))} net with the middle of the ranges, not with "
         "the winter before it; its clock runs with the air temperature, at most 0 °C. "
-        "It is drawn for comparison and decides nothing."
+        "In snow of one temperature warmth only makes time run faster: a daily swing "
+        "of the tension is not in the model. Drawn for comparison, it decides nothing."
     )
     reasons = sorted({one.model_reason for one in records if one.model_reason})
     return f"{note} Without a history: {'; '.join(reasons)}." if reasons else note

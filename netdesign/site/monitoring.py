@@ -103,7 +103,7 @@ def read_monitoring(
         time = _read_time(line, findings)
         if time is None or not name.word or not member.word:
             continue
-        if "given" not in (line["tension"].state, line["temperature"].state):
+        if line["tension"].state == line["temperature"].state == "blank":
             refuse(name, "begins a line without a measurement", _MEASURED, findings)
         series.setdefault((name.word, member.word), []).append((time, line))
     return tuple(_build(key, lines, findings) for key, lines in series.items())

@@ -37,6 +37,11 @@ def test_every_governing_case_is_found_once():
     assert find_governing([]) == []
 
 
+def test_slack_members_need_no_history():
+    slack = replace(IDLE, member_forces={"guy": Band(low=0.0, value=0.0, high=0.0)})
+    assert find_governing([slack]) == []
+
+
 @pytest.mark.parametrize(("history", "expected"), [(11.0, 11.0), (7.0, 9.0)])
 def test_the_larger_force_counts(history, expected):
     merged = merge_history(GRID[0], result(300.0, post=0.5, guy=history))
