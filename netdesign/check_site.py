@@ -8,7 +8,9 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Literal
 
 from netdesign import __version__
 from netdesign.cable.net import Net
@@ -20,9 +22,11 @@ from netdesign.checks import (
     check_member,
 )
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.confirm import build_history_settings, confirm_rows
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.monitoring import follow_monitoring
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
@@ -36,6 +40,7 @@ from netdesign.study import (
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    MonitoringRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
@@ -46,6 +51,10 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+_METHODS = {
+    "steady": "steady",
+    "transient": "steady; governing cases confirmed by a history from a sagged net",
+}
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
@@ -56,6 +65,7 @@ class CheckRun:
     """How a site is to be solved."""
 
     settings: SolverSettings
+    method: Literal["steady", "transient"] = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
     command: str = "netdesign check"
@@ -87,10 +97,34 @@ def solve_site(
         For each row its cases in the order of the grid; failed ones are named.
     """
     cases = build_cases(site.ranges)
-    tasks = [task for row in site.rows for task in _build_tasks(row, cases, run)]
-    results = run_cases(tasks, jobs=run.jobs, on_done=on_done)
+    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    every = [task for of_row in tasks for task in of_row]
+    results = run_cases(every, jobs=run.jobs, on_done=on_done)
     count = len(cases)
-    return [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    if run.method == "steady":
+        return by_row
+    settings = build_history_settings(run.settings)
+    return confirm_rows(tasks, by_row, settings, jobs=run.jobs)
+
+
+def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+    """Measured series by net row, each beside a history of the middle of the ranges.
+
+    Nothing is solved for rows without a measurement.
+    """
+    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
+    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
+    middle = Case(
+        density=density, friction_angle=friction_angle, inclination=inclination
+    )
+    found = {}
+    for row in site.rows:
+        series = [one for one in site.monitoring if one.row_id == row.id]
+        if series:
+            (task,) = _build_tasks(row, [middle], run)
+            found[row.id] = follow_monitoring(task, series)
+    return found
 
 
 def judge_site(
@@ -98,6 +132,7 @@ def judge_site(
     results: Sequence[Sequence[CaseResult]],
     standard: Standard,
     run: CheckRun,
+    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -111,6 +146,8 @@ def judge_site(
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
+    monitoring : mapping of str to list of MonitoringRecord
+        As ``follow_site`` returns it; decides nothing.
 
     Returns
     -------
@@ -121,6 +158,7 @@ def judge_site(
         _judge_row(row, site.ranges, of_row, standard, run.creep_law)
         for row, of_row in zip(site.rows, results, strict=True)
     ]
+    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),
@@ -370,7 +408,7 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": "steady",
+            "method": _METHODS[run.method],
             "creep law": f"{run.creep_law.name} ({run.creep_law.source})",
             "accuracy": f"{settings.accuracy:g}",
             "stress tolerance": f"{settings.stress_tolerance:g}",

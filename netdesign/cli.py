@@ -15,6 +15,7 @@ import click
 
 from netdesign import __version__
 from netdesign.commands.bench import bench
+from netdesign.commands.paper import paper
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
@@ -66,11 +67,10 @@ def cli() -> None:
 )
 @click.option(
     "--method",
-    type=click.Choice(["steady"]),
+    type=click.Choice(["steady", "transient"]),
     default="steady",
     show_default=True,
-    expose_value=False,  # the only one yet
-    help="Coupling of snow and net.",
+    help="Steady states; transient confirms governing cases by their histories.",
 )
 @click.option(
     "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
@@ -93,6 +93,7 @@ def check(
     example: bool,
     standards: tuple[str, ...],
     accuracy: float,
+    method: Literal["steady", "transient"],
     jobs: int | None,
     out: Path | None,
     html: bool,
@@ -110,7 +111,13 @@ def check(
     netdesign check site.xlsx --out reports --jobs 2
     netdesign check site.xlsx --json > study.json
     """
-    from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
+    from netdesign.check_site import (
+        CheckRun,
+        count_cases,
+        follow_site,
+        judge_site,
+        solve_site,
+    )
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
@@ -133,6 +140,7 @@ def check(
         raise click.UsageError("two of the profiles have the same id")
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
+        method=method,
         jobs=jobs or os.cpu_count() or 1,
         command=_own_command(),
         started=_now(),
@@ -146,7 +154,8 @@ def check(
     require_free([path for group in names for path in group], overwrite=force)
     with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
-    studies = [judge_site(site, results, profile, run) for profile in profiles]
+    measured = follow_site(site, run)
+    studies = [judge_site(site, results, one, run, measured) for one in profiles]
     write_files(render_files(studies, names))
     _show(studies, as_json=as_json)
     _report_places(names, quiet=quiet or as_json)
@@ -180,30 +189,47 @@ def init(site_file: Path, *, example: bool, force: bool) -> None:
     help="Steady state, history, or the source paper's exchange [the scene's].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a page with drawings, the solution, a history's table.",
+)
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
 def solve(
     scene_file: Path,
     *,
     method: Literal["steady", "transient", "staggered"] | None,
     as_json: bool,
+    out: Path | None,
+    force: bool,
 ) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
     netdesign solve scene.toml
     netdesign solve scene.toml --json
-    netdesign solve scene.toml --method transient
+    netdesign solve scene.toml --method transient --out history
     """
     import time
 
+    from netdesign.commands.solve_folder import (
+        require_free_folder,
+        write_solution_folder,
+    )
     from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
     scene, settings = read_scene(scene_file, method)
+    if out is not None:
+        require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
+    if out is not None:
+        written = write_solution_folder(out, solution, document, scene_file.name)
+        _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
     elif document["outcome"] == "converged":
@@ -293,6 +319,7 @@ def verify(*, as_json: bool) -> None:
 
 
 cli.add_command(bench)
+cli.add_command(paper)
 
 
 @cli.group()

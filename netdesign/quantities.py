@@ -59,6 +59,9 @@ _ROWS = (
     _row("foot_size_kN_per_m", "T₁", "Tension at the foot", "kN/m", 2),
     _row("head_size_kN_per_m", "T₂", "Tension at the head", "kN/m", 2),
     _row("tension_max_kN_per_m", "T", "Largest tension", "kN/m", 2),
+    _row("force_x_kN_per_m", "Fx", "Force along the slope", "kN/m", 2),
+    _row("force_y_kN_per_m", "Fy", "Force normal to the slope", "kN/m", 2),
+    _row("error_kN_per_m", "", "Estimated error", "kN/m", 2),
     # members, per anchor, characteristic
     _row("foot_anchor_kN", "F", "Foot anchor", "kN", 1),
     _row("uphill_guy_kN", "F", "Uphill guy", "kN", 1),
@@ -73,6 +76,8 @@ _ROWS = (
     _row("resistance_factor", "γ_R", "Factor of the resistance", "", 2),
     _row("resistance_kN", "R_d", "Design resistance", "kN", 1),
     _row("utilisation", "μ", "Utilisation", "", 3),
+    # comparison of two numbers
+    _row("change_percent", "", "Change", "%", 1),
     # quality of a solution
     _row("error_percent", "", "Estimated error", "%", 2),
     Quantity(

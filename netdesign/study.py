@@ -7,7 +7,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
@@ -112,6 +112,25 @@ class Drawing:
 
 
 @dataclass(frozen=True, kw_only=True)
+class MonitoringRecord:
+    """What was measured at one member, and the model's history beside it.
+
+    Missing readings are None; without a history its lists are empty and
+    ``model_reason`` says why.
+    """
+
+    member: str
+    source: str  # "Monitoring!A2"
+    times_d: list[float]  # since the first reading
+    tensions_kN: list[float | None]
+    air_temperatures_C: list[float | None]
+    model_times_d: list[float]
+    model_kN: list[float]
+    model_start: str
+    model_reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
@@ -123,6 +142,7 @@ class RowStudy:
     inputs: list[InputEcho]
     drawing: Drawing | None  # None when no case converged
     reasons: list[str]  # why the row is not proven, or what failed; may be empty
+    monitoring: list[MonitoringRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

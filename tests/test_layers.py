@@ -28,7 +28,10 @@ ROWS = (
     {"coupling"},
     {"envelope"},
     {"site"},
-    {"study", "check_site", "scene_file", "solution_file", "verification"},
+    {
+        *("study", "check_site", "monitoring"),
+        *("scene_file", "solution_file", "verification", "paper"),
+    },
     {"benchmark"},
     {"report"},
     {"commands"},
@@ -42,6 +45,9 @@ NEIGHBOURS = {
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares
+    ("check_site", "monitoring"),
+    ("monitoring", "study"),  # fills in what study.py declares too
+    ("cli", "commands"),  # registers what would make it too long
 }
 
 # Third-party packages, and the modules that may import them.
@@ -49,6 +55,7 @@ THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.grid", "solution_file", "verification.*", "benchmark.*"),
+        *("monitoring", "paper.runs", "paper.findings", "report.net_figures"),
     ),
     "scipy": ("snow.*", "verification.*", "benchmark.reference_path"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),
@@ -57,11 +64,11 @@ THIRD_PARTY = {
     "xlsxwriter": ("site.template", "report.*"),
     "pydantic": ("checks.schema", "scene_file", "study"),
     "pydantic_core": ("checks.schema",),
-    "jinja2": ("report.html",),
-    "markupsafe": ("report.html",),
+    "jinja2": ("report.page",),
+    "markupsafe": ("report.html", "report.page"),
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
-    "click": ("cli", "commands.bench"),
+    "click": ("cli", "commands.*"),
     "rich": (
         *("cli", "progress", "report.terminal", "report.verification_table"),
         *("commands.bench", "report.bench_table"),

@@ -175,7 +175,6 @@ def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
     return Tangent(modulus=tangent.modulus * bears, kept=tangent.kept * bears)
 
 
-
 @lru_cache(maxsize=2)
 def _rotation(mesh: PlacedMesh) -> sparse.csr_matrix:
     """Node axes to slope's axes, a block a node; pressures stay."""

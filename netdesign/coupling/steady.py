@@ -23,7 +23,13 @@ from netdesign.coupling.interface import SupportForces, compute_support_forces
 from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.round_tangent import linearise_round
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Cost, EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    Cost,
+    EndPull,
+    FailedSolution,
+    Solution,
+    triangle_density,
+)
 from netdesign.coupling.start import guess_pressure
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.fixed_point import mix_anderson
@@ -390,7 +396,7 @@ def _build_solution(
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
-        mesh_density=_triangle_density(scene, mesh.template),
+        mesh_density=triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
         balance=measure_balance(law, mesh, end.forces, held, cable.tension, scale),
         cost=Cost(
@@ -400,9 +406,3 @@ def _build_solution(
             degrees_of_freedom=mesh.n_dofs,
         ),
     )
-
-
-def _triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
-    heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
-    layer = np.searchsorted(np.array(scene.layer_tops), heights)
-    return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

@@ -20,6 +20,9 @@ Kind = Literal["number", "count", "word", "id", "text"]
 _LONGEST_HEADING = 100
 _UNIT_SPELLINGS = {
     "°": "deg",
+    "°c": "degC",
+    "c": "degC",
+    "degc": "degC",
     "degree": "deg",
     "degrees": "deg",
     "degres": "deg",

@@ -77,6 +77,32 @@ class NetRow:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MonitoringSeries:
+    """What was measured at one member of one net row.
+
+    Attributes
+    ----------
+    row_id, member : str
+        Net row; ``foot_anchor``, ``uphill_guy``, ``downhill_guy`` or ``post``.
+    times : tuple of float
+        Ascending, from 0 at the first reading [s].
+    tensions : tuple of float or None
+        Per anchor [N]; None where a line has none.
+    air_temperatures : tuple of float or None
+        [K]; None where a line has none.
+    source : str
+        First cell.
+    """
+
+    row_id: str
+    member: str
+    times: tuple[float, ...]
+    tensions: tuple[float | None, ...]
+    air_temperatures: tuple[float | None, ...]
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """Identification printed on every output."""
 
@@ -100,3 +126,4 @@ class Site:
     notes: tuple[str, ...] = ()  # e.g. columns that were not understood
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
+    monitoring: tuple[MonitoringSeries, ...] = ()

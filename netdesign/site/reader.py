@@ -19,6 +19,7 @@ from netdesign.site.columns import (
 from netdesign.site.diagnostics import Finding, add_nearest
 from netdesign.site.fields import normalise
 from netdesign.site.model import Project, Site
+from netdesign.site.monitoring import MONITORING, read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
@@ -56,6 +57,7 @@ def read_site(path: Path) -> Site:
     nets, ranges = tables[NETS.name], tables[RANGES.name]
     net_rows = build_net_rows(nets, type_sheets, findings) if nets else ()
     built_ranges = build_ranges(ranges, findings) if ranges else None
+    monitoring = read_monitoring(workbook, {row.id for row in net_rows}, findings)
     findings.extend(_note_unread(workbook))
     if built_ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings)
@@ -68,11 +70,12 @@ def read_site(path: Path) -> Site:
         notes=tuple(str(finding) for finding in findings),
         range_inputs=built_ranges[1],
         project_cells=project_cells,
+        monitoring=monitoring,
     )
 
 
 def _is_wanted(sheet_name: str) -> bool:
-    return any(plan.matches(sheet_name) for plan in SHEETS)
+    return any(plan.matches(sheet_name) for plan in (*SHEETS, MONITORING))
 
 
 def _note_unread(workbook: Workbook) -> list[Finding]:
