@@ -293,7 +293,10 @@ def test_several_profiles_get_a_folder_each(home, checked, tmp_path):
         (["check", "site.xlsx", "--colour"], "No such option"),
         (["check", "site.xlsx", "--accuracy", "0.5"], "is not in the range"),
         (["check", "site.xlsx", "--jobs", "0"], "is not in the range"),
-        (["check", "site.xlsx", "--method", "guess"], "is not 'steady'"),
+        (
+            ["check", "site.xlsx", "--method", "guess"],
+            "is not one of 'steady', 'transient'",
+        ),
         (["check", "a.xlsx", "b.xlsx"], "unexpected extra argument"),
         (
             [*("check", "--example", "--dry-run"), *("--standard", PROFILE) * 2],

@@ -245,7 +245,7 @@ class SolverSettings:
     shape_tolerance: float = 1e-4
     balance_tolerance: float = 1e-8
     max_rounds: int = 80
-    max_iterations: int = 40
+    max_iterations: int = 60
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
     step: Step | None = None
 

@@ -50,7 +50,8 @@ _CONTACT_ROUNDS = 30
 _HALVINGS = 4
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
-_NEWTON_DAMPING = 0.9
+# Corrected rounds remember little: contacts that changed make old ones mislead.
+_NEWTON_DEPTH, _NEWTON_DAMPING = 2, 0.7
 _SURFACE_TOLERANCE = 1e-10
 
 
@@ -252,15 +253,15 @@ def _mix(
     curves: Sequence[Floats], misses: Sequence[Floats], inverse: Floats | None
 ) -> Floats:
     """Next curve from all before, and what the rounds made of them."""
-    shape = curves[-1].shape
     if inverse is None:
         images = [curve + miss for curve, miss in zip(curves, misses, strict=True)]
         return mix_anderson(curves, images)
+    recent = curves[-_NEWTON_DEPTH:]
     images = [
-        curve + (inverse @ miss.ravel()).reshape(shape)
-        for curve, miss in zip(curves, misses, strict=True)
+        curve + (inverse @ miss.ravel()).reshape(curve.shape)
+        for curve, miss in zip(recent, misses[-_NEWTON_DEPTH:], strict=True)
     ]
-    return mix_anderson(curves, images, damping=_NEWTON_DAMPING)
+    return mix_anderson(recent, images, damping=_NEWTON_DAMPING)
 
 
 def _place_between(

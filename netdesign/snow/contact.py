@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import Floats, Ints
+from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 
 Mask = NDArray[np.bool_]
 
@@ -75,6 +75,7 @@ def update_contact(
     if law.ground_contact == "one-sided":
         upward = 2 * mesh.template.ground[1:] + 1
         is_lifted = _let_go(is_lifted, reaction[upward], -velocity[upward])
+        is_lifted &= may_lift(mesh.template)
     return Contact(
         sign=_update_slip(
             law, contact, pressure, -reaction[tangential], velocity[tangential]
@@ -85,20 +86,40 @@ def update_contact(
     )
 
 
-def change_first(contact: Contact, wanted: Contact) -> Contact:
-    """Contact with only the first of the wanted changes on the net, and on the ground.
+def may_lift(template: MeshTemplate) -> Mask:
+    """Ground nodes (n_ground - 1,) where a one-sided ground can let go.
 
-    Murty's rule: where changing every node at once goes round in circles, changing
-    the first one alone does not.
+    Not within a thickness of the upslope end: the snowpack goes on there, only the
+    calculation ends, and its free end would rock on the ground.
+    """
+    reach = max(template.aspect - 1.0, template.aspect / 2.0)
+    return np.asarray(template.nodes[0, template.ground[1:]] < reach)
+
+
+def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:
+    """Contact with some of the wanted changes.
+
+    Where changing every node at once goes round in circles, changing the first half
+    of each row of neighbours rarely does, and changing a single node on the net and
+    one on the ground, the first (Murty's rule), hardly ever.
     """
     sign, is_open = contact.sign.copy(), contact.is_open.copy()
-    on_net = (sign != wanted.sign) | (is_open != wanted.is_open)
-    first = np.flatnonzero(on_net)[:1]
-    sign[first], is_open[first] = wanted.sign[first], wanted.is_open[first]
+    changes = (sign != wanted.sign) | (is_open != wanted.is_open)
+    chosen = _choose(changes, only_first=only_first)
+    sign[chosen], is_open[chosen] = wanted.sign[chosen], wanted.is_open[chosen]
     is_lifted = contact.is_lifted.copy()
-    first = np.flatnonzero(is_lifted != wanted.is_lifted)[:1]
-    is_lifted[first] = wanted.is_lifted[first]
+    chosen = _choose(is_lifted != wanted.is_lifted, only_first=only_first)
+    is_lifted[chosen] = wanted.is_lifted[chosen]
     return replace(wanted, sign=sign, is_open=is_open, is_lifted=is_lifted)
+
+
+def _choose(changes: Mask, *, only_first: bool) -> Ints:
+    """Places of the first change, or of the first half of each row of changes."""
+    places = np.flatnonzero(changes)
+    if only_first or places.size < 2:
+        return places[:1]
+    rows = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
+    return np.concatenate([row[: (row.size + 1) // 2] for row in rows])
 
 
 def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
@@ -111,9 +132,7 @@ def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     free[tangential] = contact.is_open | (contact.sign != 0)
     free[2 * ground + 1] = contact.is_lifted
     if law.ground == "no-slip":
-        free[2 * ground[:-1]] = contact.is_lifted[:-1]
-        # the corner upslope still adheres where it lifts: free, it would sink again
-        free[2 * ground[-1]] = False
+        free[2 * ground] = contact.is_lifted
     return free
 
 

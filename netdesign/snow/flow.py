@@ -16,7 +16,7 @@ import numpy as np
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
     Contact,
-    change_first,
+    change_some,
     free_unknowns,
     friction_shares,
     net_components,
@@ -50,7 +50,7 @@ from netdesign.snow.mesh import Floats
 # What a Newton step leaves: a share of itself where contacts still change over, else
 # a multiple of its square (measured on random scenes: 95 % stay below the sum).
 _LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
-# After so many steps contacts change one at a time: all at once may circle.
+# After so many steps only some contacts change, after twice as many one at a time.
 _PATIENCE = 12
 # Weight of an error of the stress that the forces on the net do not feel: it sits in
 # the few small triangles at the net's ends.
@@ -163,7 +163,9 @@ def solve_flow(
             outcome = Outcome.CONVERGED
             break
         if iteration >= _PATIENCE:
-            contact = change_first(state.contact, contact)
+            contact = change_some(
+                state.contact, contact, only_first=iteration >= 2 * _PATIENCE
+            )
     return FlowResult(outcome=outcome, state=state, linear_solves=solves, change=change)
 
 

@@ -52,7 +52,7 @@ def test_stated_error_is_that_of_the_worse_end(solved):
 @pytest.mark.parametrize("level", [1, 2])
 def test_level_of_a_solution(solved, level):
     solution = solved(first_level=level - 1)
-    assert find_level(solution, MESH_LEVELS) == MESH_LEVELS[level]
+    assert find_level(solution, MESH_LEVELS) == MESH_LEVELS[level + 1]
 
 
 def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
