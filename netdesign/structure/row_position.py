@@ -8,7 +8,6 @@ from typing import Literal
 
 from netdesign.guards import require_positive, require_within
 
-INTERMEDIATE, EDGE = "intermediate", "edge"
 Position = Literal["intermediate", "edge"]
 
 
@@ -114,7 +113,7 @@ def compute_edge_width(
         factor = min(slope * gap / 2.0, cap)
         length = min(rule.length * gap / 2.0, longest)
     return LoadedWidth(
-        position=EDGE,
+        position="edge",
         width=0.5 * post_spacing + factor * length,
         end_factor=factor,
         end_length=length,
@@ -123,7 +122,7 @@ def compute_edge_width(
 
 def find_governing_width(post_spacing: float, edge: LoadedWidth | None) -> LoadedWidth:
     """Larger of a whole bay and the edge's loaded width [m]."""
-    whole = LoadedWidth(position=INTERMEDIATE, width=post_spacing)
+    whole = LoadedWidth(position="intermediate", width=post_spacing)
     return edge if edge is not None and edge.width > whole.width else whole
 
 
