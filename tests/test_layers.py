@@ -24,8 +24,8 @@ ROWS = (
         *("quantities", "output", "progress"),
     },
     {"numerics"},
-    {"snow", "cable", "structure", "checks"},
-    {"coupling"},
+    {"snow", "cable", "structure", "checks", "resistance"},
+    {"coupling", "guideline"},
     {"envelope"},
     {"site"},
     {"study", "check_site", "scene_file", "solution_file", "verification"},
@@ -47,6 +47,7 @@ THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.grid", "solution_file", "verification.*"),
+        "guideline.comparison",
     ),
     "scipy": ("snow.*", "verification.*"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms"),
