@@ -28,6 +28,9 @@ HEIGHT_RATIO = "geometry.height.ratio"
 MAX_GAP = "geometry.gap.max"
 GROUND_FRICTION = "geometry.spacing.ground_friction"
 LATERAL_SHARE = "lateral.share"
+CORRELATION_MEAN = "correlation.tests.mean"
+CORRELATION_LEAST = "correlation.tests.least"
+GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
 MODES = ("tendon", "pull_out", "rope", "compression", "bearing")
 BASES = ("tested", "computed", "declared")
 
@@ -75,10 +78,10 @@ MODEL_UNITS = {
 }
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {
-    "correlation.tests.mean": "tests",
-    "correlation.tests.least": "tests",
+    CORRELATION_MEAN: "tests",
+    CORRELATION_LEAST: "tests",
     "glide.factor.north": "ground class",
-    "glide.factor.south": "ground class",
+    GLIDE_FACTORS: "ground class",
 }
 
 

@@ -38,16 +38,17 @@ class NetGeometry:
 class GuidelineResult:
     """One load case of the guideline.
 
-    ``anchors`` is None where the support cannot stand under it; ``reason`` says why.
-    Lengths in m, density in kg/m3, forces in N (for each metre of width, or support).
+    ``load``, ``pull`` and ``anchors`` are None from where the closed forms or the
+    support do not reach; ``reason`` says why. Height in m, density in kg/m3; forces
+    in N for each metre of width, those of anchors for each support.
     """
 
     name: str
     density: float
     height_vertical: float
-    load: SnowLoad
-    pull: NetPull
-    anchors: AnchorForces | None
+    load: SnowLoad | None = None
+    pull: NetPull | None = None
+    anchors: AnchorForces | None = None
     reason: str = ""
 
 
@@ -95,7 +96,7 @@ def compare_with_guideline(
     Returns
     -------
     tuple of GuidelineResult
-        A load case that the closed forms refuse is left out.
+        Of each load case, in this order.
     """
     height = net.snow_thickness / math.cos(net.slope_angle)
     factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
@@ -108,9 +109,12 @@ def compare_with_guideline(
     results = []
     for name, rho, h in cases:
         try:
-            results.append(_solve_case(model, net, name, rho, h, glide_factor))
-        except ModelError:  # outside the closed forms, e.g. a density above 700
-            continue
+            result = _solve_case(model, net, name, rho, h, glide_factor)
+        except ModelError as error:  # outside the closed forms
+            result = GuidelineResult(
+                name=name, density=rho, height_vertical=h, reason=str(error)
+            )
+        results.append(result)
     return tuple(results)
 
 
@@ -147,13 +151,16 @@ def _solve_case(
         head_pull_per_m=pull.head,
         post_spacing=net.layout.post_spacing,
     )
-    failed = isinstance(anchors, FailedSupport)
+    if isinstance(anchors, FailedSupport):
+        reason, found = anchors.reason, None
+    else:
+        reason, found = "", anchors
     return GuidelineResult(
         name=name,
         density=density,
         height_vertical=height,
         load=load,
         pull=pull,
-        anchors=None if isinstance(anchors, FailedSupport) else anchors,
-        reason=anchors.reason if failed else "",
+        anchors=found,
+        reason=reason,
     )
