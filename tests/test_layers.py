@@ -28,7 +28,7 @@ ROWS = (
     {"coupling", "guideline"},
     {"envelope"},
     {"site"},
-    {"study", "check_site", "scene_file", "solution_file", "verification"},
+    {"study", "check_site", "rowcheck", "scene_file", "solution_file", "verification"},
     {"report"},
     {"cli"},
 )
@@ -40,6 +40,8 @@ NEIGHBOURS = {
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares
+    ("rowcheck", "study"),  # so does this
+    ("check_site", "rowcheck"),
 }
 
 # Third-party packages, and the modules that may import them.

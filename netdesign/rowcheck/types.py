@@ -1,0 +1,70 @@
+"""The weakest type that would do: of the workbook, or a rope of the catalogue."""
+
+from __future__ import annotations
+
+import math
+
+from netdesign.checks import Standard, find_characteristic
+from netdesign.resistance.catalogue import find_rope_factor, find_termination
+from netdesign.resistance.steel import compute_rope_resistance
+from netdesign.site.model import Resistance, Site
+from netdesign.study import ChangeRecord
+from netdesign.units import kilonewton_from_newton
+
+_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
+_DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
+
+
+def find_type_change(
+    site: Site, given: Resistance, needed: float, standard: Standard
+) -> ChangeRecord | None:
+    """Type that resists ``needed`` [N] in the mode of ``given``.
+
+    First the weakest type of the workbook with the same basis, as far as any net row
+    uses it; else, for ropes, a diameter of the catalogue.
+    """
+    strengths: dict[str, float] = {}
+    for row in site.rows:
+        for other in row.resistances:
+            if other.mode != given.mode or other.basis != (given.basis or "tested"):
+                continue
+            value, lack = find_characteristic(other, standard)
+            if value is not None and not lack:
+                strengths[other.type_id] = value
+    enough = {name: value for name, value in strengths.items() if value >= needed}
+    if enough:
+        name = min(enough, key=lambda key: (enough[key], key))
+        if name == given.type_id:
+            return None  # the one that is there does
+        return _record(f"type {name} of the workbook", enough[name], given)
+    return _find_rope(needed, given) if given.mode == "rope" else None
+
+
+def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
+    factor = find_rope_factor(_CONSTRUCTION, "K")
+    loss = find_termination(_TERMINATION)
+    for diameter in _DIAMETERS_MM:
+        value = compute_rope_resistance(
+            diameter=diameter / 1e3,
+            grade=_GRADE,
+            breaking_factor=factor.value,
+            termination=loss.value,
+        )
+        if value >= needed:
+            name = (
+                f"rope {diameter} mm {_CONSTRUCTION}, {_GRADE / 1e6:.0f} MPa, "
+                f"{_TERMINATION} ({loss.status})"
+            )
+            return _record(name, value, given)
+    return None
+
+
+def _record(name: str, value: float, given: Resistance) -> ChangeRecord:
+    return ChangeRecord(
+        quantity=name,
+        unit="kN",
+        now=kilonewton_from_newton(given.value) if given.value is not None else None,
+        bound=math.floor(kilonewton_from_newton(value) * 10.0) / 10.0,
+        sense="has",
+        solves=0,
+    )
