@@ -30,6 +30,7 @@ ROWS = (
     {"site"},
     {"study", "check_site", "rowcheck", "scene_file", "solution_file", "verification"},
     {"report"},
+    {"commands"},
     {"cli"},
 )
 
@@ -62,7 +63,7 @@ THIRD_PARTY = {
     "markupsafe": ("report.html",),
     "matplotlib": ("report.*",),
     "pandas": ("report.case_table",),
-    "click": ("cli",),
+    "click": ("cli", "commands.*"),
     "rich": ("cli", "progress", "report.terminal", "report.verification_table"),
 }
 

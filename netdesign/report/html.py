@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.gate import require_sections
+from netdesign.report.head_figure import draw_head
 from netdesign.report.section_figure import draw_section
 from netdesign.report.view import ReportView, build_view
 from netdesign.resources import find_resource
@@ -29,6 +30,9 @@ _ROW_SECTIONS = (
     "drawing",
     "checks",
     "worked",
+    "changes",
+    "support",
+    "guideline",
     "extremes",
     "envelope",
     "failed",
@@ -82,7 +86,9 @@ def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
     envelope = draw_envelope(row, f"{anchor}-e")
+    head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
     return {
+        "head": Markup(head),
         "section": Markup(section),
         "envelope": Markup(envelope),
     }

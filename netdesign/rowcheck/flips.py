@@ -161,7 +161,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
             bound=None,
             sense="at most",
             solves=0,
-            note="no friction angle of the range makes it pass",
+            note="at no friction angle of the range all cases pass",
         )
     nearest = min(passing, key=lambda k: abs(k - place))
     beside = nearest + (1 if place > nearest else -1)

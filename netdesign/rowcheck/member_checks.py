@@ -219,13 +219,17 @@ def _list_changes(
         return []
     used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
-    if result.verdict is Verdict.PASS and not is_close:
-        return []
+    gap = describe_gap(task.results)
+    if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
+        return []  # a case without result is not mended by any change
     changes = _list_resistance_changes(task, given, result)
     if used is None or result.design_resistance is None:
         return changes
     changes.append(find_spacing_change(effects, used.high))
-    if task.probe is None or describe_gap(task.results):
+    if gap:
+        note = "as far as the solved cases go"
+        return [replace(change, note=note) for change in changes]
+    if task.probe is None:
         return changes
     margin = 1.0 + between.size / extreme.force.high
     on_force = effects.factor(given.member) * (result.action_factor or math.nan)
@@ -267,7 +271,7 @@ def _list_resistance_changes(
         solves=0,
         note=note,
     )
-    kind = find_type_change(task.site, given, needed, task.standard)
+    kind = find_type_change(task.site, given, result.demand.high, task.standard)
     return [change, kind] if kind else [change]
 
 

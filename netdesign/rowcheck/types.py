@@ -16,28 +16,34 @@ _DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
 
 
 def find_type_change(
-    site: Site, given: Resistance, needed: float, standard: Standard
+    site: Site, given: Resistance, demand: float, standard: Standard
 ) -> ChangeRecord | None:
-    """Type that resists ``needed`` [N] in the mode of ``given``.
+    """Type whose design resistance reaches the design ``demand`` [N].
 
-    First the weakest type of the workbook with the same basis, as far as any net row
-    uses it; else, for ropes, a diameter of the catalogue.
+    First the weakest type of the workbook, as far as any net row uses it; else, for
+    ropes, a diameter of the catalogue. None where the type that is there does, or
+    nothing is known that would.
     """
-    strengths: dict[str, float] = {}
+    enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
     for row in site.rows:
         for other in row.resistances:
-            if other.mode != given.mode or other.basis != (given.basis or "tested"):
+            if other.mode != given.mode:
                 continue
+            factor = standard.find_resistance_factor(other.mode, other.basis)
             value, lack = find_characteristic(other, standard)
-            if value is not None and not lack:
-                strengths[other.type_id] = value
-    enough = {name: value for name, value in strengths.items() if value >= needed}
+            if value is None or lack or factor is None:
+                continue
+            if value / factor.value_si >= demand:
+                enough[other.type_id] = (value / factor.value_si, value)
+    if given.type_id in enough:
+        return None
     if enough:
         name = min(enough, key=lambda key: (enough[key], key))
-        if name == given.type_id:
-            return None  # the one that is there does
-        return _record(f"type {name} of the workbook", enough[name], given)
-    return _find_rope(needed, given) if given.mode == "rope" else None
+        return _record(f"type {name} of the workbook", enough[name][1], given)
+    factor = standard.find_resistance_factor(given.mode, "declared")
+    if given.mode != "rope" or factor is None:
+        return None
+    return _find_rope(demand * factor.value_si, given)
 
 
 def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
