@@ -595,7 +595,7 @@ def test_standards_validates_a_folder(tmp_path):
     shutil.copytree(find_resource("standards") / PROFILE, own)
     result = run("standards", "validate", "mine", cwd=tmp_path)
     assert result.returncode == 0
-    assert "8 values" in result.stdout
+    assert "mine: version" in result.stdout or f"{PROFILE}: version" in result.stdout
     factors = own / "factors.toml"
     text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
     factors.write_text(text + "colour = 1\n", encoding="utf-8")
@@ -603,6 +603,21 @@ def test_standards_validates_a_folder(tmp_path):
     assert refused.returncode == 3
     assert "-1.35" in refused.stderr
     assert "colour" in refused.stderr
+
+
+def test_standards_copy_starts_a_profile_of_ones_own(tmp_path):
+    result = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith("my-annex: version 1, ")
+    source = find_resource("standards") / "eurocode"
+    assert listing(tmp_path / "my-annex") == listing(source)
+    again = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert again.returncode == 2
+    assert "exists already" in again.stderr
+    wrong = run("standards", "copy", "eurocode", "my annex", cwd=tmp_path)
+    assert wrong.returncode == 2
+    assert "becomes the profile's id" in wrong.stderr
+    assert not (tmp_path / "my annex").exists()
 
 
 @pytest.mark.parametrize("command", ["show", "validate"])

@@ -61,12 +61,12 @@ def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
 
 
 def find_tests(row: Row) -> PullOutTests | None:
-    """Pull-out tests of an anchor type; None where none are given."""
-    if any(row[key].state != "given" for key in TEST_COLUMNS if key in row):
-        return None
-    if "test_count" not in row:
-        return None
+    """Pull-out tests of an anchor type; None where none, or refused ones, are given."""
     count, least, mean = (row[key] for key in TEST_COLUMNS)
+    if any(reading.state != "given" for reading in (count, least, mean)):
+        return None
+    if least.si > mean.si:  # ``check_tests`` has refused it
+        return None
     return PullOutTests(count=int(count.number), least=least.si, mean=mean.si)
 
 
