@@ -303,6 +303,8 @@ def _record_profile(standard: Standard) -> ProfileRecord:
         title=standard.title,
         edition=standard.edition,
         sha256=standard.sha256,
+        version=standard.version,
+        choice=standard.choice,
         values=[
             ProfileValue(
                 id=entry.id,
@@ -313,7 +315,7 @@ def _record_profile(standard: Standard) -> ProfileRecord:
                 status=entry.status,
                 source=entry.source,
             )
-            for entry in standard.values
+            for entry in standard.listed
         ],
     )
 

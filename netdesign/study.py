@@ -246,6 +246,8 @@ class ProfileRecord:
     edition: str
     sha256: str
     values: list[ProfileValue]
+    version: str = ""
+    choice: str = ""  # set of factors in force; "" where the profile has none
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import math
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,6 +95,24 @@ class StandardTable:
             (value for low, high, value in self.rows if low <= count <= high), None
         )
 
+    @property
+    def values(self) -> tuple[StandardValue, ...]:
+        """Each row as a value of its own, for lists: ``id[from]``."""
+        return tuple(
+            StandardValue(
+                id=f"{self.id}[{low}]",
+                clause=self.clause,
+                text=f"{self.text} {self.over}: {low}"
+                + (" and more" if high == math.inf else f" to {high:g}")
+                * (high != low),
+                value=value,
+                unit="-",
+                status=self.status,
+                source=self.source,
+            )
+            for low, high, value in self.rows
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Standard:
@@ -117,9 +136,15 @@ class Standard:
     sha256: str
 
     @property
+    def listed(self) -> tuple[StandardValue, ...]:
+        """All values, those of the tables included."""
+        rows = (value for table in self.tables for value in table.values)
+        return (*self.values, *rows)
+
+    @property
     def assumed(self) -> tuple[StandardValue, ...]:
         """The values that the user must confirm in a copy of the standard."""
-        return tuple(value for value in self.values if value.status == "assumed")
+        return tuple(value for value in self.listed if value.status == "assumed")
 
     def find(self, value_id: str) -> StandardValue | None:
         """Value of that id, or None if the profile has none."""

@@ -47,14 +47,9 @@ def show_profile(name: str) -> None:
     if profile.choice:
         click.echo(f"choice {profile.choice} (choices.toml)")
     click.echo(f"\n{profile.what_it_is}\n{profile.what_it_is_not}\n")
-    for entry in profile.values:
+    for entry in profile.listed:
         click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
         click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
-    for table in profile.tables:
-        click.echo(f"{table.id} by {table.over}  [{table.status}]")
-        rows = ", ".join(f"{_name_range(a, b)}: {v:g}" for a, b, v in table.rows)
-        click.echo(f"    {rows}\n    {table.text}")
-        click.echo(f"    clause {table.clause}; {table.source}")
 
 
 @standards.command("validate")
@@ -100,9 +95,3 @@ def _summarise(profile: Standard) -> str:
         f"{profile.id}: version {profile.version}, {len(profile.values)} values, "
         f"{len(profile.tables)} tables, sha256 {profile.sha256}"
     )
-
-
-def _name_range(low: int, high: float) -> str:
-    if high == low:
-        return f"{low}"
-    return f"{low} and more" if high == float("inf") else f"{low} to {high:g}"

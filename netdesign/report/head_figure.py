@@ -6,15 +6,22 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from netdesign.report.figures import ACCENT, INK, TEXT_PT, use_style, write_svg
+from netdesign.report.figures import (
+    ACCENT,
+    INK,
+    TEXT_PT,
+    WIDTH_IN,
+    use_style,
+    write_svg,
+)
 from netdesign.report.words import name_member, show_with_unit
 from netdesign.study import HeadForce
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_WIDTH_IN, _HEIGHT_IN = 3.4, 2.4
-_MARGIN = 0.2  # of the polygon's size
+_HEIGHT_IN = 2.4
+_MARGIN = 0.15  # of the polygon's size
 
 
 def draw_head(forces: Sequence[HeadForce], name: str) -> str:
@@ -30,7 +37,7 @@ def draw_head(forces: Sequence[HeadForce], name: str) -> str:
     from matplotlib.figure import Figure
 
     with use_style(name):
-        figure = Figure(figsize=(_WIDTH_IN, _HEIGHT_IN), layout="constrained")
+        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
         axes = figure.add_subplot()
         axes.set_aspect("equal")
         axes.axis("off")
@@ -40,7 +47,7 @@ def draw_head(forces: Sequence[HeadForce], name: str) -> str:
             ys.append(ys[-1] + force.y_kN)
             _draw_force(axes, (xs[-2], ys[-2]), (xs[-1], ys[-1]), force)
         margin = _MARGIN * max(max(xs) - min(xs), max(ys) - min(ys))
-        axes.set_xlim(min(xs) - margin, max(xs) + 2.5 * margin)
+        axes.set_xlim(min(xs) - 6.0 * margin, max(xs) + 6.0 * margin)
         axes.set_ylim(min(ys) - margin, max(ys) + margin)
     return write_svg(figure, name, "Force polygon of the post head")
 
@@ -51,7 +58,8 @@ def _draw_force(
     end: tuple[float, float],
     force: HeadForce,
 ) -> None:
-    colour = ACCENT if force.member == "net" else INK
+    is_net = force.member == "net"  # its text stands to the left, the others' right
+    colour = ACCENT if is_net else INK
     axes.annotate(
         "", xy=end, xytext=start, arrowprops={"arrowstyle": "->", "color": colour}
     )
@@ -59,7 +67,8 @@ def _draw_force(
     axes.text(
         0.5 * (start[0] + end[0]),
         0.5 * (start[1] + end[1]),
-        f" {name_member(force.member)} {size}",
+        f"  {name_member(force.member)} {size}  ",
         fontsize=TEXT_PT,
         color=colour,
+        horizontalalignment="right" if is_net else "left",
     )
