@@ -16,6 +16,7 @@ import click
 from netdesign import __version__
 from netdesign.commands.bench import bench
 from netdesign.commands.paper import paper
+from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
@@ -83,6 +84,7 @@ def cli() -> None:
 @click.option("--html/--no-html", default=True, help="Write report.html.")
 @click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
 @click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
+@click.option("--explain", is_flag=True, help="Print what would flip each check.")
 @click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing outputs.")
@@ -99,6 +101,7 @@ def check(
     html: bool,
     excel: bool,
     csv: bool,
+    explain: bool,
     as_json: bool,
     dry_run: bool,
     force: bool,
@@ -109,6 +112,7 @@ def check(
     \b
     netdesign check --example
     netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
     netdesign check site.xlsx --json > study.json
     """
     from netdesign.check_site import (
@@ -128,6 +132,7 @@ def check(
         name_files,
         render_files,
     )
+    from netdesign.rowcheck.probe import Probe
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -155,9 +160,12 @@ def check(
     with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
     measured = follow_site(site, run)
-    studies = [judge_site(site, results, one, run, measured) for one in profiles]
+    probe = Probe(run.settings, run.creep_law)
+    studies = [
+        judge_site(site, results, profile, run, probe, measured) for profile in profiles
+    ]
     write_files(render_files(studies, names))
-    _show(studies, as_json=as_json)
+    _show(studies, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
 
@@ -320,51 +328,7 @@ def verify(*, as_json: bool) -> None:
 
 cli.add_command(bench)
 cli.add_command(paper)
-
-
-@cli.group()
-def standards() -> None:
-    """Show the limit profiles.
-
-    \b
-    netdesign standards list
-    netdesign standards show nf-p-95-304-style
-    netdesign standards validate my-profile/
-    """
-
-
-@standards.command("list")
-def list_profiles() -> None:
-    """List the profiles that come with the program."""
-    from netdesign.checks import list_standards, load_standard
-
-    for name in list_standards():
-        click.echo(f"{name}  {load_standard(name).title}")
-
-
-@standards.command("show")
-@click.argument("name", metavar="ID")
-def show_profile(name: str) -> None:
-    """Show every value of a profile with its status and source."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(name)
-    click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
-    click.echo(f"sha256 {profile.sha256}\n\n{profile.what_it_is}")
-    click.echo(f"{profile.what_it_is_not}\n")
-    for entry in profile.values:
-        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
-        click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
-
-
-@standards.command("validate")
-@click.argument("folder", type=click.Path(path_type=Path))
-def validate_profile(folder: Path) -> None:
-    """Validate a profile folder; every fault is told."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(folder)
-    click.echo(f"{profile.id}: {len(profile.values)} values, sha256 {profile.sha256}")
+cli.add_command(standards)
 
 
 def main() -> NoReturn:
@@ -419,16 +383,18 @@ def _read_site(site_file: Path | None) -> Site:
         return read_site(path)
 
 
-def _show(studies: Sequence[Study], *, as_json: bool) -> None:
+def _show(studies: Sequence[Study], *, as_json: bool, explain: bool) -> None:
     from netdesign.study import write_document
 
     if not as_json:
         from rich.console import Console
 
-        from netdesign.report.terminal import print_summary
+        from netdesign.report.terminal import print_changes, print_summary
 
         for study in studies:
             print_summary(study, Console())
+            if explain:
+                print_changes(study, Console())
     elif len(studies) == 1:
         click.echo(write_document(studies[0]))
     else:

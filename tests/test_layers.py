@@ -23,13 +23,13 @@ ROWS = (
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
         *("quantities", "output", "progress"),
     },
-    {"numerics"},
+    {"numerics", "resistance"},
     {"snow", "cable", "structure", "checks"},
-    {"coupling"},
+    {"coupling", "guideline"},
     {"envelope"},
     {"site"},
     {
-        *("study", "check_site", "monitoring"),
+        *("study", "check_site", "monitoring", "rowcheck"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
     {"benchmark"},
@@ -48,6 +48,8 @@ NEIGHBOURS = {
     ("check_site", "monitoring"),
     ("monitoring", "study"),  # fills in what study.py declares too
     ("cli", "commands"),  # registers what would make it too long
+    ("rowcheck", "study"),  # so does this
+    ("check_site", "rowcheck"),
 }
 
 # Third-party packages, and the modules that may import them.
@@ -56,6 +58,7 @@ THIRD_PARTY = {
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.grid", "solution_file", "verification.*", "benchmark.*"),
         *("monitoring", "paper.runs", "paper.findings", "report.net_figures"),
+        "guideline.comparison",
     ),
     "scipy": ("snow.*", "verification.*", "benchmark.reference_path"),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),

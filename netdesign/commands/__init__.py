@@ -1,1 +1,1 @@
-"""Commands that would make ``cli.py`` too long; registered there."""
+"""Commands of the command line that have a module of their own."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.gate import require_sections
+from netdesign.report.head_figure import draw_head
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
@@ -30,6 +31,9 @@ _ROW_SECTIONS = (
     "drawing",
     "checks",
     "worked",
+    "changes",
+    "support",
+    "guideline",
     "extremes",
     "envelope",
     "failed",
@@ -75,7 +79,9 @@ def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
     envelope = draw_envelope(row, f"{anchor}-e")
     measured = draw_monitoring(row.monitoring, f"{anchor}-m")
+    head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
     return {
+        "head": Markup(head),
         "section": Markup(section),
         "envelope": Markup(envelope),
         "monitoring": Markup(measured),

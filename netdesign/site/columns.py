@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from netdesign.site.dimension_columns import (
+    ANCHOR_DIMENSIONS,
+    POST_DIMENSIONS,
+    ROPE_DIMENSIONS,
+    ROW_POSITION,
+)
 from netdesign.site.fields import Field, SheetPlan
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.layout import DEFAULT_POST_TILT
@@ -220,6 +226,7 @@ NETS = SheetPlan(
             "Ropes",
         ),
         _reference("post", "post", ("poteau", "Stütze"), "Posts"),
+        *ROW_POSITION,
     ),
 )
 
@@ -259,6 +266,7 @@ ANCHORS = SheetPlan(
             },
             note="how the pull-out resistance is known",
         ),
+        *ANCHOR_DIMENSIONS,
     ),
 )
 ROPES = SheetPlan(
@@ -271,6 +279,7 @@ ROPES = SheetPlan(
             "minimum breaking force",
             ("breaking force", "charge de rupture minimale", "Mindestbruchkraft"),
         ),
+        *ROPE_DIMENSIONS,
     ),
 )
 POSTS = SheetPlan(
@@ -283,6 +292,7 @@ POSTS = SheetPlan(
             "compression resistance",
             ("compression", "résistance en compression", "Druckwiderstand"),
         ),
+        *POST_DIMENSIONS,
     ),
 )
 

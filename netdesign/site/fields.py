@@ -10,9 +10,14 @@ from typing import Literal
 
 from netdesign.units import (
     degree_from_radian,
+    fourth_meter_from_fourth_centimeter,
+    meter_from_millimeter,
     newton_from_kilonewton,
+    pascal_from_kilopascal,
+    pascal_from_megapascal,
     radian_from_degree,
     radian_from_percent,
+    square_meter_from_square_centimeter,
 )
 
 Kind = Literal["number", "count", "word", "id", "text"]
@@ -30,8 +35,16 @@ _UNIT_SPELLINGS = {
     "kn/m'": "kN/m",
     "kn/m": "kN/m",
     "kn": "kN",
+    "kpa": "kPa",
+    "mpa": "MPa",
+    "n/mm2": "MPa",
 }
 _TO_SI = {
+    "mm": meter_from_millimeter,
+    "cm2": square_meter_from_square_centimeter,
+    "cm4": fourth_meter_from_fourth_centimeter,
+    "kPa": pascal_from_kilopascal,
+    "MPa": pascal_from_megapascal,
     "deg": radian_from_degree,
     "kN": newton_from_kilonewton,
     "kN/m": newton_from_kilonewton,

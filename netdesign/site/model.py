@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from netdesign.envelope.grid import Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.resistance.pull_out import PullOutTests
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 
@@ -22,6 +24,8 @@ MEMBER_MODES: tuple[tuple[str, str], ...] = (
     ("downhill_anchor", "pull_out"),
     ("post", "compression"),
 )
+# Checked only where the workbook gives the resistance, in the sheet of that member.
+OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (("post_base", "bearing", "post"),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +41,8 @@ class Resistance:
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
     type_id: str  # id of the anchor, rope or post type; "" where none is named
     source: str
+    derivation: str = ""  # how it follows from dimensions, in words
+    tests: PullOutTests | None = None  # instead of a value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,9 +71,13 @@ class NetRow:
     layout: SupportLayout
     resistances: tuple[Resistance, ...]
     inputs: tuple[InputEcho, ...] = ()
+    gap: float = math.inf  # free distance beside the row [m]; infinite for none given
+    altitude: float | None = None  # [m]
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
+        if self.gap != math.inf:
+            require_within("gap to the next work", self.gap, 0.0, 1e4, "m")
         require_within("slope angle", self.slope_angle, 0.0, 1.4, "rad")
         require_positive("snow thickness", self.snow_thickness, "m")
         require_positive("upslope length", self.upslope_length, "m")

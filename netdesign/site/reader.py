@@ -25,6 +25,7 @@ from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.spreadsheet import read_workbook
 from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.site.type_resistances import check_tests, fill_in_resistances
 
 
 def read_site(path: Path) -> Site:
@@ -122,4 +123,6 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row]:
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
             rule = f"is empty beside the pull-out resistance in {row['pull_out'].place}"
             refuse(basis, rule, basis.field.accepted, findings)
-    return index_by_id(rows, findings)
+        check_tests(row, findings)
+    filled = [fill_in_resistances(row, findings) for row in rows]
+    return index_by_id(filled, findings)
