@@ -6,36 +6,38 @@ Here SI values become the engineer's units of ``study.py``.
 from __future__ import annotations
 
 import importlib.metadata
+import math
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Literal
 
 from netdesign import __version__
-from netdesign.cable.net import Net
-from netdesign.checks import (
-    Band,
-    CheckResult,
-    Standard,
-    check_inclination,
-    check_member,
-)
+from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
-from netdesign.envelope.grid import Case, Ranges, build_cases
+from netdesign.envelope.confirm import build_history_settings, confirm_rows
+from netdesign.envelope.extremes import Extreme, find_extremes
+from netdesign.envelope.grid import Case, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.monitoring import follow_monitoring
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.rowcheck.effects import RowEffects, find_effects
+from netdesign.rowcheck.guideline_record import record_guideline
+from netdesign.rowcheck.member_checks import RowTask, check_row, record_point
+from netdesign.rowcheck.probe import Probe, build_scene
+from netdesign.rowcheck.support_record import record_anchors, record_head
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
-from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import place_support
 from netdesign.study import (
     SCHEMA,
     Arrow,
-    CasePoint,
     CaseRecord,
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    MonitoringRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
@@ -46,8 +48,11 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+_METHODS = {
+    "steady": "steady",
+    "transient": "steady; governing cases confirmed by a history from a sagged net",
+}
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
-_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
@@ -56,6 +61,7 @@ class CheckRun:
     """How a site is to be solved."""
 
     settings: SolverSettings
+    method: Literal["steady", "transient"] = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
     command: str = "netdesign check"
@@ -87,10 +93,34 @@ def solve_site(
         For each row its cases in the order of the grid; failed ones are named.
     """
     cases = build_cases(site.ranges)
-    tasks = [task for row in site.rows for task in _build_tasks(row, cases, run)]
-    results = run_cases(tasks, jobs=run.jobs, on_done=on_done)
+    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    every = [task for of_row in tasks for task in of_row]
+    results = run_cases(every, jobs=run.jobs, on_done=on_done)
     count = len(cases)
-    return [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    if run.method == "steady":
+        return by_row
+    settings = build_history_settings(run.settings)
+    return confirm_rows(tasks, by_row, settings, jobs=run.jobs)
+
+
+def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+    """Measured series by net row, each beside a history of the middle of the ranges.
+
+    Nothing is solved for rows without a measurement.
+    """
+    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
+    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
+    middle = Case(
+        density=density, friction_angle=friction_angle, inclination=inclination
+    )
+    found = {}
+    for row in site.rows:
+        series = [one for one in site.monitoring if one.row_id == row.id]
+        if series:
+            (task,) = _build_tasks(row, [middle], run)
+            found[row.id] = follow_monitoring(task, series)
+    return found
 
 
 def judge_site(
@@ -98,6 +128,8 @@ def judge_site(
     results: Sequence[Sequence[CaseResult]],
     standard: Standard,
     run: CheckRun,
+    probe: Probe | None = None,
+    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -111,6 +143,11 @@ def judge_site(
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
+    probe : Probe, optional
+        Solves what the envelope does not hold: other creep laws, and where a check
+        flips. Without it a study has neither; give the same one for each profile.
+    monitoring : mapping of str to list of MonitoringRecord
+        As ``follow_site`` returns it; decides nothing.
 
     Returns
     -------
@@ -118,9 +155,10 @@ def judge_site(
         Complete; a failed case is in it by name.
     """
     rows = [
-        _judge_row(row, site.ranges, of_row, standard, run.creep_law)
+        _judge_row(site, row, of_row, standard, run, probe)
         for row, of_row in zip(site.rows, results, strict=True)
     ]
+    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),
@@ -130,7 +168,7 @@ def judge_site(
         range_inputs=list(site.range_inputs),
         notes=[
             *site.notes,
-            *_validity_notes(site.ranges, run.creep_law),
+            *_validity_notes(site, run.creep_law),
             *_layer_notes(site),
         ],
         provenance=_record_provenance(site, run),
@@ -138,52 +176,26 @@ def judge_site(
 
 
 def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
-    def build_scene(case: Case) -> Scene:
-        return Scene(
-            snowpack=Snowpack(
-                slope_angle=row.slope_angle,
-                thickness=row.snow_thickness,
-                upslope_length=row.upslope_length,
-                density=case.density,
-                layers=row.layers_at(case.density),
-            ),
-            ground=row.ground,
-            net=Net(
-                height_normal=row.net_height,
-                inclination=case.inclination,
-                stiffness_per_m=row.net_stiffness_per_m,
-                slack=row.slack,
-                friction_angle=case.friction_angle,
-            ),
-            creep_law=run.creep_law,
-        )
+    def build(case: Case) -> Scene:
+        return build_scene(row, case, run.creep_law)
 
-    return [build_task(case, build_scene, row.layout, run.settings) for case in cases]
+    return [build_task(case, build, row.layout, run.settings) for case in cases]
 
 
 def _judge_row(
+    site: Site,
     row: NetRow,
-    ranges: Ranges,
     results: Sequence[CaseResult],
     standard: Standard,
-    law: CreepLaw,
+    run: CheckRun,
+    probe: Probe | None,
 ) -> RowStudy:
+    task = RowTask(site=site, row=row, results=results, standard=standard, probe=probe)
     extremes = find_extremes(results)
-    gap = describe_gap(results)
-    checks = [
-        _record_check(
-            check_member(_force_of(extremes, given.member), given, standard, gap=gap),
-            extremes.get(given.member),
-            given.basis,
-            given.type_id,
-            given.source,
-        )
-        for given in row.resistances
-    ]
-    inclination = ranges.inclination
-    checks.append(
-        _record_check(check_inclination(inclination.low, inclination.high, standard))
-    )
+    checks = check_row(task)
+    effects = find_effects(row, standard)
+    governing = _governing_result(checks, extremes)
+    foot = extremes.get("foot_anchor")
     unproven = [
         f"{check.id}: {check.reason}"
         for check in checks
@@ -198,46 +210,36 @@ def _judge_row(
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, law, row) for result in results],
+        cases=[_record_case(result, run.creep_law, row) for result in results],
         inputs=list(row.inputs),
-        drawing=_draw(row, _governing_result(checks, extremes)),
+        drawing=_draw(row, governing),
         reasons=unproven,
+        anchors=record_anchors(governing, effects) if governing else [],
+        head=record_head(row, governing) if governing else [],
+        guideline=record_guideline(row, foot.governing) if foot else None,
+        notes=_list_row_notes(row, effects),
     )
 
 
-def _force_of(extremes: Mapping[str, Extreme], member: str) -> Band | None:
-    return extremes[member].force if member in extremes else None
-
-
-def _record_check(
-    result: CheckResult,
-    extreme: Extreme | None = None,
-    basis: str = "",
-    type_id: str = "",
-    cell: str = "",
-) -> CheckRecord:
-    demand, utilisation = result.demand, result.utilisation
-    return CheckRecord(
-        id=result.id,
-        clause=result.clause,
-        member=result.member,
-        mode=result.mode,
-        demand_kN=_kilonewton(demand.value if demand else None),
-        demand_low_kN=_kilonewton(demand.low if demand else None),
-        demand_high_kN=_kilonewton(demand.high if demand else None),
-        resistance_kN=_kilonewton(result.design_resistance),
-        utilisation=utilisation.value if utilisation else None,
-        verdict=result.verdict,
-        case=_record_point(extreme.governing.case) if extreme else None,
-        reason=result.reason,
-        action_kN=_kilonewton(result.action.value if result.action else None),
-        action_factor=result.action_factor,
-        resistance_characteristic_kN=_kilonewton(result.resistance),
-        resistance_factor=result.resistance_factor,
-        resistance_basis=basis,
-        resistance_type=type_id,
-        resistance_cell=cell,
-    )
+def _list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
+    """What was taken for granted about this row."""
+    notes = []
+    if not math.isfinite(row.gap):
+        notes.append(
+            "no gap to the next work is given: the ends of the row are taken as free"
+        )
+    if effects.width.position == "edge":
+        notes.append(
+            "the first and last support carry more than those between: their loaded "
+            "width governs every check of forces"
+        )
+    checked = {given.mode for given in row.resistances}
+    if "bearing" not in checked:
+        notes.append(
+            "the ground under the base plate is not checked: no bearing resistance is "
+            "given for the post type"
+        )
+    return notes
 
 
 def _record_extreme(extreme: Extreme) -> ExtremeRecord:
@@ -247,7 +249,7 @@ def _record_extreme(extreme: Extreme) -> ExtremeRecord:
         max_kN=kilonewton_from_newton(extreme.force.value),
         low_kN=kilonewton_from_newton(extreme.force.low),
         high_kN=kilonewton_from_newton(extreme.force.high),
-        case=_record_point(extreme.governing.case),
+        case=record_point(extreme.governing.case),
         coincident_kN={
             member: kilonewton_from_newton(coincident[member].value)
             for member in REPORTED_MEMBERS
@@ -265,7 +267,7 @@ def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     }
     solution = result.solution
     return CaseRecord(
-        case=_record_point(result.case),
+        case=record_point(result.case),
         outcome=result.outcome,
         reason=result.reason,
         error_percent=_largest_error_percent(result),
@@ -329,7 +331,7 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
         )
     ]
     return Drawing(
-        case=_record_point(result.case),
+        case=record_point(result.case),
         slope_deg=degree_from_radian(row.slope_angle),
         snow_thickness_m=row.snow_thickness,
         net_m=[(x, y) for x, y in curve],
@@ -346,20 +348,14 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
     )
 
 
-def _record_point(case: Case) -> CasePoint:
-    return CasePoint(
-        density_kg_m3=case.density,
-        friction_deg=round(degree_from_radian(case.friction_angle), _ANGLE_DECIMALS),
-        inclination_deg=round(degree_from_radian(case.inclination), _ANGLE_DECIMALS),
-    )
-
-
 def _record_profile(standard: Standard) -> ProfileRecord:
     return ProfileRecord(
         id=standard.id,
         title=standard.title,
         edition=standard.edition,
         sha256=standard.sha256,
+        version=standard.version,
+        choice=standard.choice,
         values=[
             ProfileValue(
                 id=entry.id,
@@ -370,7 +366,7 @@ def _record_profile(standard: Standard) -> ProfileRecord:
                 status=entry.status,
                 source=entry.source,
             )
-            for entry in standard.values
+            for entry in standard.listed
         ],
     )
 
@@ -384,7 +380,7 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": "steady",
+            "method": _METHODS[run.method],
             "creep law": f"{run.creep_law.name} ({run.creep_law.source})",
             "accuracy": f"{settings.accuracy:g}",
             "stress tolerance": f"{settings.stress_tolerance:g}",
@@ -398,16 +394,29 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
     )
 
 
-def _validity_notes(ranges: Ranges, law: CreepLaw) -> list[str]:
+def _validity_notes(site: Site, law: CreepLaw) -> list[str]:
     """Say where the creep law is used outside the densities it was fitted to."""
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    if low <= ranges.density.low and ranges.density.high <= high:
-        return []
     return [
-        f"snow densities of {ranges.density.low:g} to {ranges.density.high:g} kg/m3 "
-        f"reach outside the {low:.0f} to {high:.0f} kg/m3 for which the creep law "
-        f"{law.name} is given"
+        f"{what} of {least:g} to {largest:g} kg/m3 reach outside the {low:.0f} to "
+        f"{high:.0f} kg/m3 for which the creep law {law.name} is given"
+        for what, least, largest in _list_density_spans(site)
+        if least < low or largest > high
     ]
+
+
+def _list_density_spans(site: Site) -> list[tuple[str, float, float]]:
+    """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
+    span = site.ranges.density
+    spans = []
+    if not all(row.layers for row in site.rows):
+        spans.append(("snow densities", span.low, span.high))
+    for row in site.rows:
+        if row.layers:
+            least = min(layer.density for layer in row.layers_at(span.low))
+            largest = max(layer.density for layer in row.layers_at(span.high))
+            spans.append((f"net row {row.id}: layer densities", least, largest))
+    return spans
 
 
 def _layer_notes(site: Site) -> list[str]:

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import click
 
 from netdesign import __version__
+from netdesign.commands.bench import bench
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
 from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
 from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
+from netdesign.commands.paper import paper
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
@@ -52,9 +54,11 @@ def cli() -> None:
     """
 
 
+cli.add_command(bench)
 cli.add_command(completion)
 cli.add_command(diff)
 cli.add_command(doctor)
+cli.add_command(paper)
 cli.add_command(standards)
 
 
@@ -78,11 +82,10 @@ cli.add_command(standards)
 )
 @click.option(
     "--method",
-    type=click.Choice(["steady"]),
+    type=click.Choice(["steady", "transient"]),
     default="steady",
     show_default=True,
-    expose_value=False,  # the only one yet
-    help="Coupling of snow and net.",
+    help="Steady states; transient confirms governing cases by their histories.",
 )
 @click.option(
     "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
@@ -95,6 +98,7 @@ cli.add_command(standards)
 @click.option("--html/--no-html", default=True, help="Write report.html.")
 @click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
 @click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
+@click.option("--explain", is_flag=True, help="Print what would flip each check.")
 @click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing outputs.")
@@ -105,11 +109,13 @@ def check(
     example: bool,
     standards: tuple[str, ...],
     accuracy: float,
+    method: Literal["steady", "transient"],
     jobs: int | None,
     out: Path | None,
     html: bool,
     excel: bool,
     csv: bool,
+    explain: bool,
     as_json: bool,
     dry_run: bool,
     force: bool,
@@ -123,13 +129,20 @@ def check(
     netdesign check site.xlsx --out reports --jobs 2
     netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
     netdesign check site.csv --delimiter ";" --decimal-mark comma
+    netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
     netdesign check site.xlsx --json > study.json
 
     The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """
-    from netdesign.check_site import CheckRun, count_cases, judge_site, solve_site
+    from netdesign.check_site import (
+        CheckRun,
+        count_cases,
+        follow_site,
+        judge_site,
+        solve_site,
+    )
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
@@ -140,6 +153,7 @@ def check(
         name_files,
         render_files,
     )
+    from netdesign.rowcheck.probe import Probe
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -152,6 +166,7 @@ def check(
         raise click.UsageError("two of the profiles have the same id")
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
+        method=method,
         jobs=jobs or os.cpu_count() or 1,
         command=_own_command(),
         started=_now(),
@@ -165,9 +180,13 @@ def check(
     require_free([path for group in names for path in group], overwrite=force)
     with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
         results = solve_site(site, run, on_done)
-    studies = [judge_site(site, results, profile, run) for profile in profiles]
+    measured = follow_site(site, run)
+    probe = Probe(run.settings, run.creep_law)
+    studies = [
+        judge_site(site, results, profile, run, probe, measured) for profile in profiles
+    ]
     write_files(render_files(studies, names))
-    _show(studies, as_json=as_json)
+    _show(studies, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
 
@@ -209,30 +228,47 @@ def init(
     help="Steady state, history, or the source paper's exchange [the scene's].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a page with drawings, the solution, a history's table.",
+)
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
 def solve(
     scene_file: Path,
     *,
     method: Literal["steady", "transient", "staggered"] | None,
     as_json: bool,
+    out: Path | None,
+    force: bool,
 ) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
     netdesign solve scene.toml
     netdesign solve scene.toml --json
-    netdesign solve scene.toml --method transient
+    netdesign solve scene.toml --method transient --out history
     """
     import time
 
+    from netdesign.commands.solve_folder import (
+        require_free_folder,
+        write_solution_folder,
+    )
     from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
     scene, settings = read_scene(scene_file, method)
+    if out is not None:
+        require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
+    if out is not None:
+        written = write_solution_folder(out, solution, document, scene_file.name)
+        _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
     elif document["outcome"] == "converged":
@@ -371,16 +407,18 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
         return open_site(path, **reading)
 
 
-def _show(studies: Sequence[Study], *, as_json: bool) -> None:
+def _show(studies: Sequence[Study], *, as_json: bool, explain: bool) -> None:
     from netdesign.study import write_document
 
     if not as_json:
         from rich.console import Console
 
-        from netdesign.report.terminal import print_summary
+        from netdesign.report.terminal import print_changes, print_summary
 
         for study in studies:
             print_summary(study, Console())
+            if explain:
+                print_changes(study, Console())
     elif len(studies) == 1:
         click.echo(write_document(studies[0]))
     else:

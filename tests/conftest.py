@@ -104,7 +104,7 @@ def _build_mesh(
     inclination_deg: float = 0.0,
     sag: float = 0.0,
     aspect: float = 5.0,
-    size: MeshSize = MESH_LEVELS[0],
+    size: MeshSize = MESH_LEVELS[1],
 ) -> PlacedMesh:
     """Mesh against a parabola of this sag, over the thickness, across the chord."""
     template = build_template(aspect, size)
@@ -116,11 +116,17 @@ def _build_mesh(
     return build_placed_mesh(template, place_nodes(template, curve))
 
 
+FINE_LEVELS = MESH_LEVELS[1:]  # each halves the sizes of the one before
+
+
 @cache
 def _solve(first_level: int = 0, **scene: object) -> Solution:
-    """Solution on two mesh levels, the coarsest unless told otherwise."""
+    """Tight solution on two neighbouring fine levels, 140 and 340 triangles first."""
     settings = SolverSettings(
-        accuracy=0.1, levels=MESH_LEVELS[first_level : first_level + 2]
+        accuracy=0.1,
+        stress_tolerance=1e-8,
+        shape_tolerance=1e-7,
+        levels=FINE_LEVELS[first_level : first_level + 2],
     )
     solution = solve_steady(
         _build_scene(**scene),  # type: ignore[arg-type]
@@ -151,7 +157,7 @@ def a_mesh() -> Callable[..., PlacedMesh]:
 
 @pytest.fixture(scope="session")
 def solved() -> Callable[..., Solution]:
-    """Converged solution of ``a_scene(...)`` on two coarse levels; solved once."""
+    """Tight solution of ``a_scene(...)`` on two fine levels; solved once."""
     return _solve
 
 

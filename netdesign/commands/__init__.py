@@ -1,1 +1,1 @@
-"""Commands of the program that are not in ``cli.py``, and what they share."""
+"""Commands of the command line that have a module of their own."""

@@ -11,7 +11,13 @@ from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import SupportForces, compute_support_forces
 from netdesign.coupling.refine import refine
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Cost, EndPull, FailedSolution, WallSolution
+from netdesign.coupling.solution import (
+    Cost,
+    EndPull,
+    FailedSolution,
+    WallSolution,
+    triangle_density,
+)
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowState, solve_flow
@@ -66,7 +72,11 @@ def solve_rigid(
         balance = measure_balance(
             end.law, end.mesh, end.forces, force.vector, None, scale
         )
-        check_balance(balance, chosen.balance_tolerance)
+        check_balance(
+            balance,
+            chosen.balance_tolerance,
+            friction_tolerance=chosen.stress_tolerance,
+        )
     except SolveError as failure:
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
     nodes = end.mesh.nodes[:, end.mesh.template.net]
@@ -85,6 +95,8 @@ def solve_rigid(
         wall_slides=np.append(False, end.state.contact.sign != 0),
         mesh_nodes=end.mesh.nodes * thickness,
         mesh_edges=end.mesh.template.edges,
+        mesh_triangles=end.mesh.template.triangles[:3],
+        mesh_density=triangle_density(scene, end.mesh.template),
         largest_velocity=end.state.largest_velocity(end.mesh) * scene.velocity_scale,
         balance=balance,
         cost=Cost(

@@ -12,6 +12,7 @@ from netdesign.coupling.history import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.outcome import Outcome
+from netdesign.snow.mesh import MeshTemplate
 
 Floats = NDArray[np.float64]
 Method = Literal["steady", "transient", "staggered"]
@@ -164,7 +165,9 @@ class WallSolution:
         Positions [m] and forces [N/m], foot to upper edge.
     wall_slides : ndarray of bool, shape (n,)
         Where the snow slips on the wall.
-    mesh_nodes, mesh_edges, largest_velocity, balance, cost
+    mesh_nodes, mesh_edges, mesh_triangles, mesh_density
+        As in ``Solution``.
+    largest_velocity, balance, cost
         As in ``Solution``.
     """
 
@@ -176,6 +179,8 @@ class WallSolution:
     wall_slides: NDArray[np.bool_]
     mesh_nodes: Floats
     mesh_edges: NDArray[np.int64]
+    mesh_triangles: NDArray[np.int64]
+    mesh_density: Floats
     largest_velocity: float
     balance: Balance
     cost: Cost
@@ -192,3 +197,23 @@ class FailedSolution:
 
     outcome: Outcome
     reason: str
+
+
+def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
+    """Snow density of the triangles of a mesh that has not moved [kg/m3].
+
+    Parameters
+    ----------
+    scene : Scene
+        With uniform or layered snow.
+    template : MeshTemplate
+        Mesh of the snow's thickness 1.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles,)
+        That of the layer which a triangle lies in.
+    """
+    heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
+    layer = np.searchsorted(np.array(scene.layer_tops), heights)
+    return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

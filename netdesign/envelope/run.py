@@ -14,6 +14,7 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.transient import TransientSettings, solve_transient
 from netdesign.envelope.grid import Case
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
@@ -28,14 +29,15 @@ _THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS
 class CaseTask:
     """Everything that a worker needs for one case.
 
-    ``scene`` is None where the model refuses the case; ``refusal`` says why.
+    ``scene`` is None where the model refuses the case; ``refusal`` says why. The kind
+    of settings chooses steady state or history.
     """
 
     case: Case
     scene: Scene | None
     refusal: str
     layout: SupportLayout
-    settings: SolverSettings
+    settings: SolverSettings | TransientSettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -101,7 +103,7 @@ def run_cases(
             notify(results[-1])
         return results
     with (
-        _single_threaded_workers(),
+        single_threaded_workers(),
         ProcessPoolExecutor(
             min(jobs, len(tasks)), mp_context=get_context("spawn")
         ) as pool,
@@ -138,12 +140,23 @@ def solve_case(task: CaseTask) -> CaseResult:
     if task.scene is None:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
     try:
-        solution = solve_steady(task.scene, task.settings)
+        solution = _solve(task.scene, task.settings)
         if isinstance(solution, FailedSolution):
             return _failed(task, solution.outcome, solution.reason)
+        if solution.history is not None and not solution.history.plateau.reached:
+            reason = solution.history.ended or Outcome.PLATEAU_NOT_REACHED.sentence
+            return _failed(task, Outcome.PLATEAU_NOT_REACHED, reason)
         return _resolve_support(task, solution)
     except Exception as error:  # a bug in one case must not hide the others
         return _failed(task, Outcome.WORKER_FAILED, f"{type(error).__name__}: {error}")
+
+
+def _solve(
+    scene: Scene, settings: SolverSettings | TransientSettings
+) -> Solution | FailedSolution:
+    if isinstance(settings, TransientSettings):
+        return solve_transient(scene, settings)
+    return solve_steady(scene, settings)
 
 
 def _resolve_support(task: CaseTask, solution: Solution) -> CaseResult:
@@ -248,7 +261,7 @@ def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:
 
 
 @contextmanager
-def _single_threaded_workers() -> Iterator[None]:
+def single_threaded_workers() -> Iterator[None]:
     """Worker processes inherit one BLAS thread each: there is one worker a core."""
     before = {name: os.environ.get(name) for name in _THREAD_VARIABLES}
     os.environ.update(dict.fromkeys(_THREAD_VARIABLES, "1"))

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report import tables
+from netdesign.report import row_tables, tables
 from netdesign.report.check_view import (
     SEVERITY,
     CheckView,
@@ -52,6 +52,13 @@ class RowView:
     extremes: Table
     failed: Table
     inputs: Table
+    anchors: Table
+    head: Table
+    spreads: Table
+    changes: Table
+    guideline: Table
+    guideline_sentence: str
+    notes: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,6 +150,13 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         extremes=tables.build_extremes(row),
         failed=tables.build_failed(row),
         inputs=tables.build_inputs(row.inputs, "Inputs, with the cell of each"),
+        anchors=row_tables.build_anchors(row),
+        head=row_tables.build_head(row),
+        spreads=row_tables.build_spreads(shown),
+        changes=row_tables.build_changes(row),
+        guideline=row_tables.build_guideline(row),
+        guideline_sentence=row.guideline.sentence if row.guideline else "",
+        notes=tuple(show_text(note) for note in row.notes),
     )
 
 

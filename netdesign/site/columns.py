@@ -5,6 +5,12 @@ English here; French and German texts stand in ``words/*.toml``.
 
 from __future__ import annotations
 
+from netdesign.site.dimension_columns import (
+    ANCHOR_DIMENSIONS,
+    POST_DIMENSIONS,
+    ROPE_DIMENSIONS,
+    ROW_POSITION,
+)
 from netdesign.site.fields import Field, SheetPlan
 from netdesign.site.languages import word_field, word_plan
 from netdesign.site.unit_names import (
@@ -16,6 +22,7 @@ from netdesign.site.unit_names import (
     SHARES,
     SLOPES,
     TEMPERATURES,
+    TIMES,
 )
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.layout import DEFAULT_POST_TILT
@@ -207,6 +214,7 @@ NETS = word_plan(
             _reference("uphill_guy", "uphill guy", "Ropes"),
             _reference("downhill_guy", "downhill guy", "Ropes"),
             _reference("post", "post", "Posts"),
+            *ROW_POSITION,
         ),
     )
 )
@@ -297,6 +305,7 @@ ANCHORS = word_plan(
                 words={"tested": ("test",), "computed": ("calculated",)},
                 note="how the pull-out resistance is known",
             ),
+            *ANCHOR_DIMENSIONS,
         ),
     )
 )
@@ -307,6 +316,7 @@ ROPES = word_plan(
         fields=(
             _TYPE_ID,
             _resistance("rope", "minimum breaking force", "breaking force"),
+            *ROPE_DIMENSIONS,
         ),
     )
 )
@@ -316,6 +326,7 @@ POSTS = word_plan(
         fields=(
             _TYPE_ID,
             _resistance("compression", "compression resistance", "compression"),
+            *POST_DIMENSIONS,
         ),
     )
 )
@@ -417,7 +428,68 @@ PROJECT = word_plan(
     )
 )
 
-SHEETS: tuple[SheetPlan, ...] = (PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS)
+# Measurements, one a line, to stand beside a history; nothing is checked with them.
+MONITORING = word_plan(
+    SheetPlan(
+        name="Monitoring",
+        fields=(
+            Field(
+                key="row",
+                label="net row",
+                kind="id",
+                required=True,
+                refers_to="Nets",
+                note="id of a row of sheet Nets",
+            ),
+            Field(
+                key="member",
+                label="member",
+                kind="word",
+                required=True,
+                words={
+                    "foot anchor": (),
+                    "uphill guy": ("uphill anchor",),
+                    "downhill guy": ("downhill anchor",),
+                    "post": (),
+                },
+            ),
+            Field(
+                key="time",
+                label="time",
+                units=TIMES,
+                bounds=(0.0, 3650.0),
+                note="or date and time in a column of its own",
+            ),
+            Field(
+                key="date",
+                label="date and time",
+                aliases=("date",),
+                kind="text",
+                note="such as 2003-02-18 06:00, instead of a time",
+            ),
+            Field(
+                key="tension",
+                label="tension",
+                aliases=("force",),
+                units=FORCES,
+                bounds=(0.0, 5000.0),
+                note="per anchor; this or the air temperature, or both",
+            ),
+            Field(
+                key="temperature",
+                label="air temperature",
+                aliases=("temperature",),
+                units=TEMPERATURES,
+                bounds=(-60.0, 50.0),
+            ),
+        ),
+    )
+)
+
+SHEETS: tuple[SheetPlan, ...] = (
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
+    MONITORING,
+)
 # The sheet that an annotated copy lists its findings on.
 FINDINGS_SHEET = "netdesign findings"
 # Sheets of the program's own that hold nothing to read.

@@ -8,7 +8,13 @@ from dataclasses import replace
 
 from netdesign.errors import ModelError
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest
-from netdesign.site.model import MEMBER_MODES, InputEcho, NetRow, Resistance
+from netdesign.site.model import (
+    MEMBER_MODES,
+    OPTIONAL_MODES,
+    InputEcho,
+    NetRow,
+    Resistance,
+)
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     LayersByRow,
@@ -18,6 +24,7 @@ from netdesign.site.snow_layers import (
     settle_thickness,
 )
 from netdesign.site.tables import Table, read_rows
+from netdesign.site.type_resistances import DERIVED, find_tests
 from netdesign.snow.ground import (
     GROUND_KINDS,
     GroundLaw,
@@ -113,11 +120,10 @@ def _build_net_row(
         net_stiffness_per_m=row["net_stiffness"].si,
         slack=row["slack"].si,
         layout=_build_layout(row),
-        resistances=tuple(
-            _find_resistance(row[member], mode, member, type_sheets)
-            for member, mode in MEMBER_MODES
-        ),
+        resistances=_find_resistances(row, type_sheets),
         inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
+        gap=row["gap"].si if row["gap"].state == "given" else math.inf,
+        altitude=row["altitude"].si if row["altitude"].state == "given" else None,
     )
 
 
@@ -217,12 +223,27 @@ def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> 
 
 
 def _build_layout(row: Row) -> SupportLayout:
+    base = row["post_base_distance"]
     return SupportLayout(
         post_spacing=row["post_spacing"].si,
         post_tilt=row["post_tilt"].si,
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
+        post_base_distance=base.si if base.state == "given" else None,
     )
+
+
+def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
+    """Resistances of all members; of optional modes those that are given."""
+    needed = [
+        _find_resistance(row[member], mode, member, type_sheets)
+        for member, mode in MEMBER_MODES
+    ]
+    optional = [
+        _find_resistance(row[named_by], mode, member, type_sheets)
+        for member, mode, named_by in OPTIONAL_MODES
+    ]
+    return (*needed, *(one for one in optional if one.value is not None))
 
 
 def _find_resistance(
@@ -240,16 +261,23 @@ def _find_resistance(
         )
     kind = type_sheets[reading.field.refers_to][reading.word]
     resistance = kind[mode]
+    tests = find_tests(kind) if mode == "pull_out" else None
     is_given = resistance.state == "given"
+    is_derived = is_given and resistance.text.startswith(DERIVED)
     # A pull-out resistance says how it is known; the others are makers' values.
     basis = kind["basis"].word if mode == "pull_out" else "declared"
+    if is_derived and mode == "pull_out":
+        basis = "computed"
+    place = kind["test_least"].place if tests else resistance.place
     return Resistance(
         member=member,
         mode=mode,
         value=resistance.si if is_given else None,
-        basis=basis if is_given else "",
+        basis="tested" if tests else basis if is_given else "",
         type_id=reading.word,
-        source=resistance.place or reading.field.refers_to,
+        source=place or reading.field.refers_to,
+        derivation=resistance.text.removeprefix(DERIVED) if is_derived else "",
+        tests=tests,
     )
 
 

@@ -9,6 +9,7 @@ from netdesign.errors import SiteDataError
 from netdesign.site.cells import UNDECLARED, TextFormat, Workbook
 from netdesign.site.columns import (
     ANCHORS,
+    MONITORING,
     NETS,
     POSTS,
     PROJECT,
@@ -22,12 +23,14 @@ from netdesign.site.columns import (
 from netdesign.site.diagnostics import Finding, add_nearest, note_file
 from netdesign.site.fields import normalise, split_heading
 from netdesign.site.model import Project, Site
+from netdesign.site.monitoring import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_layers import check_densities, read_layers
 from netdesign.site.spreadsheet import read_workbook
 from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.site.type_resistances import check_tests, fill_in_resistances
 
 
 def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
@@ -67,6 +70,8 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     if built_ranges:
         density = built_ranges[0].density
         check_densities(net_rows, snow, density.low, density.high, findings)
+    row_ids = {row.id for row in net_rows}
+    monitoring = read_monitoring(tables[MONITORING.name], row_ids, findings)
     findings.extend(_note_unread(workbook))
     if built_ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings)
@@ -80,6 +85,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         findings=tuple(findings),
         range_inputs=built_ranges[1],
         project_cells=project_cells,
+        monitoring=monitoring,
     )
 
 
@@ -144,4 +150,6 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row]:
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
             rule = f"is empty beside the pull-out resistance in {row['pull_out'].place}"
             refuse(basis, rule, basis.field.accepted, findings)
-    return index_by_id(rows, findings)
+        check_tests(row, findings)
+    filled = [fill_in_resistances(row, findings) for row in rows]
+    return index_by_id(filled, findings)

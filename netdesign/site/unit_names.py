@@ -11,14 +11,25 @@ from collections.abc import Callable
 
 from netdesign.units import (
     degree_from_radian,
+    fourth_meter_from_fourth_centimeter,
     kelvin_from_celsius,
+    meter_from_millimeter,
     newton_from_kilonewton,
+    pascal_from_kilopascal,
+    pascal_from_megapascal,
     radian_from_degree,
     radian_from_percent,
+    second_from_day,
+    square_meter_from_square_centimeter,
 )
 
 # Units that a column may be given in; the first is that of bounds and reports.
 LENGTHS = ("m", "cm", "mm")
+DIAMETERS = ("mm", "cm", "m")
+AREAS = ("cm2", "mm2")
+SECOND_MOMENTS = ("cm4", "mm4")
+STRENGTHS = ("MPa",)
+GROUND_STRESSES = ("kPa", "MPa")
 FORCES = ("kN", "N", "MN")
 FORCES_PER_LENGTH = ("kN/m", "N/m", "MN/m")
 ANGLES = ("deg", "rad", "gon")
@@ -26,6 +37,7 @@ SLOPES = ("deg", "%", "rad", "gon")
 SHARES = ("-", "%")
 DENSITIES = ("kg/m3", "g/cm3", "t/m3")
 TEMPERATURES = ("degC",)
+TIMES = ("d", "h")
 
 # What looks like one unit and is used for two: never guessed.
 UNCLEAR_UNITS = {
@@ -58,6 +70,23 @@ _SPELLINGS = {
     "mn/m": "MN/m",
     "kn": "kN",
     "n": "N",
+    "mpa": "MPa",
+    "n/mm2": "MPa",
+    "kpa": "kPa",
+    "kn/m2": "kPa",
+    "day": "d",
+    "days": "d",
+    "j": "d",
+    "jour": "d",
+    "jours": "d",
+    "tag": "d",
+    "tage": "d",
+    "hour": "h",
+    "hours": "h",
+    "heure": "h",
+    "heures": "h",
+    "stunde": "h",
+    "stunden": "h",
     "kgm-3": "kg/m3",
     "°c": "degC",
     "c": "degC",
@@ -70,6 +99,13 @@ _SPELLINGS = {
 _FACTORS = {
     ("cm", "m"): 1e-2,
     ("mm", "m"): 1e-3,
+    ("cm", "mm"): 10.0,
+    ("m", "mm"): 1e3,
+    ("mm2", "cm2"): 1e-2,
+    ("mm4", "cm4"): 1e-4,
+    ("kPa", "MPa"): 1e-3,
+    ("MPa", "kPa"): 1e3,
+    ("h", "d"): 1 / 24,
     ("N", "kN"): 1e-3,
     ("MN", "kN"): 1e3,
     ("N/m", "kN/m"): 1e-3,
@@ -84,6 +120,12 @@ _CONVERSIONS: dict[tuple[str, str], Callable[[float], float]] = {
     ("%", "deg"): lambda slope: degree_from_radian(radian_from_percent(slope)),
 }
 _TO_SI = {
+    "mm": meter_from_millimeter,
+    "cm2": square_meter_from_square_centimeter,
+    "cm4": fourth_meter_from_fourth_centimeter,
+    "kPa": pascal_from_kilopascal,
+    "MPa": pascal_from_megapascal,
+    "d": second_from_day,
     "deg": radian_from_degree,
     "kN": newton_from_kilonewton,
     "kN/m": newton_from_kilonewton,
@@ -100,6 +142,8 @@ def normalise_unit(text: str) -> str:
     compact = "".join(composed.replace("^", "").split())
     if compact in ("MN", "MN/m", "MN/ml", "MN/m'"):
         return "MN" if compact == "MN" else "MN/m"
+    if compact == "MN/m2":
+        return "MPa"
     folded = compact.casefold()
     if folded.startswith("mn"):
         return compact

@@ -17,7 +17,12 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 
-COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+COARSE = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
 PRESSED = {"ground": "no-slip", "inclination_deg": 0.0}
 
 

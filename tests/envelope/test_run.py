@@ -22,6 +22,7 @@ MEMBERS = {
     "downhill_guy",
     "downhill_anchor",
     "post",
+    "post_base",
 }
 
 

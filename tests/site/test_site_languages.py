@@ -13,6 +13,13 @@ TABLES = {
     "items": PROJECT_ITEMS,
 }
 
+# Signs of the trade, the same in every language.
+SIGNS = {
+    ("Anchors", "grouting"),
+    ("Ropes", "construction"),
+    ("Posts", "buckling_curve"),
+}
+
 
 @pytest.mark.parametrize("language", ["fr", "de"])
 def test_no_text_is_missing_and_none_is_left_over(language):
@@ -28,7 +35,9 @@ def test_no_text_is_missing_and_none_is_left_over(language):
             wanted = {"label", "note"} if field.note else {"label"}
             missing += [f"{table}.{field.key}.{key}" for key in wanted - set(given)]
             if field.words:
-                assert set(given["words"]) == set(field.words)
+                is_sign = (table, field.key) in SIGNS
+                wanted_words = set() if is_sign else set(field.words)
+                assert set(given.get("words", ())) == wanted_words, field.key
     assert (missing, idle) == ([], [])
     assert set(words) == {"text", "drawing", *TABLES}
 

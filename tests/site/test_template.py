@@ -5,6 +5,7 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
+from netdesign.checks import list_standards
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.site import template
 from netdesign.site.columns import NETS, SHEETS
@@ -188,7 +189,7 @@ def test_sheets_are_set_up_for_printing(example):
     assert nets.print_title_cols == "$A:$A"
     assert nets.page_setup.orientation == "landscape"
     assert "&P" in nets.oddFooter.right.text
-    assert nets.print_area == "'Nets'!$A$1:$U$25"
+    assert nets.print_area == "'Nets'!$A$1:$X$25"
 
 
 def test_profiles_and_quantities_are_offered(example):
@@ -198,7 +199,7 @@ def test_profiles_and_quantities_are_offered(example):
         for name in ("Project", "Ranges")
         for rule in workbook[name].data_validations.dataValidation
     }
-    assert offers["B7"] == '"nf-p-95-304-style"'
+    assert offers["B7"] == f'"{",".join(list_standards())}"'
     assert offers["A2:A201"] == '"density,friction angle,net inclination"'
     assert offers["B2:B201"].startswith('"kg/m3,')
 

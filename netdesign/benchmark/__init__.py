@@ -1,0 +1,1 @@
+"""Run time against error, and stability under stress, of the program itself."""
