@@ -25,7 +25,7 @@ from netdesign.snow.forms import (
     assemble_tangent_form,
     build_basis,
 )
-from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.kernel import PlacedMesh, assemble_end_load
 from netdesign.snow.law import (
     FlowLaw,
     Material,
@@ -104,6 +104,8 @@ def _assemble_force(
     force -= skfem.LinearForm(_gravity_power).assemble(
         velocity, density=density, x=law.gravity[0], y=law.gravity[1]
     )
+    if law.end_load:
+        force -= assemble_end_load(mesh, law.end_load)[: mesh.n_velocities]
     if law.element == "velocity":
         return force
     pressure = velocity.with_element(skfem.ElementTriP1())

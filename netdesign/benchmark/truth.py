@@ -82,8 +82,7 @@ def refine_size(size: MeshSize, factor: int) -> MeshSize:
 
 def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
     """Level whose mesh a solution was found on, by its number of triangles."""
-    pack = solution.scene.snowpack
-    aspect = pack.upslope_length / pack.thickness
+    aspect = solution.scene.reach
     for level in levels:
         template = build_template(aspect, level, solution.scene.layer_tops)
         if template.triangles.shape[1] == solution.cost.elements:

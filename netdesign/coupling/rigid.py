@@ -16,6 +16,7 @@ from netdesign.coupling.solution import (
     EndPull,
     FailedSolution,
     WallSolution,
+    list_skipped,
     triangle_density,
 )
 from netdesign.errors import SolveError
@@ -104,15 +105,14 @@ def solve_rigid(
             rounds=len(states),
             elements=end.mesh.template.triangles.shape[1],
             degrees_of_freedom=end.mesh.n_dofs,
+            skipped=list_skipped(scene, end.mesh),
         ),
     )
 
 
 def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
-    thickness = scene.snowpack.thickness
-    law = scene.flow_law
-    aspect = scene.snowpack.upslope_length / thickness
-    template = build_template(aspect, size, scene.layer_tops)
+    law = scene.reach_law
+    template = build_template(scene.reach, size, scene.layer_tops)
     heights = template.net_fractions
     wall = np.array([heights * np.tan(scene.net.inclination), heights])
     mesh = build_placed_mesh(template, place_nodes(template, wall), law.element)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from netdesign.cable.net import Net
 from netdesign.errors import ModelError
@@ -39,6 +39,12 @@ _OVERTOPPING = 1e-6
 # a / b above which the snow counts as nearly incompressible and takes the mixed
 # element; the velocity element's error grows from there (tests/verification).
 MIXED_BULK_RATIO = 20.0
+
+# Beyond this many thicknesses upslope of the net, snow on a freely gliding ground only
+# hands its weight along the slope on: farther snow becomes a load (measured: from 4
+# on nothing changes beyond the mesh's own error).
+REACH_OF_NET = 8.0
+_CUT_FROM = 9.0
 
 # Meshes from the fewest triangles upwards. Sectors around the net's ends are worth
 # more than triangles along its middle (measured: netdesign bench).
@@ -156,6 +162,20 @@ class Scene:
             ground_contact=self.ground_contact,
             net_contact=self.net_contact,
         )
+
+    @property
+    def reach(self) -> float:
+        """Upslope length over thickness that a steady solve has to model."""
+        aspect = self.snowpack.upslope_length / self.snowpack.thickness
+        hands_on = self.ground.kind == "free" and self.ground_contact == "two-sided"
+        return REACH_OF_NET if hands_on and aspect > _CUT_FROM else aspect
+
+    @property
+    def reach_law(self) -> FlowLaw:
+        """``flow_law`` with the exact load of the snow beyond ``reach``."""
+        law = self.flow_law
+        beyond = self.snowpack.upslope_length / self.snowpack.thickness - self.reach
+        return replace(law, end_load=beyond * law.gravity[0])
 
     @property
     def is_calibrated(self) -> bool:

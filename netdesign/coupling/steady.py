@@ -28,6 +28,7 @@ from netdesign.coupling.solution import (
     EndPull,
     FailedSolution,
     Solution,
+    list_skipped,
     triangle_density,
 )
 from netdesign.coupling.start import guess_pressure
@@ -154,10 +155,8 @@ def _refine(scene: Scene, settings: SolverSettings) -> Solution:
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
     thickness = scene.snowpack.thickness
     return _Problem(
-        law=scene.flow_law,
-        template=build_template(
-            scene.snowpack.upslope_length / thickness, size, scene.layer_tops
-        ),
+        law=scene.reach_law,
+        template=build_template(scene.reach, size, scene.layer_tops),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
         slack=net.slack,
@@ -405,5 +404,6 @@ def _build_solution(
             rounds=sum(state.rounds for state in states),
             elements=mesh.template.triangles.shape[1],
             degrees_of_freedom=mesh.n_dofs,
+            skipped=list_skipped(scene, mesh),
         ),
     )

@@ -27,6 +27,7 @@ from netdesign.snow.kernel import (
     PlacedMesh,
     assemble_base_force,
     assemble_body_force,
+    assemble_end_load,
     assemble_stress,
     build_base_stiffness,
     build_stiffness,
@@ -225,9 +226,10 @@ def compute_residual(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats
 
 
 def compute_weight(law: FlowLaw, mesh: PlacedMesh) -> Floats:
-    """Weight of the snow on the mesh, shape (2,) [rho g d^2]."""
+    """Weight of the snow on the mesh, and load on its end, shape (2,) [rho g d^2]."""
     material = sample_material(law, mesh.template)
-    return np.array(law.gravity) * float((mesh.weights * material.density).sum())
+    weight = np.array(law.gravity) * float((mesh.weights * material.density).sum())
+    return np.asarray(weight + np.array([law.end_load, 0.0]))
 
 
 def _estimate_left(
@@ -337,9 +339,13 @@ def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
 
 def _gravity_load(law: FlowLaw, material: Material, mesh: PlacedMesh) -> Floats:
     if isinstance(material.density, float):
-        return mesh.to_node_axes(np.outer(law.gravity, mesh.load * material.density))
-    body_force = np.multiply.outer(np.array(law.gravity), material.density)
-    return assemble_body_force(mesh, body_force)
+        load = mesh.to_node_axes(np.outer(law.gravity, mesh.load * material.density))
+    else:
+        body_force = np.multiply.outer(np.array(law.gravity), material.density)
+        load = assemble_body_force(mesh, body_force)
+    if law.end_load:
+        load += assemble_end_load(mesh, law.end_load)
+    return load
 
 
 def _stress_norm(

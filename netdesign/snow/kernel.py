@@ -218,6 +218,20 @@ def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
     return mesh.to_node_axes(np.array(nodal))
 
 
+def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
+    """Nodal loads (n_dofs,) of a uniform traction along X on the upslope end."""
+    xi, eta = mesh.template.nodes
+    end = np.flatnonzero(xi == mesh.template.aspect)
+    chain = end[np.argsort(eta[end])]
+    start, middle, stop = _edge_triples(chain)
+    lengths = eta[stop] - eta[start]
+    load = np.zeros_like(mesh.nodes)
+    np.add.at(load[0], start, force * lengths / 6.0)
+    np.add.at(load[0], middle, force * lengths * 4.0 / 6.0)
+    np.add.at(load[0], stop, force * lengths / 6.0)
+    return mesh.to_node_axes(load)
+
+
 def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
     """Nodal forces (n_dofs,) of a shear stress (n_edges, n_points) on the ground."""
     base = mesh.base

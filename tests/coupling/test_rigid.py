@@ -106,7 +106,7 @@ def test_wall_holds_layered_snow(a_scene):
 
 
 def test_one_sided_wall_and_ground_do_not_pull(a_scene):
-    scene = walled(a_scene, 0.0, 0.5, ground="no-slip")
+    scene = walled(a_scene, 0.1, 0.5, ground="free")
     two = solve_rigid(scene, COARSE)
     assert two.balance.suction_share > 0.0
     assert two.balance.ground_tension_share > 0.0

@@ -294,3 +294,45 @@ def test_accuracy_that_is_not_reached_is_said(a_scene):
     solution = solve_steady(a_scene(), settings)
     assert isinstance(solution, Solution)
     assert solution.foot.error > 1e-4 * solution.foot.size
+
+
+# --- what a scene does not need ----------------------------------------------
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_snow_beyond_the_nets_reach_becomes_its_load(a_scene, inclination, monkeypatch):
+    """Half the triangles, the same pulls to within the mesh's own error."""
+    scene = a_scene(length_m=80.0, inclination_deg=inclination)
+    cut = solve_steady(scene, COARSE, on_failure="raise")
+    monkeypatch.setattr("netdesign.coupling.scene._CUT_FROM", 1e9)
+    whole = solve_steady(scene, COARSE, on_failure="raise")
+    assert cut.cost.skipped.upslope_length == pytest.approx(80.0 - 8.0 * 4.0)
+    assert whole.cost.skipped.upslope_length == 0.0
+    assert cut.cost.degrees_of_freedom < 0.75 * whole.cost.degrees_of_freedom
+    weights = [one.balance.weight_along_slope for one in (cut, whole)]
+    assert weights[0] == pytest.approx(weights[1], rel=1e-3)  # of the bulges
+    for end in ENDS:
+        np.testing.assert_allclose(
+            pull(getattr(cut, end)),
+            pull(getattr(whole, end)),
+            atol=1e-3 * getattr(whole, end).size,
+        )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"ground": "no-slip"}, {"length_m": 35.0}, {"ground_contact": "one-sided"}],
+    ids=str,
+)
+def test_snow_that_the_ground_holds_or_that_is_near_is_not_cut(a_scene, changes):
+    contact = changes.get("ground_contact", "two-sided")
+    given = {key: value for key, value in changes.items() if key != "ground_contact"}
+    scene = replace(a_scene(**{"length_m": 80.0, **given}), ground_contact=contact)
+    assert scene.reach == scene.snowpack.upslope_length / scene.snowpack.thickness
+    assert scene.reach_law.end_load == 0.0
+
+
+def test_pressures_are_skipped_far_from_ice(solved):
+    solution = solved()
+    unknowns = solution.cost.degrees_of_freedom
+    assert solution.cost.skipped.pressure_unknowns > 0.1 * unknowns

@@ -186,9 +186,9 @@ def test_layers_scale_with_the_mean_density(a_scene):
 
 
 def test_one_sided_ground_does_not_pull(a_scene):
-    scene = a_scene(ground="no-slip", inclination_deg=30.0)
+    scene = a_scene(inclination_deg=30.0, friction_deg=15.0)
     two, one = sound(scene), sound(replace(scene, ground_contact="one-sided"))
-    assert two.balance.ground_tension_share > 0.01
+    assert 0.1 < two.balance.ground_tension_share < 0.2  # physics.md: 12 %
     assert one.balance.ground_tension_share < 1e-12
     assert one.foot.size == pytest.approx(two.foot.size, rel=0.02)  # physics.md: 2 %
 
