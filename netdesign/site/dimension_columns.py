@@ -60,7 +60,7 @@ ROW_POSITION = (
     _number(
         "altitude",
         "altitude",
-        LENGTHS,
+        ("m",),
         (0.0, 6000.0),
         "above sea level, for the density of the guideline's load cases; left empty, "
         "their factor for altitude is 1",

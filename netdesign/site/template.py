@@ -42,6 +42,7 @@ _LAST_ROW = 200  # drop-downs and bounds reach down to this line
 _PRINTED_ROWS = 24  # of an empty form; a longer table is printed to its end
 _COLUMN_WIDTH = 12.5
 _TEXT_WIDTH = 30
+_NOTE_WIDTH = 40  # characters in a line of a note on a heading
 _A4 = 9
 _HEADING_LINE = 15.5  # [pt]
 _WIDEST_PAGE = 14  # columns; more go on two pages, each with the first column
@@ -166,8 +167,7 @@ def _write_sheet(book: _Book, plan: SheetPlan, lines: _Lines) -> None:
         sheet.set_column(column, column, widths[column])
         sheet.write_string(0, column, headings[column], book.formats["heading"])
         if note := describe_field(field, book.language):
-            options = {"x_scale": 2.2, "y_scale": 1.4, "author": ""}
-            sheet.write_comment(0, column, note, options)
+            sheet.write_comment(0, column, note, _size_note(note))
         if rule := _validation(field, book):
             sheet.data_validation(1, column, _LAST_ROW, column, rule)
         for row in range(1, last_row + 1):
@@ -178,6 +178,12 @@ def _write_sheet(book: _Book, plan: SheetPlan, lines: _Lines) -> None:
         _offer_profiles(sheet, lines)
     if plan is RANGES:
         _offer_quantities(sheet, book)
+
+
+def _size_note(note: str) -> dict[str, Any]:
+    """Box of a note on a heading, high enough for its text."""
+    lines = sum(count_lines(line, _NOTE_WIDTH) for line in note.split("\n"))
+    return {"x_scale": 2.2, "height": max(104, 17 * lines + 10), "author": ""}
 
 
 def _fit_words(heading: str) -> float:

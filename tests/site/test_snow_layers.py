@@ -1,13 +1,17 @@
 """Layers by net row: from sheet Snow to the scenes that are solved."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from netdesign.check_site import CheckRun, judge_site, solve_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.envelope.grid import Case
+from netdesign.rowcheck.probe import build_scene
 from netdesign.site.reader import read_site
+from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 
 SNOW = [
     ["net row", "layer", "thickness [m]", "density [kg/m3]", "temperature [°C]"],
@@ -87,6 +91,44 @@ def test_a_range_that_makes_a_layer_denser_than_snow_is_refused(layered, save, r
     assert finding.cell == "D2"
     # the densest layer at the top of the range: 450 / 333 x 700
     assert finding.rule.endswith(f"as dense as {450 / MEAN * 700:.4g} kg/m3")
+
+
+def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):
+    """What would flip a check is searched with changed rows: rowcheck.flips."""
+    row = replace(read_site(save(layered)).rows[0], snow_thickness=2.4)
+    case = Case(density=300.0, friction_angle=0.5, inclination=0.5)
+    pack = build_scene(row, case, BOUTILLIER_2004).snowpack
+    assert (pack.thickness, pack.density) == (2.4, 300.0)
+    assert [layer.thickness for layer in pack.layers] == pytest.approx([0.8, 1.2, 0.4])
+    assert [layer.density for layer in pack.layers] == pytest.approx(
+        [density * 300.0 / MEAN for density in (450, 300, 200)]
+    )
+
+
+@pytest.mark.parametrize("is_layered", [True, False])
+def test_densities_outside_the_creep_law_are_told_layer_by_layer(
+    layered, save, is_layered
+):
+    low, high = (bound * ICE_DENSITY for bound in BOUTILLIER_2004.calibrated)
+    assert low < 400 < 480 < high  # the range itself is inside
+    layered["Ranges"][1][1:4] = [400, 480, 2]
+    for line, density in zip(layered["Snow"][1:], (500, 420, 300), strict=True):
+        line[3] = density
+    mean = (1.0 * 500 + 1.5 * 420 + 0.5 * 300) / 3.0
+    if not is_layered:
+        del layered["Snow"]
+    site = read_site(save(layered))
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:1]))
+    standard = load_standard("nf-p-95-304-style")
+    study = judge_site(site, [[] for _ in site.rows], standard, run)
+    notes = [note for note in study.notes if "the creep law" in note]
+    if not is_layered:
+        assert notes == []
+        return
+    (note,) = notes
+    least, largest = 300 * 400 / mean, 500 * 480 / mean
+    told = f"net row R1: layer densities of {least:g} to {largest:g} kg/m3 reach"
+    assert note.startswith(told)
 
 
 def test_layers_reach_the_solver_and_change_its_forces(layered, save):

@@ -102,6 +102,31 @@ def test_bounds_and_words_are_offered_while_typing(example):
     assert anchor.formula1 == "'Anchors'!$A$2:$A$201"
 
 
+@pytest.mark.parametrize(
+    ("language", "name", "first"),
+    [
+        ("en", "Monitoring", "foot anchor"),
+        ("fr", "Mesures", "ancrage de pied"),
+        ("de", "Messungen", "Fußanker"),
+    ],
+)
+def test_measurements_have_a_sheet_of_their_own(tmp_path, language, name, first):
+    path = tmp_path / "site.xlsx"
+    write_site_workbook(path, example=True, language=language)
+    workbook = openpyxl.load_workbook(path)
+    sheet = workbook[name]
+    offered = {
+        str(rule.sqref): rule.formula1 for rule in sheet.data_validations.dataValidation
+    }
+    assert offered["B2:B201"].startswith(f'"{first},')
+    nets = workbook.sheetnames[2]
+    sheet["A2"], sheet["B2"] = workbook[nets]["A2"].value, first
+    sheet["D2"], sheet["E2"] = "2003-02-18 06:00", 80
+    workbook.save(path)
+    (series,) = read_site(path).monitoring
+    assert (series.member, series.tensions) == ("foot_anchor", (80_000.0,))
+
+
 def test_text_never_becomes_a_formula(tmp_path, monkeypatch):
     lines = {"Project": [{"item": "name", "value": '=HYPERLINK("http://x")'}]}
     monkeypatch.setattr(template, "load_example", lambda: lines)

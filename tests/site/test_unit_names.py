@@ -18,7 +18,9 @@ from netdesign.site.unit_names import (
         *(("kN/ml", "kN/m"), ("KN", "kN"), ("MN", "MN"), ("N", "N")),
         *(("kg/m³", "kg/m3"), ("kg/m^3", "kg/m3"), ("KG / M3", "kg/m3")),
         *(("t/m³", "t/m3"), ("°C", "degC"), ("mm", "mm"), ("CM", "cm"), ("–", "-")),
-        *(("mN", "mN"), ("Grad", "grad"), ("T", "t")),
+        *(("mN", "mN"), ("Grad", "grad"), ("T", "t"), ("mN/m²", "mN/m2")),
+        *(("N/mm²", "MPa"), ("Mpa", "MPa"), ("MN/m²", "MPa"), ("kN/m²", "kPa")),
+        *(("cm⁴", "cm4"), ("mm²", "mm2"), ("Tage", "d"), ("j", "d"), ("heures", "h")),
     ],
 )
 def test_units_are_folded_to_one_spelling(typed, unit):
@@ -41,14 +43,32 @@ def test_units_are_folded_to_one_spelling(typed, unit):
         (0.27, "t/m3", "kg/m3", 270.0),
         (0.4, "g/cm3", "kg/m3", 400.0),
         (-7.25, "degC", "degC", -7.25),
+        (0.028, "m", "mm", 28.0),
+        (2.8, "cm", "mm", 28.0),
+        (3400.0, "mm2", "cm2", 34.0),
+        (3_180_000.0, "mm4", "cm4", 318.0),
+        (0.25, "MPa", "kPa", 250.0),
+        (36.0, "h", "d", 1.5),
     ],
 )
 def test_conversions_by_hand(value, unit, first, result):
     assert convert_unit(value, unit, first) == pytest.approx(result, rel=1e-15)
 
 
-def test_a_temperature_becomes_kelvin():
-    assert to_si(-5.0, "degC") == pytest.approx(268.15)
+@pytest.mark.parametrize(
+    ("value", "unit", "si"),
+    [
+        (-5.0, "degC", 268.15),
+        (28.0, "mm", 0.028),
+        (34.0, "cm2", 0.0034),
+        (318.0, "cm4", 3.18e-6),
+        (235.0, "MPa", 235e6),
+        (250.0, "kPa", 250e3),
+        (1.5, "d", 129_600.0),
+    ],
+)
+def test_first_units_become_si(value, unit, si):
+    assert to_si(value, unit) == pytest.approx(si, rel=1e-14)
 
 
 def test_every_unit_of_every_column_can_be_converted_and_is_clear():
