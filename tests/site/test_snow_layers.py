@@ -118,7 +118,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     if not is_layered:
         del layered["Snow"]
     site = read_site(save(layered))
-    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:1]))
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     standard = load_standard("nf-p-95-304-style")
     study = judge_site(site, [[] for _ in site.rows], standard, run)
     notes = [note for note in study.notes if "the creep law" in note]
