@@ -18,7 +18,7 @@ from netdesign.checks import Standard
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.confirm import build_history_settings, confirm_rows
 from netdesign.envelope.extremes import Extreme, find_extremes
-from netdesign.envelope.grid import Case, Ranges, build_cases
+from netdesign.envelope.grid import Case, build_cases
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.monitoring import follow_monitoring
 from netdesign.outcome import Verdict, merge_verdicts
@@ -166,7 +166,11 @@ def judge_site(
         profile=_record_profile(standard),
         rows=rows,
         range_inputs=list(site.range_inputs),
-        notes=[*site.notes, *_validity_notes(site.ranges, run.creep_law)],
+        notes=[
+            *site.notes,
+            *_validity_notes(site, run.creep_law),
+            *_layer_notes(site),
+        ],
         provenance=_record_provenance(site, run),
     )
 
@@ -206,7 +210,7 @@ def _judge_row(
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, run.creep_law) for result in results],
+        cases=[_record_case(result, run.creep_law, row) for result in results],
         inputs=list(row.inputs),
         drawing=_draw(row, governing),
         reasons=unproven,
@@ -254,7 +258,7 @@ def _record_extreme(extreme: Extreme) -> ExtremeRecord:
     )
 
 
-def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
+def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     forces = {
         f"{member}_kN": _kilonewton(
             result.member_forces[member].value if result.is_converged else None
@@ -268,9 +272,18 @@ def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
-        is_calibrated=law.is_calibrated(result.case.density / ICE_DENSITY),
+        is_calibrated=all(
+            law.is_calibrated(density / ICE_DENSITY)
+            for density in _list_densities(row, result.case)
+        ),
         **forces,
     )
+
+
+def _list_densities(row: NetRow, case: Case) -> tuple[float, ...]:
+    """Density of each layer of a case [kg/m3]; of uniform snow the case's own."""
+    layers = row.layers_at(case.density)
+    return tuple(layer.density for layer in layers) or (case.density,)
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:
@@ -381,15 +394,39 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
     )
 
 
-def _validity_notes(ranges: Ranges, law: CreepLaw) -> list[str]:
+def _validity_notes(site: Site, law: CreepLaw) -> list[str]:
     """Say where the creep law is used outside the densities it was fitted to."""
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    if low <= ranges.density.low and ranges.density.high <= high:
-        return []
     return [
-        f"snow densities of {ranges.density.low:g} to {ranges.density.high:g} kg/m3 "
-        f"reach outside the {low:.0f} to {high:.0f} kg/m3 for which the creep law "
-        f"{law.name} is given"
+        f"{what} of {least:g} to {largest:g} kg/m3 reach outside the {low:.0f} to "
+        f"{high:.0f} kg/m3 for which the creep law {law.name} is given"
+        for what, least, largest in _list_density_spans(site)
+        if least < low or largest > high
+    ]
+
+
+def _list_density_spans(site: Site) -> list[tuple[str, float, float]]:
+    """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
+    span = site.ranges.density
+    spans = []
+    if not all(row.layers for row in site.rows):
+        spans.append(("snow densities", span.low, span.high))
+    for row in site.rows:
+        if row.layers:
+            least = min(layer.density for layer in row.layers_at(span.low))
+            largest = max(layer.density for layer in row.layers_at(span.high))
+            spans.append((f"net row {row.id}: layer densities", least, largest))
+    return spans
+
+
+def _layer_notes(site: Site) -> list[str]:
+    """Say what the range of density does to layered snow."""
+    return [
+        f"net row {row.id}: its {len(row.layers)} layers of mean density "
+        f"{row.mean_density:.4g} kg/m3 keep their proportions; their mean follows the "
+        "range of density"
+        for row in site.rows
+        if row.layers
     ]
 
 

@@ -15,7 +15,13 @@ import click
 
 from netdesign import __version__
 from netdesign.commands.bench import bench
+from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
+from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
+from netdesign.commands.diff import diff
+from netdesign.commands.doctor import doctor
+from netdesign.commands.dry_run import announce
 from netdesign.commands.paper import paper
+from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
@@ -30,8 +36,6 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
 DEFAULT_FOLDER = "netdesign-out"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
-# Rough time of one case on one core of a small server; for --dry-run only.
-_SECONDS_A_CASE = 0.12
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 130 interrupted."
@@ -46,12 +50,22 @@ def cli() -> None:
     netdesign check --example          a first look
     netdesign init site.xlsx           an input workbook to fill in
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
+    netdesign diff old.json new.json   what changed between two studies
     """
 
 
-@cli.command()
+cli.add_command(bench)
+cli.add_command(completion)
+cli.add_command(diff)
+cli.add_command(doctor)
+cli.add_command(paper)
+cli.add_command(standards)
+
+
+@cli.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
 @click.option("--example", is_flag=True, help="Use the built-in example site.")
+@site_options
 @click.option(
     "--standard",
     "standards",
@@ -106,14 +120,21 @@ def check(
     dry_run: bool,
     force: bool,
     quiet: bool,
+    **reading: Any,
 ) -> None:
-    """Check every anchor of a site workbook and write the reports.
+    """Check every anchor of a site and write the reports.
 
     \b
     netdesign check --example
     netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
+    netdesign check site.csv --delimiter ";" --decimal-mark comma
     netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
     netdesign check site.xlsx --json > study.json
+
+    The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
+    may stand in netdesign.toml beside it, or in variables such as
+    NETDESIGN_CHECK_JOBS.
     """
     from netdesign.check_site import (
         CheckRun,
@@ -138,7 +159,7 @@ def check(
         raise click.UsageError(
             "give a site workbook, or --example for the built-in one"
         )
-    site = _read_site(site_file)
+    site = _read_site(site_file, overwrite=force, **reading)
     chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
     profiles = [load_standard(name) for name in chosen]
     if len({profile.id for profile in profiles}) < len(profiles):
@@ -151,7 +172,7 @@ def check(
         started=_now(),
     )
     if dry_run:
-        _announce(site, count_cases(site), run.jobs, as_json=as_json)
+        announce(site, run, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_reports(html=html, excel=excel, csv=csv)
@@ -173,19 +194,29 @@ def check(
 @cli.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--example", is_flag=True, help="Fill in the built-in example site.")
+@click.option(
+    "--language",
+    type=click.Choice(["en", "fr", "de"]),
+    default="en",
+    show_default=True,
+    help="Of headings, words and notes; all three are read.",
+)
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
-def init(site_file: Path, *, example: bool, force: bool) -> None:
+def init(
+    site_file: Path, *, example: bool, language: Literal["en", "fr", "de"], force: bool
+) -> None:
     """Write an input workbook to fill in.
 
     \b
     netdesign init site.xlsx
+    netdesign init chantier.xlsx --language fr
     netdesign init example.xlsx --example
     """
     from netdesign.output import require_free
     from netdesign.site.template import write_site_workbook
 
     require_free([site_file], overwrite=force)
-    write_site_workbook(site_file, example=example, overwrite=force)
+    write_site_workbook(site_file, example=example, overwrite=force, language=language)
     click.echo(f"wrote {site_file}", err=True)
 
 
@@ -270,15 +301,11 @@ def report(
     \b
     netdesign report netdesign-out/study.json --out again
     """
-    from netdesign.errors import StudyError
     from netdesign.output import require_free, write_files
     from netdesign.report.files import list_reports, name_files, render_files
-    from netdesign.study import read_document
+    from netdesign.study import load_study
 
-    try:
-        study = read_document(study_file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"{study_file}: cannot be read: {error}") from None
+    study = load_study(study_file)
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(out, [study.profile.id], kinds)
     require_free(names[0], overwrite=force)
@@ -326,16 +353,15 @@ def verify(*, as_json: bool) -> None:
     sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
-cli.add_command(bench)
-cli.add_command(paper)
-cli.add_command(standards)
-
-
 def main() -> NoReturn:
     """Entry point: every way of ending has its own exit code."""
+    if instruction := os.environ.get(COMPLETE_VARIABLE):
+        sys.exit(answer_shell(cli, instruction))
     try:
         # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
-        with cli.make_context("netdesign", sys.argv[1:]) as context:
+        with cli.make_context(
+            "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
+        ) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
@@ -367,12 +393,10 @@ def main() -> NoReturn:
     sys.exit(0)
 
 
-def _read_site(site_file: Path | None) -> Site:
-    """Site from a workbook; the example goes through a real workbook too."""
-    from netdesign.site.reader import read_site
-
+def _read_site(site_file: Path | None, **reading: Any) -> Site:
+    """Site from a file; the example goes through a real workbook too."""
     if site_file is not None:
-        return read_site(site_file)
+        return open_site(site_file, **reading)
     import tempfile
 
     from netdesign.site.template import write_site_workbook
@@ -380,7 +404,7 @@ def _read_site(site_file: Path | None) -> Site:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
-        return read_site(path)
+        return open_site(path, **reading)
 
 
 def _show(studies: Sequence[Study], *, as_json: bool, explain: bool) -> None:
@@ -443,26 +467,6 @@ def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
         click.echo(f"wrote {path}", err=True)
 
 
-def _announce(site: Site, cases: int, jobs: int, *, as_json: bool) -> None:
-    seconds = max(1.0, cases * _SECONDS_A_CASE / jobs)
-    if as_json:
-        plan = {
-            "schema": "netdesign.plan/1",
-            "net_rows": len(site.rows),
-            "cases": cases,
-            "predicted_s": seconds,
-            "notes": list(site.notes),
-        }
-        click.echo(json.dumps(plan, indent=1))
-        return
-    click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
-        f"{seconds:.0f} s with {jobs} processes; nothing was written"
-    )
-    for note in site.notes:
-        click.echo(f"note: {note}")
-
-
 def _exit_code(studies: Sequence[Study]) -> int:
     from netdesign.outcome import merge_verdicts
 
@@ -471,7 +475,7 @@ def _exit_code(studies: Sequence[Study]) -> int:
 
 def _count_findings(error: SiteDataError) -> str:
     count = len(error.findings)
-    return f"{count} finding{'s' if count != 1 else ''}; nothing was written"
+    return f"{count} finding{'s' if count != 1 else ''}; nothing was checked"
 
 
 def _own_command() -> str:

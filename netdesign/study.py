@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
@@ -328,3 +329,17 @@ def read_document(text: str) -> Study:
             for fault in error.errors()
         )
         raise StudyError(f"not a study of schema {SCHEMA}:\n{faults}") from None
+
+
+def load_study(path: Path) -> Study:
+    """Study from a stored file.
+
+    Raises
+    ------
+    StudyError
+        If the file cannot be read, or is no study.
+    """
+    try:
+        return read_document(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"{path}: cannot be read: {error}") from None

@@ -13,11 +13,14 @@ for _library in ("OPENBLAS", "OMP", "MKL"):
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402
+from dataclasses import dataclass  # noqa: E402
 from functools import cache  # noqa: E402
+from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 
+from netdesign import cli  # noqa: E402
 from netdesign.cable.net import Net  # noqa: E402
 from netdesign.coupling.scene import (  # noqa: E402
     MESH_LEVELS,
@@ -156,3 +159,31 @@ def a_mesh() -> Callable[..., PlacedMesh]:
 def solved() -> Callable[..., Solution]:
     """Tight solution of ``a_scene(...)`` on two fine levels; solved once."""
     return _solve
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command of the program ended."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def call(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> Callable[..., Ended]:
+    """Calls the program in this process, in an empty folder: ``call("init")``."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: object) -> Ended:
+        argv = ["netdesign", *(str(argument) for argument in arguments)]
+        monkeypatch.setattr("sys.argv", argv)
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+        shown = capsys.readouterr()
+        code = caught.value.code
+        return Ended(code if isinstance(code, int) else 0, shown.out, shown.err)
+
+    return run

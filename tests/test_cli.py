@@ -358,7 +358,7 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
     assert result.returncode == 3
     for place in ('Nets › B2: "95"', 'Nets › I2: "A9"', 'Ranges › C2: "4OO"'):
         assert f"site.xlsx › {place}" in result.stderr
-    assert "3 findings; nothing was written" in result.stderr
+    assert "3 findings; nothing was checked" in result.stderr
     assert result.stdout == ""
     assert listing(tmp_path) == {"site.xlsx"}
 
@@ -525,7 +525,7 @@ def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):
     assert run("init", "site.xlsx", cwd=tmp_path).returncode == 0
     result = run("check", "site.xlsx", cwd=tmp_path)
     assert result.returncode == 3
-    assert "nothing was written" in result.stderr
+    assert "nothing was checked" in result.stderr
 
 
 def test_init_never_overwrites_unasked(tmp_path):

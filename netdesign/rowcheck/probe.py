@@ -25,6 +25,7 @@ def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
             thickness=row.snow_thickness,
             upslope_length=row.upslope_length,
             density=case.density,
+            layers=row.layers_at(case.density),
         ),
         ground=row.ground,
         net=Net(

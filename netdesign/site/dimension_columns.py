@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from netdesign.resistance.catalogue import list_terminations, load_catalogue
 from netdesign.site.fields import Field
+from netdesign.site.unit_names import (
+    AREAS,
+    DIAMETERS,
+    FORCES,
+    GROUND_STRESSES,
+    LENGTHS,
+    SECOND_MOMENTS,
+    STRENGTHS,
+)
 
 _CATALOGUE = load_catalogue()
 
 
 def _number(
-    key: str, label: str, unit: str, bounds: tuple[float, float], note: str = ""
+    key: str,
+    label: str,
+    units: tuple[str, ...],
+    bounds: tuple[float, float],
+    note: str = "",
 ) -> Field:
-    return Field(key=key, label=label, units=(unit,), bounds=bounds, note=note)
+    return Field(key=key, label=label, units=units, bounds=bounds, note=note)
 
 
 def _word(key: str, label: str, words: tuple[str, ...], note: str = "") -> Field:
@@ -31,7 +44,7 @@ ROW_POSITION = (
     _number(
         "post_base_distance",
         "post base distance",
-        "m",
+        LENGTHS,
         (-20.0, 20.0),
         "downslope of the net's foot, along the slope; given, it takes the place of "
         "the post tilt",
@@ -39,7 +52,7 @@ ROW_POSITION = (
     _number(
         "gap",
         "gap to next work",
-        "m",
+        LENGTHS,
         (0.0, 100.0),
         "free distance beside the row, for the end effect; left empty, the ends of "
         "the row are taken as free",
@@ -47,7 +60,7 @@ ROW_POSITION = (
     _number(
         "altitude",
         "altitude",
-        "m",
+        ("m",),
         (0.0, 6000.0),
         "above sea level, for the density of the guideline's load cases; left empty, "
         "their factor for altitude is 1",
@@ -57,19 +70,19 @@ ANCHOR_DIMENSIONS = (
     _number(
         "bar_diameter",
         "bar diameter",
-        "mm",
+        DIAMETERS,
         (10.0, 100.0),
         f"{_INSTEAD} tendon resistance; less what corrosion may take",
     ),
-    _number("bar_strength", "bar strength", "MPa", (200.0, 2000.0), "f_y or f_0.2"),
+    _number("bar_strength", "bar strength", STRENGTHS, (200.0, 2000.0), "f_y or f_0.2"),
     _number(
         "drill_diameter",
         "drill diameter",
-        "mm",
+        DIAMETERS,
         (30.0, 300.0),
         f"{_INSTEAD} pull-out resistance; basis: computed",
     ),
-    _number("bond_length", "bond length", "m", (0.5, 30.0)),
+    _number("bond_length", "bond length", LENGTHS, (0.5, 30.0)),
     _word(
         "ground",
         "ground",
@@ -91,19 +104,21 @@ ANCHOR_DIMENSIONS = (
         note=f"{_INSTEAD} pull-out resistance; basis: tested; the profile's "
         "correlation factors apply",
     ),
-    _number("test_least", "least tested resistance", "kN", (1.0, 5000.0)),
-    _number("test_mean", "mean tested resistance", "kN", (1.0, 5000.0)),
+    _number("test_least", "least tested resistance", FORCES, (1.0, 5000.0)),
+    _number("test_mean", "mean tested resistance", FORCES, (1.0, 5000.0)),
 )
 ROPE_DIMENSIONS = (
     _number(
         "rope_diameter",
         "rope diameter",
-        "mm",
+        DIAMETERS,
         (6.0, 60.0),
         f"{_INSTEAD} minimum breaking force",
     ),
     _word("construction", "construction", tuple(_CATALOGUE["rope"]["construction"])),
-    _number("grade", "rope grade", "MPa", (1500.0, 2200.0), "1570, 1770, 1960, 2160"),
+    _number(
+        "grade", "rope grade", STRENGTHS, (1500.0, 2200.0), "1570, 1770, 1960, 2160"
+    ),
     _word(
         "termination",
         "termination",
@@ -115,25 +130,25 @@ POST_DIMENSIONS = (
     _number(
         "area",
         "section area",
-        "cm2",
+        AREAS,
         (1.0, 500.0),
         f"{_INSTEAD} compression resistance",
     ),
     _number(
         "second_moment",
         "second moment of area",
-        "cm4",
+        SECOND_MOMENTS,
         (1.0, 100_000.0),
         "about the weak axis",
     ),
     _number(
         "buckling_length",
         "buckling length",
-        "m",
+        LENGTHS,
         (0.5, 12.0),
         "length of the post between its hinges",
     ),
-    _number("yield_strength", "yield strength", "MPa", (200.0, 700.0)),
+    _number("yield_strength", "yield strength", STRENGTHS, (200.0, 700.0)),
     _word(
         "buckling_curve",
         "buckling curve",
@@ -143,7 +158,7 @@ POST_DIMENSIONS = (
     _number(
         "bearing",
         "bearing resistance",
-        "kN",
+        FORCES,
         (1.0, 5000.0),
         "of the ground under the base plate, characteristic, across the plate; left "
         "empty, the ground is not checked",
@@ -151,15 +166,15 @@ POST_DIMENSIONS = (
     _number(
         "plate_length",
         "plate length",
-        "m",
+        LENGTHS,
         (0.05, 5.0),
         f"{_INSTEAD} bearing resistance",
     ),
-    _number("plate_width", "plate width", "m", (0.05, 5.0)),
+    _number("plate_width", "plate width", LENGTHS, (0.05, 5.0)),
     _number(
         "bearing_stress",
         "bearing stress",
-        "kPa",
+        GROUND_STRESSES,
         (20.0, 20_000.0),
         "characteristic resistance of the ground",
     ),

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from netdesign.envelope.grid import Ranges
 from netdesign.guards import require_positive, require_within
 from netdesign.resistance.pull_out import PullOutTests
+from netdesign.site.diagnostics import Finding
 from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 
 # What a member can fail by; the keys under which resistances are given.
@@ -71,6 +73,7 @@ class NetRow:
     layout: SupportLayout
     resistances: tuple[Resistance, ...]
     inputs: tuple[InputEcho, ...] = ()
+    layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
 
@@ -84,6 +87,29 @@ class NetRow:
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    @property
+    def mean_density(self) -> float:
+        """Mean density of layered snow [kg/m3]."""
+        return compute_mean_density(self.layers)
+
+    def layers_at(self, density: float) -> tuple[Layer, ...]:
+        """Layers scaled to a mean density [kg/m3] and to the row's snow thickness.
+
+        None for uniform snow; density and thickness keep their proportions.
+        """
+        if not self.layers:
+            return ()
+        denser = density / self.mean_density
+        thicker = self.snow_thickness / sum(layer.thickness for layer in self.layers)
+        return tuple(
+            replace(
+                layer,
+                thickness=layer.thickness * thicker,
+                density=layer.density * denser,
+            )
+            for layer in self.layers
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,6 +160,7 @@ class Site:
     file_name: str
     sha256: str
     notes: tuple[str, ...] = ()  # e.g. columns that were not understood
+    findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()

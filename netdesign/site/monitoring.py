@@ -6,94 +6,27 @@ from collections.abc import Collection
 from datetime import datetime
 from itertools import pairwise
 
-from netdesign.site.cells import Workbook
 from netdesign.site.diagnostics import Finding, add_nearest
-from netdesign.site.fields import Field, SheetPlan
 from netdesign.site.model import MonitoringSeries
 from netdesign.site.readings import Reading, Row, refuse
-from netdesign.site.tables import find_table, read_rows
-from netdesign.units import SECONDS_PER_DAY, kelvin_from_celsius
-
-MONITORING = SheetPlan(
-    name="Monitoring",
-    aliases=("Mesures", "Messungen"),
-    fields=(
-        Field(
-            key="row",
-            label="net row",
-            aliases=("rangée", "filet", "Netzreihe", "Werkreihe"),
-            kind="id",
-            required=True,
-            note="an id of sheet Nets",
-        ),
-        Field(
-            key="member",
-            label="member",
-            aliases=("élément", "organe", "Bauteil"),
-            kind="word",
-            required=True,
-            words={
-                "foot_anchor": ("foot anchor", "ancrage de pied", "Fußanker"),
-                "uphill_guy": (
-                    *("uphill guy", "uphill anchor", "hauban amont", "ancrage amont"),
-                    *("bergseitiges Seil", "bergseitiger Anker"),
-                ),
-                "downhill_guy": (
-                    *("downhill guy", "downhill anchor", "hauban aval"),
-                    *("ancrage aval", "talseitiges Seil", "talseitiger Anker"),
-                ),
-                "post": ("poteau", "Stütze"),
-            },
-        ),
-        Field(
-            key="time",
-            label="time",
-            aliases=("temps", "Zeit"),
-            units=("d",),
-            bounds=(0.0, 3650.0),
-            note="days; or date and time in a column of its own",
-        ),
-        Field(
-            key="date",
-            label="date and time",
-            aliases=("date", "date et heure", "Datum", "Zeitpunkt"),
-            kind="text",
-            note="2003-02-18 06:00",
-        ),
-        Field(
-            key="tension",
-            label="tension",
-            aliases=("force", "effort", "Zugkraft", "Kraft"),
-            units=("kN",),
-            bounds=(0.0, 5000.0),
-        ),
-        Field(
-            key="temperature",
-            label="air temperature",
-            aliases=("température de l'air", "Lufttemperatur"),
-            units=("degC",),
-            bounds=(-60.0, 50.0),
-        ),
-    ),
-)
+from netdesign.site.tables import Table, read_rows
 
 
 def read_monitoring(
-    workbook: Workbook, row_ids: Collection[str], findings: list[Finding]
+    table: Table | None, row_ids: Collection[str], findings: list[Finding]
 ) -> tuple[MonitoringSeries, ...]:
     """Series of the sheet, one for each net row and member; none without the sheet.
 
     Parameters
     ----------
-    workbook : Workbook
-        As read.
+    table : Table or None
+        Sheet Monitoring, if there is one.
     row_ids : collection of str
         Ids of sheet Nets.
     findings : list of Finding
         Appended to: unknown rows, lines without a time or a measurement, times that
         do not ascend.
     """
-    table = find_table(workbook, MONITORING, findings)
     series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
     for line in read_rows(table, findings) if table else ():
         name, member = line["row"], line["member"]
@@ -105,7 +38,8 @@ def read_monitoring(
             continue
         if line["tension"].state == line["temperature"].state == "blank":
             refuse(name, "begins a line without a measurement", _MEASURED, findings)
-        series.setdefault((name.word, member.word), []).append((time, line))
+        key = (name.word, member.word.replace(" ", "_"))
+        series.setdefault(key, []).append((time, line))
     return tuple(_build(key, lines, findings) for key, lines in series.items())
 
 
@@ -125,17 +59,13 @@ def _build(
         member=key[1],
         times=tuple(time - first for time, _ in lines),
         tensions=tuple(_value(line["tension"]) for _, line in lines),
-        air_temperatures=tuple(_kelvin(line["temperature"]) for _, line in lines),
+        air_temperatures=tuple(_value(line["temperature"]) for _, line in lines),
         source=lines[0][1]["row"].place,
     )
 
 
 def _value(reading: Reading) -> float | None:
     return reading.si if reading.state == "given" else None
-
-
-def _kelvin(reading: Reading) -> float | None:
-    return kelvin_from_celsius(reading.number) if reading.state == "given" else None
 
 
 def _read_time(line: Row, findings: list[Finding]) -> float | None:
@@ -149,7 +79,7 @@ def _read_time(line: Row, findings: list[Finding]) -> float | None:
         refuse(place, rule, "one of time [d] and date and time", findings)
         return None
     if time.state == "given":
-        return time.number * SECONDS_PER_DAY
+        return time.si
     try:
         moment = datetime.fromisoformat(date.word)
     except ValueError:

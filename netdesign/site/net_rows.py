@@ -16,6 +16,13 @@ from netdesign.site.model import (
     Resistance,
 )
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.snow_layers import (
+    LayersByRow,
+    build_layers,
+    echo_layers,
+    refuse_unknown_rows,
+    settle_thickness,
+)
 from netdesign.site.tables import Table, read_rows
 from netdesign.site.type_resistances import DERIVED, find_tests
 from netdesign.snow.ground import (
@@ -23,6 +30,7 @@ from netdesign.snow.ground import (
     GroundLaw,
     build_ground_from_glide_factor,
 )
+from netdesign.snow.snowpack import Layer
 from netdesign.structure.layout import (
     DEFAULT_DOWNHILL_RATIO,
     DEFAULT_UPHILL_RATIO,
@@ -36,7 +44,10 @@ _MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
 
 
 def build_net_rows(
-    table: Table, type_sheets: TypeSheets, findings: list[Finding]
+    table: Table,
+    type_sheets: TypeSheets,
+    snow: LayersByRow,
+    findings: list[Finding],
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -46,6 +57,8 @@ def build_net_rows(
         Sheet Nets.
     type_sheets : mapping of str to mapping of str to Row
         Types of anchors, ropes and posts by sheet name and id.
+    snow : mapping of str to tuple of Row
+        Lines of sheet Snow by net row, from the ground up.
     findings : list of Finding
         Appended to.
 
@@ -58,8 +71,12 @@ def build_net_rows(
     if not rows:
         refusal = Refusal("has no net row", "one line for each net row")
         findings.append(table.sheet.finding(refusal))
-    index_by_id(rows, findings)  # for its findings: ids used twice
-    built = [_build_net_row(row, type_sheets, findings) for row in rows]
+    by_id = index_by_id(rows, findings)
+    refuse_unknown_rows(snow, by_id, findings)
+    built = [
+        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
+        for row in rows
+    ]
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -81,11 +98,12 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
 
 
 def _build_net_row(
-    row: Row, type_sheets: TypeSheets, findings: list[Finding]
+    row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
 ) -> NetRow | None:
     count_before = len(findings)
     row = _fill_in_distances(row)
-    thickness = _understand_thickness(row, findings)
+    layers = build_layers(lines, row["slope_angle"], findings)
+    thickness = _understand_thickness(row, lines, layers, findings)
     ground = _understand_ground(row, thickness, findings)
     _check_types(row, type_sheets, findings)
     is_faulty = any(reading.state == "faulty" for reading in row.values())
@@ -95,6 +113,7 @@ def _build_net_row(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
         snow_thickness=thickness,
+        layers=layers,
         upslope_length=row["upslope_length"].si,
         ground=ground,
         net_height=row["net_height"].si,
@@ -102,7 +121,7 @@ def _build_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        inputs=_echo_inputs(row, thickness, ground),
+        inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
     )
@@ -125,8 +144,13 @@ def _fill_in_distances(row: Row) -> Row:
     return {**row, **filled}
 
 
-def _understand_thickness(row: Row, findings: list[Finding]) -> float | None:
-    """Snow thickness normal to the slope [m], from exactly one of two columns."""
+def _understand_thickness(
+    row: Row,
+    lines: tuple[Row, ...],
+    layers: tuple[Layer, ...],
+    findings: list[Finding],
+) -> float | None:
+    """Snow thickness normal to the slope [m]: of one column, or of the layers."""
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
     if "faulty" in (thickness.state, height.state):
@@ -135,7 +159,11 @@ def _understand_thickness(row: Row, findings: list[Finding]) -> float | None:
         rule = f"is given beside the snow thickness in {thickness.place}"
         refuse(height, rule, "one of the two, the other empty", findings)
         return None
-    if thickness.state == "given":
+    is_normal = thickness.state == "given"
+    given = thickness if is_normal else height
+    if lines:
+        return settle_thickness(layers, given, slope_angle, findings)
+    if is_normal:
         return thickness.si
     if height.state == "blank":
         empty = thickness if thickness.cell is not None else height
@@ -189,7 +217,8 @@ def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> 
         types = type_sheets[sheet]
         if reading.word and reading.word not in types:
             accepted = f"an id defined in sheet {sheet}, or an empty cell"
-            accepted = add_nearest(accepted, reading.word, types)
+            places = {name: line["id"].place for name, line in types.items()}
+            accepted = add_nearest(accepted, reading.word, types, places)
             refuse(reading, f"is no id of sheet {sheet}", accepted, findings)
 
 

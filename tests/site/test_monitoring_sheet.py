@@ -55,6 +55,27 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
 
 
 @pytest.mark.parametrize(
+    ("name", "headings", "member"),
+    [
+        ("Mesures", ["Rangée", "Élément", "Temps [h]", "Effort [N]"], "hauban amont"),
+        (
+            "Messungen",
+            ["Werkreihe", "Bauteil", "Zeit [h]", "Zugkraft [N]"],
+            "bergseitiges Abspannseil",
+        ),
+    ],
+)
+def test_french_and_german_sheets_with_other_units(
+    sheets, save, name, headings, member
+):
+    sheets[name] = [headings, ["R1", member, 6, 31500], ["R1", member, 12, 32000]]
+    (series,) = read_site(save(sheets)).monitoring
+    assert series.member == "uphill_guy"
+    assert series.times == (0.0, 6 * 3600.0)
+    assert series.tensions == (31500.0, 32000.0)
+
+
+@pytest.mark.parametrize(
     ("line", "cell", "rule"),
     [
         (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Nets"),

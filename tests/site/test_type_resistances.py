@@ -101,6 +101,25 @@ def test_bearing_is_checked_where_it_is_given(sheets, save):
 
 
 @pytest.mark.parametrize(
+    "columns",
+    [
+        {"Bohrdurchmesser [cm]": 9, "Verbundlänge [m]": 3.0, "Baugrund": "Kies"},
+        {
+            "diamètre de forage [m]": 0.09,
+            "longueur de scellement [cm]": 300,
+            "terrain": "gravier",
+        },
+    ],
+)
+def test_dimensions_in_other_languages_and_units(sheets, save, columns):
+    sheets["Anchors"][1][1:] = [None, None, None]
+    add_columns(sheets, "Anchors", **columns)
+    pull_out = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
+    assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
+    assert pull_out.derivation.startswith("π · 90 mm · 3 m · 95 kPa (gravel")
+
+
+@pytest.mark.parametrize(
     ("columns", "told"),
     [
         ({"bar diameter [mm]": 28}, "needs more beside it: bar strength"),
