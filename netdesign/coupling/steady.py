@@ -45,8 +45,10 @@ from netdesign.snow.transfer import transfer_state
 Floats = NDArray[np.float64]
 
 # The flow of a round is solved this much more tightly than the net still moves.
-_INNER_SHARE = 1e-2
-_LOOSEST_INNER = 1e-3
+_INNER_SHARE = 0.1
+_LOOSEST_INNER = 1e-2
+# The first mesh is only compared with the next, whose error is far larger.
+_FIRST_MESH = 5.0
 _CONTACT_ROUNDS = 30
 _HALVINGS = 4
 # Rounds that leave more than this share of the last one's movement are slow.
@@ -172,7 +174,9 @@ def _couple(
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
     moved, solves = 1.0, 0
-    tolerance = min(settings.stress_tolerance, settings.accuracy / 50)
+    rough = _FIRST_MESH if guess is None else 1.0
+    tolerance = rough * min(settings.stress_tolerance, settings.accuracy / 50)
+    still = rough * settings.shape_tolerance
     curves: list[Floats] = []
     misses: list[Floats] = []
     inverse: Floats | None = None
@@ -200,7 +204,7 @@ def _couple(
         curves.append(curve)
         misses.append(_contact_curve(problem, hanging) - curve)
         moved = float(np.abs(misses[-1]).max())
-        if moved < settings.shape_tolerance and flow.change < tolerance:
+        if moved < still and flow.change < tolerance:
             return _Coupled(
                 problem=problem,
                 mesh=mesh,
