@@ -6,26 +6,26 @@ Here SI values become the engineer's units of ``study.py``.
 from __future__ import annotations
 
 import importlib.metadata
+import math
 import platform
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import repeat
+from types import MappingProxyType
 
 from netdesign import __version__
-from netdesign.checks import (
-    Band,
-    CheckResult,
-    Standard,
-    check_inclination,
-    check_member,
-)
-from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
-from netdesign.envelope.grid import Case, Ranges
+from netdesign.checks import Standard
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import (
-    RowEnvelope,
-)
+from netdesign.envelope.search import RowEnvelope
 from netdesign.envelope_record import record_envelope
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.rowcheck.effects import RowEffects, find_effects
+from netdesign.rowcheck.guideline_record import record_guideline
+from netdesign.rowcheck.member_checks import RowTask, check_row, record_point
+from netdesign.rowcheck.probe import Probe
+from netdesign.rowcheck.support_record import record_anchors, record_head
 from netdesign.site.model import NetRow, Site
 from netdesign.site_cases import CheckRun
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -33,11 +33,11 @@ from netdesign.structure.layout import place_support
 from netdesign.study import (
     SCHEMA,
     Arrow,
-    CasePoint,
     CaseRecord,
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    MonitoringRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
@@ -52,8 +52,11 @@ from netdesign.units import (
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+_METHODS = {
+    "steady": "steady",
+    "transient": "steady; governing cases confirmed by a history from a sagged net",
+}
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
-_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
@@ -62,6 +65,8 @@ def judge_site(
     results: Sequence[Sequence[CaseResult]],
     standard: Standard,
     run: CheckRun,
+    probe: Probe | None = None,
+    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
     envelopes: Sequence[RowEnvelope] | None = None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
@@ -76,6 +81,11 @@ def judge_site(
         Limit profile.
     run : CheckRun
         Settings and identity of the run, for the provenance.
+    probe : Probe, optional
+        Solves what the envelope does not hold: other creep laws, and where a check
+        flips. Without it a study has neither; give the same one for each profile.
+    monitoring : mapping of str to list of MonitoringRecord
+        As ``follow_site`` returns it; decides nothing.
     envelopes : sequence of RowEnvelope, optional
         As ``search_site`` returns them: their upper bounds are what is checked.
 
@@ -85,11 +95,22 @@ def judge_site(
         Complete; a failed case is in it by name.
     """
     rows = [
-        _judge_row(row, site.ranges, of_row, standard, run.creep_law, searched)
+        _judge_row(
+            RowTask(
+                site=site,
+                row=row,
+                results=of_row,
+                standard=standard,
+                probe=probe,
+                envelope=searched,
+            ),
+            run,
+        )
         for row, of_row, searched in zip(
             site.rows, results, envelopes or repeat(None, len(site.rows)), strict=True
         )
     ]
+    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),
@@ -97,35 +118,22 @@ def judge_site(
         profile=_record_profile(standard),
         rows=rows,
         range_inputs=list(site.range_inputs),
-        notes=[*site.notes, *_validity_notes(site.ranges, run.creep_law)],
+        notes=[
+            *site.notes,
+            *_validity_notes(site, run.creep_law),
+            *_layer_notes(site),
+        ],
         provenance=_record_provenance(site, run),
     )
 
 
-def _judge_row(
-    row: NetRow,
-    ranges: Ranges,
-    results: Sequence[CaseResult],
-    standard: Standard,
-    law: CreepLaw,
-    envelope: RowEnvelope | None,
-) -> RowStudy:
-    extremes = _bound_extremes(results, envelope)
-    gap = describe_gap(results) if envelope is None else envelope.gap
-    checks = [
-        _record_check(
-            check_member(_force_of(extremes, given.member), given, standard, gap=gap),
-            extremes.get(given.member),
-            given.basis,
-            given.type_id,
-            given.source,
-        )
-        for given in row.resistances
-    ]
-    inclination = ranges.inclination
-    checks.append(
-        _record_check(check_inclination(inclination.low, inclination.high, standard))
-    )
+def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
+    row, envelope = task.row, task.envelope
+    extremes = task.extremes
+    checks = check_row(task)
+    effects = find_effects(row, task.standard)
+    governing = _governing_result(checks, extremes)
+    foot = extremes.get("foot_anchor")
     unproven = [
         f"{check.id}: {check.reason}"
         for check in checks
@@ -140,105 +148,80 @@ def _judge_row(
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, law) for result in results],
+        cases=[_record_case(result, run.creep_law, row) for result in task.results],
         inputs=list(row.inputs),
-        drawing=_draw(row, _governing_result(checks, extremes)),
+        drawing=_draw(row, governing),
         reasons=unproven,
+        anchors=record_anchors(governing, effects) if governing else [],
+        head=record_head(row, governing) if governing else [],
+        guideline=record_guideline(row, foot.governing) if foot else None,
+        notes=_list_row_notes(row, effects),
         envelope=(
             None
             if envelope is None
-            else record_envelope(envelope, REPORTED_MEMBERS, _list_levels(checks))
+            else record_envelope(
+                envelope, REPORTED_MEMBERS, _list_levels(checks, effects)
+            )
         ),
     )
 
 
-def _bound_extremes(
-    results: Sequence[CaseResult], envelope: RowEnvelope | None
-) -> dict[str, Extreme]:
-    """Largest forces; of a search with all that may hide between its cases."""
-    extremes = find_extremes(results)
-    if envelope is None:
-        return extremes
-    return {
-        member: Extreme(
-            member=member,
-            force=envelope.bound(member),
-            governing=envelope.governing(member),
-        )
-        for member in extremes
-    }
-
-
-def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, float]]]:
-    """Characteristic force at which each check is just met, by member [N]."""
+def _list_levels(
+    checks: Sequence[CheckRecord], effects: RowEffects
+) -> dict[str, list[tuple[str, float]]]:
+    """Solved force at which each check is just met, by member [N]."""
     levels: dict[str, list[tuple[str, float]]] = {}
     for check in checks:
         if check.resistance_kN is not None and check.action_factor:
-            level = newton_from_kilonewton(check.resistance_kN / check.action_factor)
+            on_row = check.action_factor * effects.factor(check.member)
+            level = newton_from_kilonewton(check.resistance_kN / on_row)
             levels.setdefault(check.member, []).append((check.id, level))
     return levels
 
 
-def _force_of(extremes: Mapping[str, Extreme], member: str) -> Band | None:
-    return extremes[member].force if member in extremes else None
+def _list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
+    """What was taken for granted about this row."""
+    notes = []
+    if not math.isfinite(row.gap):
+        notes.append(
+            "no gap to the next work is given: the ends of the row are taken as free"
+        )
+    if effects.width.position == "edge":
+        notes.append(
+            "the first and last support carry more than those between: their loaded "
+            "width governs every check of forces"
+        )
+    checked = {given.mode for given in row.resistances}
+    if "bearing" not in checked:
+        notes.append(
+            "the ground under the base plate is not checked: no bearing resistance is "
+            "given for the post type"
+        )
+    return notes
 
 
-def _record_check(
-    result: CheckResult,
-    extreme: Extreme | None = None,
-    basis: str = "",
-    type_id: str = "",
-    cell: str = "",
-) -> CheckRecord:
-    demand, utilisation = result.demand, result.utilisation
-    return CheckRecord(
-        id=result.id,
-        clause=result.clause,
-        member=result.member,
-        mode=result.mode,
-        demand_kN=_kilonewton(demand.value if demand else None),
-        demand_low_kN=_kilonewton(demand.low if demand else None),
-        demand_high_kN=_kilonewton(demand.high if demand else None),
-        resistance_kN=_kilonewton(result.design_resistance),
-        utilisation=utilisation.value if utilisation else None,
-        verdict=result.verdict,
-        case=_record_point(extreme.governing.case) if extreme else None,
-        reason=result.reason,
-        action_kN=_kilonewton(result.action.value if result.action else None),
-        action_factor=result.action_factor,
-        resistance_characteristic_kN=_kilonewton(result.resistance),
-        resistance_factor=result.resistance_factor,
-        resistance_basis=basis,
-        resistance_type=type_id,
-        resistance_cell=cell,
-    )
-
-
-def _record_extreme(
-    extreme: Extreme, envelope: RowEnvelope | None = None
-) -> ExtremeRecord:
-    coincident = extreme.governing.member_forces
+def _record_extreme(extreme: Extreme, envelope: RowEnvelope | None) -> ExtremeRecord:
+    coincident, upper = extreme.governing.member_forces, None
+    force = extreme.force
+    if envelope is not None:
+        force = envelope.bound(extreme.member)
+        upper = kilonewton_from_newton(envelope.upper_bound(extreme.member))
     return ExtremeRecord(
         quantity=extreme.member,
-        max_kN=kilonewton_from_newton(extreme.force.value),
-        low_kN=kilonewton_from_newton(extreme.force.low),
-        high_kN=kilonewton_from_newton(extreme.force.high),
-        case=_record_point(extreme.governing.case),
+        max_kN=kilonewton_from_newton(force.value),
+        low_kN=kilonewton_from_newton(force.low),
+        high_kN=kilonewton_from_newton(force.high),
+        case=record_point(extreme.governing.case),
         coincident_kN={
             member: kilonewton_from_newton(coincident[member].value)
             for member in REPORTED_MEMBERS
             if member != extreme.member
         },
-        upper_bound_kN=None if envelope is None else _bound_of(envelope, extreme),
+        upper_bound_kN=upper,
     )
 
 
-def _bound_of(envelope: RowEnvelope, extreme: Extreme) -> float:
-    place = envelope.members.index(extreme.member)
-    return kilonewton_from_newton(envelope.maxima.upper_bound[place])
-
-
-def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
+def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     forces = {
         f"{member}_kN": _kilonewton(
             result.member_forces[member].value if result.is_converged else None
@@ -247,14 +230,23 @@ def _record_case(result: CaseResult, law: CreepLaw) -> CaseRecord:
     }
     solution = result.solution
     return CaseRecord(
-        case=_record_point(result.case),
+        case=record_point(result.case),
         outcome=result.outcome,
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
-        is_calibrated=law.is_calibrated(result.case.density / ICE_DENSITY),
+        is_calibrated=all(
+            law.is_calibrated(density / ICE_DENSITY)
+            for density in _list_densities(row, result.case)
+        ),
         **forces,
     )
+
+
+def _list_densities(row: NetRow, case: Case) -> tuple[float, ...]:
+    """Density of each layer of a case [kg/m3]; of uniform snow the case's own."""
+    layers = row.layers_at(case.density)
+    return tuple(layer.density for layer in layers) or (case.density,)
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:
@@ -302,7 +294,7 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
         )
     ]
     return Drawing(
-        case=_record_point(result.case),
+        case=record_point(result.case),
         slope_deg=degree_from_radian(row.slope_angle),
         snow_thickness_m=row.snow_thickness,
         net_m=[(x, y) for x, y in curve],
@@ -319,20 +311,14 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
     )
 
 
-def _record_point(case: Case) -> CasePoint:
-    return CasePoint(
-        density_kg_m3=case.density,
-        friction_deg=round(degree_from_radian(case.friction_angle), _ANGLE_DECIMALS),
-        inclination_deg=round(degree_from_radian(case.inclination), _ANGLE_DECIMALS),
-    )
-
-
 def _record_profile(standard: Standard) -> ProfileRecord:
     return ProfileRecord(
         id=standard.id,
         title=standard.title,
         edition=standard.edition,
         sha256=standard.sha256,
+        version=standard.version,
+        choice=standard.choice,
         values=[
             ProfileValue(
                 id=entry.id,
@@ -343,7 +329,7 @@ def _record_profile(standard: Standard) -> ProfileRecord:
                 status=entry.status,
                 source=entry.source,
             )
-            for entry in standard.values
+            for entry in standard.listed
         ],
     )
 
@@ -357,7 +343,7 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": "steady",
+            "method": _METHODS[run.method],
             "creep law": f"{run.creep_law.name} ({run.creep_law.source})",
             "accuracy": f"{settings.accuracy:g}",
             "stress tolerance": f"{settings.stress_tolerance:g}",
@@ -371,15 +357,39 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
     )
 
 
-def _validity_notes(ranges: Ranges, law: CreepLaw) -> list[str]:
+def _validity_notes(site: Site, law: CreepLaw) -> list[str]:
     """Say where the creep law is used outside the densities it was fitted to."""
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    if low <= ranges.density.low and ranges.density.high <= high:
-        return []
     return [
-        f"snow densities of {ranges.density.low:g} to {ranges.density.high:g} kg/m3 "
-        f"reach outside the {low:.0f} to {high:.0f} kg/m3 for which the creep law "
-        f"{law.name} is given"
+        f"{what} of {least:g} to {largest:g} kg/m3 reach outside the {low:.0f} to "
+        f"{high:.0f} kg/m3 for which the creep law {law.name} is given"
+        for what, least, largest in _list_density_spans(site)
+        if least < low or largest > high
+    ]
+
+
+def _list_density_spans(site: Site) -> list[tuple[str, float, float]]:
+    """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
+    span = site.ranges.density
+    spans = []
+    if not all(row.layers for row in site.rows):
+        spans.append(("snow densities", span.low, span.high))
+    for row in site.rows:
+        if row.layers:
+            least = min(layer.density for layer in row.layers_at(span.low))
+            largest = max(layer.density for layer in row.layers_at(span.high))
+            spans.append((f"net row {row.id}: layer densities", least, largest))
+    return spans
+
+
+def _layer_notes(site: Site) -> list[str]:
+    """Say what the range of density does to layered snow."""
+    return [
+        f"net row {row.id}: its {len(row.layers)} layers of mean density "
+        f"{row.mean_density:.4g} kg/m3 keep their proportions; their mean follows the "
+        "range of density"
+        for row in site.rows
+        if row.layers
     ]
 
 

@@ -14,9 +14,18 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import click
 
 from netdesign import __version__
+from netdesign.commands.bench import bench
+from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
+from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
+from netdesign.commands.diff import diff
+from netdesign.commands.doctor import doctor
+from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
 from netdesign.commands.glide import glide
-from netdesign.commands.solving import solve_rows, solving_options
+from netdesign.commands.paper import paper
+from netdesign.commands.site_input import open_site, site_options
+from netdesign.commands.solving import open_rows, solving_options
+from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
 
@@ -30,8 +39,6 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
 DEFAULT_FOLDER = "netdesign-out"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
-# Rough time of one case on one core of a small server; for --dry-run only.
-_SECONDS_A_CASE = 0.12
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 5 internal error, 130 interrupted."
@@ -46,16 +53,24 @@ def cli() -> None:
     netdesign check --example          a first look
     netdesign init site.xlsx           an input workbook to fill in
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
+    netdesign diff old.json new.json   what changed between two studies
     """
 
 
+cli.add_command(bench)
+cli.add_command(completion)
+cli.add_command(diff)
+cli.add_command(doctor)
 cli.add_command(envelope)
 cli.add_command(glide)
+cli.add_command(paper)
+cli.add_command(standards)
 
 
-@cli.command()
+@cli.command(cls=ConfiguredCommand)
 @click.argument("site_file", required=False, type=click.Path(path_type=Path))
 @click.option("--example", is_flag=True, help="Use the built-in example site.")
+@site_options
 @click.option(
     "--standard",
     "standards",
@@ -72,11 +87,10 @@ cli.add_command(glide)
 )
 @click.option(
     "--method",
-    type=click.Choice(["steady"]),
+    type=click.Choice(["steady", "transient"]),
     default="steady",
     show_default=True,
-    expose_value=False,  # the only one yet
-    help="Coupling of snow and net.",
+    help="Steady states; transient confirms governing cases by their histories.",
 )
 @solving_options
 @click.option(
@@ -87,6 +101,7 @@ cli.add_command(glide)
 @click.option("--html/--no-html", default=True, help="Write report.html.")
 @click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
 @click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
+@click.option("--explain", is_flag=True, help="Print what would flip each check.")
 @click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing outputs.")
@@ -97,6 +112,7 @@ def check(
     example: bool,
     standards: tuple[str, ...],
     accuracy: float,
+    method: Literal["steady", "transient"],
     jobs: int | None,
     executor: str,
     cache: bool,
@@ -104,17 +120,26 @@ def check(
     html: bool,
     excel: bool,
     csv: bool,
+    explain: bool,
     as_json: bool,
     dry_run: bool,
     force: bool,
     quiet: bool,
+    **reading: Any,
 ) -> None:
-    """Check every anchor of a site workbook and write the reports.
+    """Check every anchor of a site and write the reports.
 
     \b
     netdesign check --example
     netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
+    netdesign check site.csv --delimiter ";" --decimal-mark comma
+    netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
     netdesign check site.xlsx --json > study.json
+
+    The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
+    may stand in netdesign.toml beside it, or in variables such as
+    NETDESIGN_CHECK_JOBS.
     """
     from netdesign.check_site import judge_site
     from netdesign.checks import load_standard
@@ -126,36 +151,43 @@ def check(
         name_files,
         render_files,
     )
-    from netdesign.site_cases import CheckRun, count_cases
+    from netdesign.rowcheck.probe import Probe
+    from netdesign.site_cases import CheckRun, follow_site
 
     if example == (site_file is not None):
         raise click.UsageError(
             "give a site workbook, or --example for the built-in one"
         )
-    site = _read_site(site_file)
+    site = _read_site(site_file, overwrite=force, **reading)
     chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
     profiles = [load_standard(name) for name in chosen]
     if len({profile.id for profile in profiles}) < len(profiles):
         raise click.UsageError("two of the profiles have the same id")
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
+        method=method,
         jobs=jobs or os.cpu_count() or 1,
         command=_own_command(),
         started=_now(),
     )
     if dry_run:
-        _announce(site, count_cases(site), run.jobs, as_json=as_json)
+        announce(site, run, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    results, envelopes = solve_rows(
-        site, run, executor=executor, cache=cache, quiet=quiet
-    )
-    studies = [judge_site(site, results, one, run, envelopes) for one in profiles]
+    with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
+        measured = follow_site(site, run)
+        probe = Probe(run.settings, run.creep_law, solved.runner)
+        studies = [
+            judge_site(
+                site, solved.results, profile, run, probe, measured, solved.envelopes
+            )
+            for profile in profiles
+        ]
     write_files(render_files(studies, names))
-    _show(studies, as_json=as_json)
+    _show(studies, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
 
@@ -163,19 +195,29 @@ def check(
 @cli.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--example", is_flag=True, help="Fill in the built-in example site.")
+@click.option(
+    "--language",
+    type=click.Choice(["en", "fr", "de"]),
+    default="en",
+    show_default=True,
+    help="Of headings, words and notes; all three are read.",
+)
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
-def init(site_file: Path, *, example: bool, force: bool) -> None:
+def init(
+    site_file: Path, *, example: bool, language: Literal["en", "fr", "de"], force: bool
+) -> None:
     """Write an input workbook to fill in.
 
     \b
     netdesign init site.xlsx
+    netdesign init chantier.xlsx --language fr
     netdesign init example.xlsx --example
     """
     from netdesign.output import require_free
     from netdesign.site.template import write_site_workbook
 
     require_free([site_file], overwrite=force)
-    write_site_workbook(site_file, example=example, overwrite=force)
+    write_site_workbook(site_file, example=example, overwrite=force, language=language)
     click.echo(f"wrote {site_file}", err=True)
 
 
@@ -187,30 +229,47 @@ def init(site_file: Path, *, example: bool, force: bool) -> None:
     help="Steady state, history, or the source paper's exchange [the scene's].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for a page with drawings, the solution, a history's table.",
+)
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
 def solve(
     scene_file: Path,
     *,
     method: Literal["steady", "transient", "staggered"] | None,
     as_json: bool,
+    out: Path | None,
+    force: bool,
 ) -> None:
     """Solve one scene, given as a TOML file.
 
     \b
     netdesign solve scene.toml
     netdesign solve scene.toml --json
-    netdesign solve scene.toml --method transient
+    netdesign solve scene.toml --method transient --out history
     """
     import time
 
+    from netdesign.commands.solve_folder import (
+        require_free_folder,
+        write_solution_folder,
+    )
     from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
     scene, settings = read_scene(scene_file, method)
+    if out is not None:
+        require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
+    if out is not None:
+        written = write_solution_folder(out, solution, document, scene_file.name)
+        _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
     elif document["outcome"] == "converged":
@@ -243,15 +302,11 @@ def report(
     \b
     netdesign report netdesign-out/study.json --out again
     """
-    from netdesign.errors import StudyError
     from netdesign.output import require_free, write_files
     from netdesign.report.files import list_reports, name_files, render_files
-    from netdesign.study import read_document
+    from netdesign.study import load_study
 
-    try:
-        study = read_document(study_file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"{study_file}: cannot be read: {error}") from None
+    study = load_study(study_file)
     kinds = list_reports(html=html, excel=excel, csv=csv)
     names = name_files(out, [study.profile.id], kinds)
     require_free(names[0], overwrite=force)
@@ -285,56 +340,15 @@ def verify(*, as_json: bool) -> None:
     sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
-@cli.group()
-def standards() -> None:
-    """Show the limit profiles.
-
-    \b
-    netdesign standards list
-    netdesign standards show nf-p-95-304-style
-    netdesign standards validate my-profile/
-    """
-
-
-@standards.command("list")
-def list_profiles() -> None:
-    """List the profiles that come with the program."""
-    from netdesign.checks import list_standards, load_standard
-
-    for name in list_standards():
-        click.echo(f"{name}  {load_standard(name).title}")
-
-
-@standards.command("show")
-@click.argument("name", metavar="ID")
-def show_profile(name: str) -> None:
-    """Show every value of a profile with its status and source."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(name)
-    click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
-    click.echo(f"sha256 {profile.sha256}\n\n{profile.what_it_is}")
-    click.echo(f"{profile.what_it_is_not}\n")
-    for entry in profile.values:
-        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
-        click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
-
-
-@standards.command("validate")
-@click.argument("folder", type=click.Path(path_type=Path))
-def validate_profile(folder: Path) -> None:
-    """Validate a profile folder; every fault is told."""
-    from netdesign.checks import load_standard
-
-    profile = load_standard(folder)
-    click.echo(f"{profile.id}: {len(profile.values)} values, sha256 {profile.sha256}")
-
-
 def main() -> NoReturn:
     """Entry point: every way of ending has its own exit code."""
+    if instruction := os.environ.get(COMPLETE_VARIABLE):
+        sys.exit(answer_shell(cli, instruction))
     try:
         # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
-        with cli.make_context("netdesign", sys.argv[1:]) as context:
+        with cli.make_context(
+            "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
+        ) as context:
             cli.invoke(context)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
@@ -366,12 +380,10 @@ def main() -> NoReturn:
     sys.exit(0)
 
 
-def _read_site(site_file: Path | None) -> Site:
-    """Site from a workbook; the example goes through a real workbook too."""
-    from netdesign.site.reader import read_site
-
+def _read_site(site_file: Path | None, **reading: Any) -> Site:
+    """Site from a file; the example goes through a real workbook too."""
     if site_file is not None:
-        return read_site(site_file)
+        return open_site(site_file, **reading)
     import tempfile
 
     from netdesign.site.template import write_site_workbook
@@ -379,19 +391,21 @@ def _read_site(site_file: Path | None) -> Site:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
-        return read_site(path)
+        return open_site(path, **reading)
 
 
-def _show(studies: Sequence[Study], *, as_json: bool) -> None:
+def _show(studies: Sequence[Study], *, as_json: bool, explain: bool) -> None:
     from netdesign.study import write_document
 
     if not as_json:
         from rich.console import Console
 
-        from netdesign.report.terminal import print_summary
+        from netdesign.report.terminal import print_changes, print_summary
 
         for study in studies:
             print_summary(study, Console())
+            if explain:
+                print_changes(study, Console())
     elif len(studies) == 1:
         click.echo(write_document(studies[0]))
     else:
@@ -440,26 +454,6 @@ def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
         click.echo(f"wrote {path}", err=True)
 
 
-def _announce(site: Site, cases: int, jobs: int, *, as_json: bool) -> None:
-    seconds = max(1.0, cases * _SECONDS_A_CASE / jobs)
-    if as_json:
-        plan = {
-            "schema": "netdesign.plan/1",
-            "net_rows": len(site.rows),
-            "cases": cases,
-            "predicted_s": seconds,
-            "notes": list(site.notes),
-        }
-        click.echo(json.dumps(plan, indent=1))
-        return
-    click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
-        f"{seconds:.0f} s with {jobs} processes; nothing was written"
-    )
-    for note in site.notes:
-        click.echo(f"note: {note}")
-
-
 def _exit_code(studies: Sequence[Study]) -> int:
     from netdesign.outcome import merge_verdicts
 
@@ -468,7 +462,7 @@ def _exit_code(studies: Sequence[Study]) -> int:
 
 def _count_findings(error: SiteDataError) -> str:
     count = len(error.findings)
-    return f"{count} finding{'s' if count != 1 else ''}; nothing was written"
+    return f"{count} finding{'s' if count != 1 else ''}; nothing was checked"
 
 
 def _own_command() -> str:

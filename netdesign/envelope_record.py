@@ -104,8 +104,8 @@ def _record_bound(
     governing = envelope.governing(member)
     return BoundRecord(
         quantity=member,
-        max_kN=kilonewton_from_newton(maxima.maximum[place]),
-        upper_bound_kN=kilonewton_from_newton(maxima.upper_bound[place]),
+        max_kN=kilonewton_from_newton(envelope.force(member).value),
+        upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
         case=record_case(governing.case, envelope.task.box),
         coincident_kN={
             other: kilonewton_from_newton(governing.member_forces[other].value)

@@ -15,6 +15,7 @@ class Outcome(StrEnum):
     NONFINITE = "nonfinite"
     BALANCE_VIOLATED = "balance_violated"
     NO_EQUILIBRIUM = "no_equilibrium"
+    PLATEAU_NOT_REACHED = "plateau_not_reached"
     OUT_OF_VALIDITY = "out_of_validity"
     WORKER_FAILED = "worker_failed"
 
@@ -31,6 +32,7 @@ _SENTENCES = {
     Outcome.NONFINITE: "A value stopped being a finite number.",
     Outcome.BALANCE_VIOLATED: "A balance, tension or friction test was not met.",
     Outcome.NO_EQUILIBRIUM: "The net has no equilibrium under these loads.",
+    Outcome.PLATEAU_NOT_REACHED: "The history came to no plateau within its horizon.",
     Outcome.OUT_OF_VALIDITY: "The scene lies outside what the model can represent.",
     Outcome.WORKER_FAILED: "The process that computed this case ended early.",
 }

@@ -62,12 +62,35 @@ _ROWS = (
     _row("foot_size_kN_per_m", "T₁", "Tension at the foot", "kN/m", 2),
     _row("head_size_kN_per_m", "T₂", "Tension at the head", "kN/m", 2),
     _row("tension_max_kN_per_m", "T", "Largest tension", "kN/m", 2),
+    _row("force_x_kN_per_m", "Fx", "Force along the slope", "kN/m", 2),
+    _row("force_y_kN_per_m", "Fy", "Force normal to the slope", "kN/m", 2),
+    _row("error_kN_per_m", "", "Estimated error", "kN/m", 2),
     # members, per anchor, characteristic
     _row("foot_anchor_kN", "F", "Foot anchor", "kN", 1),
     _row("uphill_guy_kN", "F", "Uphill guy", "kN", 1),
     _row("downhill_guy_kN", "F", "Downhill guy", "kN", 1),
     _row("post_kN", "F", "Post", "kN", 1),
     _row("max_kN", "F", "Maximum", "kN", 1),
+    # support and its place in the row
+    _row("solved_kN", "E_s", "Solved force, inside a row", "kN", 1),
+    _row("post_spacing_m", "b", "Post spacing", "m", 2),
+    _row("loaded_width_m", "b_e", "Loaded width", "m", 2),
+    _row("end_factor", "f_R", "End factor", "", 2),
+    _row("end_length_m", "Δl", "Length of the end effect", "m", 2),
+    _row("lateral_factor", "k_q", "Factor of the lateral load", "", 3),
+    _row("force_x_kN", "F_x", "Along the slope", "kN", 1),
+    _row("force_y_kN", "F_y", "Out of the ground", "kN", 1),
+    _row("lateral_kN", "F_z", "Along the row, ±", "kN", 1),
+    _row("size_kN", "F", "Size", "kN", 1),
+    _row("direction_deg", "α", "Direction against the ground", "°", 1),
+    # the guideline
+    _row("height_vertical_m", "H", "Snow height, vertical", "m", 2),
+    _row("creep_factor", "K", "Creep factor", "", 3),
+    _row("glide_factor", "N", "Glide factor", "", 2),
+    _row("rigid_kN_per_m", "S'_N", "On a rigid wall", "kN/m", 1),
+    _row("load_kN_per_m", "R_x", "On the net, along the slope", "kN/m", 1),
+    _row("load_difference_percent", "", "Coupled against it: load", "%", 0),
+    _row("foot_difference_percent", "", "Coupled against it: foot anchor", "%", 0),
     # checks
     _row("action_kN", "E_k", "Characteristic action", "kN", 1),
     _row("action_factor", "γ_E", "Factor of the action", "", 2),
@@ -76,6 +99,8 @@ _ROWS = (
     _row("resistance_factor", "γ_R", "Factor of the resistance", "", 2),
     _row("resistance_kN", "R_d", "Design resistance", "kN", 1),
     _row("utilisation", "μ", "Utilisation", "", 3),
+    # comparison of two numbers
+    _row("change_percent", "", "Change", "%", 1),
     # quality of a solution
     _row("error_percent", "", "Estimated error", "%", 2),
     Quantity(

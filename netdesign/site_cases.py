@@ -1,13 +1,19 @@
-"""The cases of a site: a grid of them, or a search of the worst."""
+"""The cases of a site: a grid of them, or a search of the worst; its histories."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
+from typing import Literal
 
-from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.adaptive import SearchSettings
+from netdesign.envelope.confirm import (
+    build_history_settings,
+    confirm_envelopes,
+    confirm_rows,
+)
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
@@ -19,9 +25,12 @@ from netdesign.envelope.search import (
     refine_settings,
     search_rows,
 )
+from netdesign.errors import ModelError
+from netdesign.monitoring import follow_monitoring
+from netdesign.rowcheck.probe import build_scene
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
-from netdesign.snow.snowpack import Snowpack
+from netdesign.study import MonitoringRecord
 
 _USUAL_SEARCH = 55  # cases of a row, for --dry-run only
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
@@ -32,6 +41,7 @@ class CheckRun:
     """How a site is to be solved."""
 
     settings: SolverSettings
+    method: Literal["steady", "transient"] = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
     command: str = "netdesign check"
@@ -67,20 +77,31 @@ def search_site(
     Returns
     -------
     list of RowEnvelope
-        One a row, each with its upper bounds and governing cases confirmed.
+        One a row, each with its upper bounds and governing cases confirmed, on finer
+        meshes and, where the run asks for it, by histories.
     """
+    runner = runner or Runner()
     tasks = [_build_search(row, site.ranges, run) for row in site.rows]
-    return search_rows(tasks, runner or Runner(), on_wave)
+    envelopes = search_rows(tasks, runner, on_wave)
+    if run.method == "steady":
+        return envelopes
+    return confirm_envelopes(envelopes, build_history_settings(run.settings), runner)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LayeredScenes:
+    """Scenes of layered snow, whose layers follow the density of a case."""
+
+    row: NetRow
+    law: CreepLaw
+
+    def __call__(self, case: Case) -> Scene:
+        return build_scene(self.row, case, self.law)
 
 
 def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
-    middle = Case(
-        density=ranges.density.low,
-        friction_angle=ranges.friction_angle.low,
-        inclination=ranges.inclination.low,
-    )
     return RowTask(
-        scene=_build_scene(row, middle, run),
+        scene=_find_scene(row, ranges, run.creep_law),
         box=Box(
             intervals=(
                 ("density", ranges.density),
@@ -92,7 +113,27 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         settings=run.settings,
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
+        build=_LayeredScenes(row=row, law=run.creep_law) if row.layers else None,
     )
+
+
+def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
+    """Scene of the first corner of the ranges that the model accepts.
+
+    Raises
+    ------
+    ModelError
+        If it refuses every corner.
+    """
+    spans = (ranges.density, ranges.friction_angle, ranges.inclination)
+    refusals: dict[str, None] = {}
+    for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
+        case = Case(density=density, friction_angle=friction, inclination=inclination)
+        try:
+            return build_scene(row, case, law)
+        except ModelError as error:
+            refusals.setdefault(f"net row {row.id}: {error}")
+    raise ModelError("\n".join(refusals))
 
 
 def solve_site(
@@ -115,39 +156,36 @@ def solve_site(
         For each row its cases in the order of the grid; failed ones are named.
     """
     cases = build_cases(site.ranges)
-    tasks = [task for row in site.rows for task in _build_tasks(row, cases, run)]
-    results = run_cases(tasks, runner)
+    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    results = run_cases([task for of_row in tasks for task in of_row], runner)
     count = len(cases)
-    return [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    if run.method == "steady":
+        return by_row
+    return confirm_rows(tasks, by_row, build_history_settings(run.settings), runner)
 
 
-def _build_scene(row: NetRow, case: Case, run: CheckRun) -> Scene:
-    return Scene(
-        snowpack=Snowpack(
-            slope_angle=row.slope_angle,
-            thickness=row.snow_thickness,
-            upslope_length=row.upslope_length,
-            density=case.density,
-        ),
-        ground=row.ground,
-        net=Net(
-            height_normal=row.net_height,
-            inclination=case.inclination,
-            stiffness_per_m=row.net_stiffness_per_m,
-            slack=row.slack,
-            friction_angle=case.friction_angle,
-        ),
-        creep_law=run.creep_law,
+def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+    """Measured series by net row, each beside a history of the middle of the ranges.
+
+    Nothing is solved for rows without a measurement.
+    """
+    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
+    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
+    middle = Case(
+        density=density, friction_angle=friction_angle, inclination=inclination
     )
+    found = {}
+    for row in site.rows:
+        series = [one for one in site.monitoring if one.row_id == row.id]
+        if series:
+            (task,) = _build_tasks(row, [middle], run)
+            found[row.id] = follow_monitoring(task, series)
+    return found
 
 
 def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
-    return [
-        build_task(
-            case,
-            lambda point: _build_scene(row, point, run),
-            row.layout,
-            run.settings,
-        )
-        for case in cases
-    ]
+    def build(case: Case) -> Scene:
+        return build_scene(row, case, run.creep_law)
+
+    return [build_task(case, build, row.layout, run.settings) for case in cases]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from netdesign.coupling.history import History, Moment
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
     Balance,
+    Cost,
     FailedSolution,
     Solution,
     WallSolution,
@@ -55,12 +55,27 @@ def write_solution_document(
         "largest_velocity_mm_per_day": _write_velocity(solution),
         **_write_history(solution),
         "flags": _list_flags(solution),
-        "cost": {"wall_s": wall_s, **asdict(solution.cost)},
+        "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
             "version": __version__,
             "creep_law": solution.scene.creep_law.name,
             "element": solution.scene.flow_law.element,
             "settings": _write_settings(settings),
+        },
+    }
+
+
+def _write_cost(cost: Cost, wall_s: float) -> dict[str, Any]:
+    """What the solve took, and what it did without."""
+    return {
+        "wall_s": wall_s,
+        "linear_solves": cost.linear_solves,
+        "rounds": cost.rounds,
+        "elements": cost.elements,
+        "degrees_of_freedom": cost.degrees_of_freedom,
+        "skipped": {
+            "upslope_length_m": cost.skipped.upslope_length,
+            "pressure_unknowns": cost.skipped.pressure_unknowns,
         },
     }
 

@@ -7,7 +7,8 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
@@ -171,6 +172,43 @@ class EnvelopeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ActionRecord:
+    """How the characteristic force of a support follows from that of the solve."""
+
+    solved_kN: float  # of a support inside a row, over the envelope
+    post_spacing_m: float
+    position: str  # "intermediate" or "edge": which of the two carries more
+    loaded_width_m: float
+    end_factor: float  # f_R, 0 inside a row
+    end_length_m: float
+    lateral_factor: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpreadRecord:
+    """One part of the interval of a utilisation."""
+
+    source: str  # "numerical error", "between the cases", "creep law zwinger-2007"
+    low: float | None  # None where there is no number; ``note`` says why
+    high: float | None
+    in_verdict: bool
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChangeRecord:
+    """The smallest change of one quantity that flips a check, or where it flips."""
+
+    quantity: str  # "characteristic resistance", "post spacing", "density", ...
+    unit: str
+    now: float | None
+    bound: float | None  # None where no value in reach flips the check
+    sense: str  # "at least" or "at most"
+    solves: int  # coupled solves that it took; 0 for an exact proportion
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -197,6 +235,10 @@ class CheckRecord:
     resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
+    resistance_derivation: str = ""  # how it follows from dimensions or tests
+    action: ActionRecord | None = None
+    spreads: list[SpreadRecord] = field(default_factory=list)
+    changes: list[ChangeRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -228,6 +270,79 @@ class Drawing:
 
 
 @dataclass(frozen=True, kw_only=True)
+class MonitoringRecord:
+    """What was measured at one member, and the model's history beside it.
+
+    Missing readings are None; without a history its lists are empty and
+    ``model_reason`` says why.
+    """
+
+    member: str
+    source: str  # "Monitoring!A2"
+    times_d: list[float]  # since the first reading
+    tensions_kN: list[float | None]
+    air_temperatures_C: list[float | None]
+    model_times_d: list[float]
+    model_kN: list[float]
+    model_start: str
+    model_reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnchorRecord:
+    """Force of the structure on the ground at one point, in the drawn case."""
+
+    anchor: str  # "foot_anchor", "uphill_anchor", "downhill_anchor", "post_base"
+    member: str  # what brings it: "net", "uphill_guy", "downhill_guy", "post"
+    force_x_kN: float  # downslope
+    force_y_kN: float  # out of the ground
+    lateral_kN: float  # along the row, either way; share of the profile
+    size_kN: float  # in the section
+    direction_deg: float | None  # 0 downslope, 90 out of the ground; None if slack
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadForce:
+    """One force on the post head; those of a head sum up to zero."""
+
+    member: str
+    x_kN: float
+    y_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineCase:
+    """One load case of the guideline on this row; characteristic, inside a row."""
+
+    name: str
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float | None
+    glide_factor: float | None
+    rigid_kN_per_m: float | None  # S'_N on a rigid wall
+    load_kN_per_m: float | None  # along the slope on the net, with the prism
+    foot_anchor_kN: float | None
+    uphill_guy_kN: float | None
+    post_kN: float | None
+    load_difference_percent: float | None  # of the coupled solve against this
+    foot_difference_percent: float | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineRecord:
+    """Independent check of a row by the guideline's load model."""
+
+    profile: str  # whose numbers
+    sha256: str
+    case: CasePoint  # of the coupled solve
+    solved_load_kN_per_m: float  # along the slope on the net
+    solved_foot_anchor_kN: float
+    cases: list[GuidelineCase]
+    sentence: str  # why the two differ
+
+
+@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
@@ -239,6 +354,11 @@ class RowStudy:
     inputs: list[InputEcho]
     drawing: Drawing | None  # None when no case converged
     reasons: list[str]  # why the row is not proven, or what failed; may be empty
+    monitoring: list[MonitoringRecord] = field(default_factory=list)
+    anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
+    head: list[HeadForce] = field(default_factory=list)  # in the drawn case
+    guideline: GuidelineRecord | None = None
+    notes: list[str] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
 
 
@@ -264,6 +384,8 @@ class ProfileRecord:
     edition: str
     sha256: str
     values: list[ProfileValue]
+    version: str = ""
+    choice: str = ""  # set of factors in force; "" where the profile has none
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -324,3 +446,17 @@ def read_document(text: str) -> Study:
             for fault in error.errors()
         )
         raise StudyError(f"not a study of schema {SCHEMA}:\n{faults}") from None
+
+
+def load_study(path: Path) -> Study:
+    """Study from a stored file.
+
+    Raises
+    ------
+    StudyError
+        If the file cannot be read, or is no study.
+    """
+    try:
+        return read_document(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"{path}: cannot be read: {error}") from None

@@ -23,6 +23,31 @@ def kilonewton_from_newton(value: float) -> float:
     return value / 1e3
 
 
+def meter_from_millimeter(value: float) -> float:
+    """Mm to m."""
+    return value / 1e3
+
+
+def square_meter_from_square_centimeter(value: float) -> float:
+    """Cm2 to m2."""
+    return value / 1e4
+
+
+def fourth_meter_from_fourth_centimeter(value: float) -> float:
+    """Cm4 to m4."""
+    return value / 1e8
+
+
+def pascal_from_kilopascal(value: float) -> float:
+    """KPa to Pa."""
+    return value * 1e3
+
+
+def pascal_from_megapascal(value: float) -> float:
+    """MPa to Pa."""
+    return value * 1e6
+
+
 def radian_from_degree(value: float) -> float:
     """Degrees to radians."""
     return math.radians(value)

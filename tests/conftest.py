@@ -20,11 +20,14 @@ if "NETDESIGN_STORE" not in os.environ:
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402
+from dataclasses import dataclass  # noqa: E402
 from functools import cache  # noqa: E402
+from pathlib import Path  # noqa: E402
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 
+from netdesign import cli  # noqa: E402
 from netdesign.cable.net import Net  # noqa: E402
 from netdesign.coupling.scene import (  # noqa: E402
     MESH_LEVELS,
@@ -108,7 +111,7 @@ def _build_mesh(
     inclination_deg: float = 0.0,
     sag: float = 0.0,
     aspect: float = 5.0,
-    size: MeshSize = MESH_LEVELS[0],
+    size: MeshSize = MESH_LEVELS[1],
 ) -> PlacedMesh:
     """Mesh against a parabola of this sag, over the thickness, across the chord."""
     template = build_template(aspect, size)
@@ -120,11 +123,17 @@ def _build_mesh(
     return build_placed_mesh(template, place_nodes(template, curve))
 
 
+FINE_LEVELS = MESH_LEVELS[1:]  # each halves the sizes of the one before
+
+
 @cache
 def _solve(first_level: int = 0, **scene: object) -> Solution:
-    """Solution on two mesh levels, the coarsest unless told otherwise."""
+    """Tight solution on two neighbouring fine levels, 140 and 340 triangles first."""
     settings = SolverSettings(
-        accuracy=0.1, levels=MESH_LEVELS[first_level : first_level + 2]
+        accuracy=0.1,
+        stress_tolerance=1e-8,
+        shape_tolerance=1e-7,
+        levels=FINE_LEVELS[first_level : first_level + 2],
     )
     solution = solve_steady(
         _build_scene(**scene),  # type: ignore[arg-type]
@@ -155,17 +164,33 @@ def a_mesh() -> Callable[..., PlacedMesh]:
 
 @pytest.fixture(scope="session")
 def solved() -> Callable[..., Solution]:
-    """Converged solution of ``a_scene(...)`` on two coarse levels; solved once."""
+    """Tight solution of ``a_scene(...)`` on two fine levels; solved once."""
     return _solve
 
 
-def pytest_collection_modifyitems(
-    config: pytest.Config, items: list[pytest.Item]
-) -> None:
-    """Long tests run when asked for: ``-m slow``."""
-    if "slow" in config.getoption("-m"):
-        return
-    skip = pytest.mark.skip(reason="long; run with -m slow")
-    for item in items:
-        if "slow" in item.keywords:
-            item.add_marker(skip)
+@dataclass(frozen=True)
+class Ended:
+    """How a command of the program ended."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def call(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> Callable[..., Ended]:
+    """Calls the program in this process, in an empty folder: ``call("init")``."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: object) -> Ended:
+        argv = ["netdesign", *(str(argument) for argument in arguments)]
+        monkeypatch.setattr("sys.argv", argv)
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+        shown = capsys.readouterr()
+        code = caught.value.code
+        return Ended(code if isinstance(code, int) else 0, shown.out, shown.err)
+
+    return run

@@ -134,6 +134,7 @@ def test_study_is_complete(results, standard):
         assert [check.id for check in row.checks] == [
             *expected,
             "geometry.inclination",
+            "geometry.height",
         ]
         assert len(row.cases) == 4
         assert {extreme.quantity for extreme in row.extremes} == set(REPORTED_MEMBERS)
@@ -193,13 +194,20 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     factors = {value.id: value.value for value in study.profile.values}
     action = study.rows[0].extremes[0]
     assert action.quantity == "foot_anchor"
-    assert check.action_kN == action.max_kN
+    assert check.action.solved_kN == action.max_kN
+    on_row = check.action.loaded_width_m / check.action.post_spacing_m
+    on_row *= check.action.lateral_factor
+    assert check.action_kN == pytest.approx(on_row * action.max_kN, rel=1e-12)
     assert check.action_factor == factors["action.snow"]
     assert check.demand_kN == pytest.approx(
-        factors["action.snow"] * action.max_kN, rel=1e-12
+        factors["action.snow"] * check.action_kN, rel=1e-12
     )
+    # two samples on each axis: nothing is known between the cases, and told
+    between = next(s for s in check.spreads if s.source == "between the cases")
+    assert (between.low, between.high) == (check.utilisation, check.utilisation)
+    assert "density, friction angle" in between.note
     assert check.demand_high_kN == pytest.approx(
-        factors["action.snow"] * action.high_kN, rel=1e-12
+        factors["action.snow"] * on_row * action.high_kN, rel=1e-12
     )
     assert check.resistance_characteristic_kN == 400.0
     assert check.resistance_kN == pytest.approx(
@@ -250,7 +258,7 @@ def test_one_failed_case_is_a_gap_in_every_check(judge, results):
     study = judge([*results[0][:3], fail(results[0][3])])
     row = study.rows[0]
     assert row.verdict == Verdict.NOT_PROVEN
-    for check in row.checks[:-1]:
+    for check in row.checks[:-2]:
         assert check.verdict == Verdict.NOT_PROVEN
         assert "1 of 4 cases failed (snow flow: spoilt)" in check.reason
     record = row.cases[3]
@@ -344,13 +352,13 @@ def test_densities_outside_the_calibration_are_noted(judge, low, high, is_noted)
     assert all("boutillier-2004" in note for note in notes[1:])
 
 
-def test_a_net_overtopped_by_snow_is_not_proven_and_says_why(standard):
+def test_a_net_overtopped_by_snow_fails_by_its_height_and_says_why(standard):
     row = build_row("R1", net_height=2.4)
     site = build_site(row)
     study = judge_site(site, solve_site(site, RUN), standard, RUN)
-    assert study.verdict == Verdict.NOT_PROVEN
+    assert study.verdict == check_of(study, "geometry.height").verdict == Verdict.FAIL
     assert {case.outcome for case in study.rows[0].cases} == {Outcome.OUT_OF_VALIDITY}
-    for check in study.rows[0].checks[:-1]:
+    for check in study.rows[0].checks[:-2]:
         assert check.verdict == Verdict.NOT_PROVEN
         assert "4 of 4 cases failed" in check.reason
         assert "overtops the net" in check.reason

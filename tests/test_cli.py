@@ -166,16 +166,33 @@ def test_a_missing_resistance_ends_with_4(tmp_path):
     assert json.loads(result.stdout)["verdict"] == "not_proven"
 
 
-def test_a_net_overtopped_by_snow_ends_with_4_and_says_why(tmp_path):
+def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     def bury(sheets):
         sheets["Nets"][1][5] = 2.4
 
     write_site(tmp_path / "site.xlsx", bury)
     result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
-    assert result.returncode == 4, result.stderr
+    assert result.returncode == 1, result.stderr
     (row,) = json.loads(result.stdout)["rows"]
+    verdicts = {check["id"]: check["verdict"] for check in row["checks"]}
+    assert verdicts.pop("geometry.height") == "fail"
+    assert verdicts.pop("geometry.inclination") == "pass"
+    assert set(verdicts.values()) == {"not_proven"}
     assert {case["outcome"] for case in row["cases"]} == {"out_of_validity"}
     assert "overtops the net" in row["reasons"][0]
+
+
+def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
+    def weaken(sheets):
+        sheets["Anchors"][1][1] = 20
+
+    write_site(tmp_path / "site.xlsx", weaken)
+    result = run("check", "site.xlsx", "--explain", *QUICK, cwd=tmp_path)
+    assert result.returncode == 1, result.stderr
+    told = [line for line in result.stdout.splitlines() if "tendon (FAIL)" in line]
+    for quantity in ("characteristic resistance at least", "post spacing", "density"):
+        assert any(quantity in line for line in told), quantity
+    assert all("Foot anchor" in line or "Uphill anchor" in line for line in told)
 
 
 # --- check: outputs ----------------------------------------------------------------
@@ -293,7 +310,10 @@ def test_several_profiles_get_a_folder_each(home, checked, tmp_path):
         (["check", "site.xlsx", "--colour"], "No such option"),
         (["check", "site.xlsx", "--accuracy", "0.5"], "is not in the range"),
         (["check", "site.xlsx", "--jobs", "0"], "is not in the range"),
-        (["check", "site.xlsx", "--method", "guess"], "is not 'steady'"),
+        (
+            ["check", "site.xlsx", "--method", "guess"],
+            "is not one of 'steady', 'transient'",
+        ),
         (["check", "a.xlsx", "b.xlsx"], "unexpected extra argument"),
         (
             [*("check", "--example", "--dry-run"), *("--standard", PROFILE) * 2],
@@ -338,7 +358,7 @@ def test_a_refused_workbook_ends_with_3_and_every_finding(tmp_path):
     assert result.returncode == 3
     for place in ('Nets › B2: "95"', 'Nets › I2: "A9"', 'Ranges › C2: "4OO"'):
         assert f"site.xlsx › {place}" in result.stderr
-    assert "3 findings; nothing was written" in result.stderr
+    assert "3 findings; nothing was checked" in result.stderr
     assert result.stdout == ""
     assert listing(tmp_path) == {"site.xlsx"}
 
@@ -506,7 +526,7 @@ def test_init_gives_a_form_that_is_refused_until_filled_in(tmp_path):
     assert run("init", "site.xlsx", cwd=tmp_path).returncode == 0
     result = run("check", "site.xlsx", cwd=tmp_path)
     assert result.returncode == 3
-    assert "nothing was written" in result.stderr
+    assert "nothing was checked" in result.stderr
 
 
 def test_init_never_overwrites_unasked(tmp_path):
@@ -544,8 +564,8 @@ def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path)
 def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, code):
     """A study whose parts agree on the verdict; the report refuses any other."""
     document = copy.deepcopy(study)
-    check = document["rows"][0]["checks"][-1]
-    assert check["id"] == "geometry.inclination"
+    checks = document["rows"][0]["checks"]
+    check = next(one for one in checks if one["id"] == "geometry.inclination")
     check["verdict"] = verdict
     document["verdict"] = document["rows"][0]["verdict"] = verdict
     document["rows"][0]["reasons"] = [f"{check['id']}: {check['reason']}"]
@@ -596,7 +616,7 @@ def test_standards_validates_a_folder(tmp_path):
     shutil.copytree(find_resource("standards") / PROFILE, own)
     result = run("standards", "validate", "mine", cwd=tmp_path)
     assert result.returncode == 0
-    assert "8 values" in result.stdout
+    assert result.stdout.startswith(f"{PROFILE}: version 2, 18 values, 2 tables")
     factors = own / "factors.toml"
     text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
     factors.write_text(text + "colour = 1\n", encoding="utf-8")
@@ -604,6 +624,21 @@ def test_standards_validates_a_folder(tmp_path):
     assert refused.returncode == 3
     assert "-1.35" in refused.stderr
     assert "colour" in refused.stderr
+
+
+def test_standards_copy_starts_a_profile_of_ones_own(tmp_path):
+    result = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith("my-annex: version 1, ")
+    source = find_resource("standards") / "eurocode"
+    assert listing(tmp_path / "my-annex") == listing(source)
+    again = run("standards", "copy", "eurocode", "my-annex", cwd=tmp_path)
+    assert again.returncode == 2
+    assert "exists already" in again.stderr
+    wrong = run("standards", "copy", "eurocode", "my annex", cwd=tmp_path)
+    assert wrong.returncode == 2
+    assert "becomes the profile's id" in wrong.stderr
+    assert not (tmp_path / "my annex").exists()
 
 
 @pytest.mark.parametrize("command", ["show", "validate"])

@@ -14,7 +14,10 @@ import netdesign
 
 PACKAGE = Path(netdesign.__file__).parent
 ROOT = PACKAGE.parent
-PHYSICS = ("numerics", "snow", "cable", "structure", "coupling", "checks")
+PHYSICS = (
+    *("numerics", "snow", "cable", "structure", "coupling", "checks"),
+    *("resistance", "guideline"),
+)
 
 # A number says its unit in brackets, its shape if it is an array, or that it has
 # the unit of, or is taken relative to, something that it names.

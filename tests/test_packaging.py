@@ -112,7 +112,12 @@ def test_installed_program_runs_from_anywhere(installed, tmp_path):
     )
     assert Path(place.strip()).is_relative_to(installed.parent)
     profiles = call(installed / "netdesign", "standards", "list", cwd=tmp_path)
-    assert profiles.startswith("nf-p-95-304-style ")
+    assert [line.split()[0] for line in profiles.splitlines()] == [
+        "eurocode",
+        "nf-p-95-304-style",
+        "onr-24805-style",
+        "swiss-guideline-2007",
+    ]
     version = call(installed / "netdesign", "--version", cwd=tmp_path)
     (stated,) = (
         line.removeprefix(VERSION_LINE).strip('"')

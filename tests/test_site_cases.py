@@ -36,7 +36,14 @@ def envelopes():
 
 def judge(standard, envelopes, site=SITE):
     results = [one.results for one in envelopes]
-    return judge_site(site, results, standard, RUN, envelopes)
+    return judge_site(site, results, standard, RUN, envelopes=envelopes)
+
+
+def on_row(check):
+    """Force on the worst support of the row over the solved one."""
+    effects = check.action
+    ratio = effects.loaded_width_m / effects.post_spacing_m
+    return ratio * effects.lateral_factor
 
 
 def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
@@ -72,7 +79,7 @@ def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
     assert check.demand_high_kN > check.demand_kN
     band = envelopes[0].bound("foot_anchor")
-    factor = check.action_factor * check.resistance_factor
+    factor = on_row(check) * check.action_factor * check.resistance_factor
     between = 0.5 * (band.value + band.high) * factor
     row = build_row("R1", resistances=resist(foot_anchor__tendon=between))
     site = build_site(row, ranges=RANGES)
@@ -87,7 +94,7 @@ def test_critical_values_are_where_the_check_flips(standard, envelopes):
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
     level = middle[len(middle) // 2]
-    given = level * check.action_factor * check.resistance_factor
+    given = level * on_row(check) * check.action_factor * check.resistance_factor
     row = build_row("R1", resistances=resist(foot_anchor__tendon=given))
     site = build_site(row, ranges=RANGES)
     bounds = judge(standard, envelopes[:1], site).rows[0].envelope.bounds

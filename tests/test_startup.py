@@ -45,6 +45,9 @@ def imported(*arguments, cwd):
         ["solve", "--help"],
         ["report", "--help"],
         ["standards", "--help"],
+        ["diff", "--help"],
+        ["doctor", "--help"],
+        ["completion", "bash"],
     ],
 )
 def test_help_imports_nothing_heavy(tmp_path, arguments):

@@ -17,6 +17,11 @@ PAIRS = [
     [
         (units.newton_from_kilonewton, 2.5, 2500.0),
         (units.kilonewton_from_newton, 2500.0, 2.5),
+        (units.meter_from_millimeter, 28.0, 0.028),
+        (units.square_meter_from_square_centimeter, 34.0, 0.0034),
+        (units.fourth_meter_from_fourth_centimeter, 318.0, 318e-8),
+        (units.pascal_from_kilopascal, 95.0, 95_000.0),
+        (units.pascal_from_megapascal, 500.0, 500e6),
         (units.radian_from_degree, 180.0, math.pi),
         (units.degree_from_radian, math.pi / 6.0, 30.0),
         (units.radian_from_percent, 100.0, math.pi / 4.0),

@@ -1,1 +1,1 @@
-"""Run time against error, and what the envelope costs."""
+"""The program measured: run time against error, stability, cost of the envelope."""

@@ -117,20 +117,63 @@ def solve_funicular(
     )
 
 
+def linearise_curve(
+    cable: Funicular, forces: Floats, lengths: Floats, stiffness: float
+) -> Floats:
+    """Change of the curve per nodal force, about an equilibrium.
+
+    Parameters
+    ----------
+    cable : Funicular
+        The equilibrium.
+    forces, lengths, stiffness
+        As given to ``solve_funicular``.
+
+    Returns
+    -------
+    ndarray, shape (2, 2 n + 1, 2, 2 n + 1)
+        Moved component and node, loaded component and node.
+    """
+    count = forces.shape[1]
+    bend = -0.75 * forces[:, 1::2]
+    vector = cable.pull[:, None, None] + _tension_offsets(forces, bend)
+    size = np.hypot(*vector)
+    direction = vector / size
+    unit = np.eye(2)[:, :, None, None]
+    across = unit - np.einsum("iqe,jqe->ijqe", direction, direction)
+    give = across / size + unit / stiffness  # slope dx/dS per tension vector
+    loads = np.eye(2 * count).reshape(2 * count, 2, count)
+    offsets = _tension_offsets(loads, -0.75 * loads[..., 1::2])
+    slopes = np.einsum("ijqe,kjqe->kiqe", give, offsets)
+    closing = np.linalg.solve(
+        np.einsum("ijqe,e->ij", give, lengths),
+        np.einsum("kiqe,e->ik", slopes, lengths),
+    )
+    slopes -= np.einsum("ijqe,jk->kiqe", give, closing)
+    moved = _integrate_curve(slopes, lengths).reshape(2, count, 2, count)
+    return np.asarray(moved.transpose(2, 3, 0, 1))
+
+
 def _tension_offsets(forces: Floats, bend: Floats) -> Floats:
-    """Tension vectors at the Gauss points less the pull, shape (2, 2, n); (C3)."""
-    steps = 2.0 / 3.0 * (bend[:, :-1] + bend[:, 1:]) - forces[:, 2:-1:2]
-    middle = np.concatenate([np.zeros((2, 1)), np.cumsum(steps, axis=1)], axis=1)
-    return np.stack([middle - bend * _GAUSS, middle + bend * _GAUSS], axis=1)
+    """Tension vectors at the Gauss points less the pull, shape (.., 2, 2, n); (C3)."""
+    steps = 2.0 / 3.0 * (bend[..., :-1] + bend[..., 1:]) - forces[..., 2:-1:2]
+    middle = _sum_from_zero(steps)
+    return np.stack([middle - bend * _GAUSS, middle + bend * _GAUSS], axis=-2)
 
 
 def _integrate_curve(slope: Floats, lengths: Floats) -> Floats:
-    """Node positions from dx/dS at the Gauss points, shape (2, 2, n)."""
-    mean = slope.mean(axis=1)
-    change = (slope[:, 1] - slope[:, 0]) / (2.0 * _GAUSS)
-    ends = np.cumsum(lengths * mean, axis=1)
-    starts = np.concatenate([np.zeros((2, 1)), ends[:, :-1]], axis=1)
-    curve = np.zeros((2, 2 * lengths.size + 1))
-    curve[:, 2::2] = ends
-    curve[:, 1::2] = starts + lengths / 2.0 * (mean - change / 2.0)
+    """Node positions from dx/dS at the Gauss points, shape (.., 2, 2, n)."""
+    mean = slope.mean(axis=-2)
+    change = (slope[..., 1, :] - slope[..., 0, :]) / (2.0 * _GAUSS)
+    ends = _sum_from_zero(lengths * mean)
+    curve = np.empty((*mean.shape[:-1], 2 * lengths.size + 1))
+    curve[..., ::2] = ends
+    curve[..., 1::2] = ends[..., :-1] + lengths / 2.0 * (mean - change / 2.0)
     return curve
+
+
+def _sum_from_zero(steps: Floats) -> Floats:
+    """Cumulative sums along the last axis, the first of them 0."""
+    sums = np.zeros((*steps.shape[:-1], steps.shape[-1] + 1))
+    np.cumsum(steps, axis=-1, out=sums[..., 1:])
+    return sums

@@ -1,8 +1,10 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
-from netdesign.checks.check import check_inclination, check_member, judge
+from netdesign.checks.check import check_member, find_characteristic, judge
+from netdesign.checks.geometry import RowGeometry, check_geometry, check_inclination
 from netdesign.checks.loader import (
     Standard,
+    StandardTable,
     StandardValue,
     list_standards,
     load_standard,
@@ -13,10 +15,14 @@ __all__ = [
     "Band",
     "CheckResult",
     "GivenResistance",
+    "RowGeometry",
     "Standard",
+    "StandardTable",
     "StandardValue",
+    "check_geometry",
     "check_inclination",
     "check_member",
+    "find_characteristic",
     "judge",
     "list_standards",
     "load_standard",

@@ -6,9 +6,13 @@ import math
 
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import Band, CheckResult, GivenResistance
-from netdesign.checks.schema import ACTION_FACTOR, MAX_INCLINATION, MIN_INCLINATION
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    CORRELATION_LEAST,
+    CORRELATION_MEAN,
+)
 from netdesign.outcome import Verdict
-from netdesign.units import degree_from_radian
+from netdesign.resistance.pull_out import compute_pull_out_from_tests
 
 
 def judge(
@@ -73,9 +77,11 @@ def check_member(
     on_action = standard.find(ACTION_FACTOR)
     on_resistance = standard.find_resistance_factor(resistance.mode, resistance.basis)
     demand = action.times(on_action.value_si) if action and on_action else None
-    strength = _design_resistance(resistance, on_resistance)
+    characteristic, lack = find_characteristic(resistance, standard)
+    strength = _design_resistance(characteristic, on_resistance)
     utilisation = demand.over(strength) if demand and strength else None
     gaps = [gap] if gap else []
+    gaps += [lack] if lack else []
     gaps += _missing(resistance, standard, on_action, on_resistance)
     is_slack = action is not None and action.high == 0.0 and not gap
     if is_slack:  # nothing to resist: the utilisation is 0 of any resistance
@@ -91,12 +97,57 @@ def check_member(
         action=action,
         action_factor=on_action.value_si if on_action else None,
         demand=demand,
-        resistance=resistance.value,
+        resistance=characteristic,
         resistance_factor=on_resistance.value_si if on_resistance else None,
         design_resistance=strength,
         utilisation=utilisation,
-        assumed=_assumed(on_action, on_resistance),
+        assumed=list_assumed(on_action, on_resistance),
     )
+
+
+def find_characteristic(
+    resistance: GivenResistance, standard: Standard
+) -> tuple[float | None, str]:
+    """Characteristic resistance, and what is missing for it.
+
+    Parameters
+    ----------
+    resistance : GivenResistance
+        A value, or tests from which it follows.
+    standard : Standard
+        Profile that gives the correlation factors of tests.
+
+    Returns
+    -------
+    float or None
+        [N]; None where it cannot be known.
+    str
+        Why it cannot be known, or is not usable; "" if it can.
+    """
+    named = f" of type {resistance.type_id}" if resistance.type_id else ""
+    what = f"{resistance.member} ({resistance.mode}){named}, cell {resistance.source}"
+    if resistance.value is not None:
+        if _is_usable(resistance.value):
+            return resistance.value, ""
+        lack = f"the resistance {resistance.value!r} N is not usable for {what}"
+        return resistance.value, lack
+    if resistance.tests is None:
+        return None, f"no resistance is given for {what}"
+    factors = [
+        table.find(resistance.tests.count) if table else None
+        for table in map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
+    ]
+    on_mean, on_least = factors
+    if on_mean is None or on_least is None:
+        count = resistance.tests.count
+        return (
+            None,
+            f"the profile has no correlation factors for {count} tests ({what})",
+        )
+    value = compute_pull_out_from_tests(
+        resistance.tests, correlation_mean=on_mean, correlation_least=on_least
+    )
+    return value, ""
 
 
 def _judge_utilisation(utilisation: Band | None, *, is_complete: bool) -> Verdict:
@@ -108,9 +159,8 @@ def _judge_utilisation(utilisation: Band | None, *, is_complete: bool) -> Verdic
 
 
 def _design_resistance(
-    resistance: GivenResistance, factor: StandardValue | None
+    value: float | None, factor: StandardValue | None
 ) -> float | None:
-    value = resistance.value
     if factor is None or value is None or not _is_usable(value):
         return None
     return value / factor.value_si
@@ -126,14 +176,8 @@ def _missing(
     on_action: StandardValue | None,
     on_resistance: StandardValue | None,
 ) -> list[str]:
-    """List what a utilisation lacks, each by the name under which it is found."""
+    """List the factors that a utilisation lacks, by their names."""
     lacks = []
-    named = f" of type {resistance.type_id}" if resistance.type_id else ""
-    what = f"{resistance.member} ({resistance.mode}){named}, cell {resistance.source}"
-    if resistance.value is None:
-        lacks.append(f"no resistance is given for {what}")
-    elif not _is_usable(resistance.value):
-        lacks.append(f"the resistance {resistance.value!r} N is not usable for {what}")
     if on_action is None:
         lacks.append(f"the profile has no factor {ACTION_FACTOR}")
     if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
@@ -163,51 +207,6 @@ def _explain(verdict: Verdict, gaps: list[str], *, is_slack: bool) -> str:
     return "The demand stays within the resistance over its whole band."
 
 
-def _assumed(*values: StandardValue | None) -> tuple[str, ...]:
+def list_assumed(*values: StandardValue | None) -> tuple[str, ...]:
+    """Ids of those values of a profile that nobody has confirmed."""
     return tuple(v.id for v in values if v is not None and v.status == "assumed")
-
-
-def check_inclination(low: float, high: float, standard: Standard) -> CheckResult:
-    """Check a row's range of net inclination against the profile's range.
-
-    Parameters
-    ----------
-    low, high : float
-        Range of the angle between net and slope normal [rad].
-    standard : Standard
-        Profile that gives the limits.
-
-    Returns
-    -------
-    CheckResult
-        Pass if the range lies inside, fail if it lies outside, else not proven.
-    """
-    least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
-    if least is None or most is None:
-        verdict, clause = Verdict.NOT_PROVEN, "-"
-        reason = "Not proven: the profile has no limits of the net inclination."
-    else:
-        verdict = judge(low, high, least=least.value_si, most=most.value_si)
-        clause = least.clause
-        reason = _explain_inclination(verdict, low, high, least.value, most.value)
-    return CheckResult(
-        id="geometry.inclination",
-        clause=clause,
-        member="net",
-        mode="inclination",
-        verdict=verdict,
-        reason=reason,
-        assumed=_assumed(least, most),
-    )
-
-
-def _explain_inclination(
-    verdict: Verdict, low: float, high: float, least: float, most: float
-) -> str:
-    place = {
-        Verdict.PASS: "lies inside",
-        Verdict.FAIL: "lies outside",
-        Verdict.NOT_PROVEN: "is not all inside",
-    }[verdict]
-    given = f"{degree_from_radian(low):g} to {degree_from_radian(high):g} degrees"
-    return f"The net inclination {given} {place} {least:g} to {most:g} degrees."

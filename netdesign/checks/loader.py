@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import math
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 from netdesign.checks.schema import (
+    ChoicesFile,
     DocumentFile,
     Entry,
+    FactorEntry,
     FactorsFile,
+    FileT,
     LimitsFile,
+    ModelFile,
+    TablesFile,
     check_table,
 )
 from netdesign.errors import StandardError
@@ -22,6 +28,7 @@ from netdesign.units import radian_from_degree
 CONFIRM = "assumed: confirm in your copy of the standard"
 
 _FILES = ("document.toml", "limits.toml", "factors.toml")
+_OPTIONAL = ("model.toml", "tables.toml", "choices.toml")
 _HASHED_SUFFIXES = (".toml", ".md")
 
 
@@ -36,7 +43,7 @@ class StandardValue:
     value : float
         As printed, in ``unit``.
     unit : str
-        "deg" or "-".
+        Such as "deg", "m" or "-".
     status : str
         "read" in the document, from a "secondary" source, "assumed", or "user".
     """
@@ -51,7 +58,7 @@ class StandardValue:
 
     @property
     def value_si(self) -> float:
-        """The value in the program's units: radians, or a pure number [rad or -]."""
+        """The value with degrees as radians; all else as printed."""
         return radian_from_degree(self.value) if self.unit == "deg" else self.value
 
     @property
@@ -61,10 +68,61 @@ class StandardValue:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Standard:
-    """A limit profile: its identity, its values, and the hash of its files."""
+class StandardTable:
+    """Values of a profile by a count, such as the number of tests.
+
+    Attributes
+    ----------
+    id, clause, text, status, source : str
+        As for a `StandardValue`.
+    over : str
+        What is counted: "tests".
+    rows : tuple of (int, float, float)
+        From, to (both included; the last may be infinite), value [-].
+    """
 
     id: str
+    clause: str
+    text: str
+    over: str
+    status: str
+    source: str
+    rows: tuple[tuple[int, float, float], ...]
+
+    def find(self, count: int) -> float | None:
+        """Value at a count [-]; None outside the table: no extrapolation."""
+        return next(
+            (value for low, high, value in self.rows if low <= count <= high), None
+        )
+
+    @property
+    def values(self) -> tuple[StandardValue, ...]:
+        """Each row as a value of its own, for lists: ``id[from]``."""
+        return tuple(
+            StandardValue(
+                id=f"{self.id}[{low}]",
+                clause=self.clause,
+                text=f"{self.text} {self.over}: {low}"
+                + (" and more" if high == math.inf else f" to {high:g}")
+                * (high != low),
+                value=value,
+                unit="-",
+                status=self.status,
+                source=self.source,
+            )
+            for low, high, value in self.rows
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Standard:
+    """A limit profile: its identity, its values, and the hash of its files.
+
+    ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
+    """
+
+    id: str
+    version: str
     title: str
     edition: str
     language: str
@@ -72,17 +130,29 @@ class Standard:
     checked_by: str
     what_it_is: str
     what_it_is_not: str
+    choice: str = ""
     values: tuple[StandardValue, ...]
+    tables: tuple[StandardTable, ...] = ()
     sha256: str
+
+    @property
+    def listed(self) -> tuple[StandardValue, ...]:
+        """All values, those of the tables included."""
+        rows = (value for table in self.tables for value in table.values)
+        return (*self.values, *rows)
 
     @property
     def assumed(self) -> tuple[StandardValue, ...]:
         """The values that the user must confirm in a copy of the standard."""
-        return tuple(value for value in self.values if value.status == "assumed")
+        return tuple(value for value in self.listed if value.status == "assumed")
 
     def find(self, value_id: str) -> StandardValue | None:
         """Value of that id, or None if the profile has none."""
         return next((v for v in self.values if v.id == value_id), None)
+
+    def find_table(self, table_id: str) -> StandardTable | None:
+        """Table of that id, or None if the profile has none."""
+        return next((t for t in self.tables if t.id == table_id), None)
 
     def find_resistance_factor(self, mode: str, basis: str) -> StandardValue | None:
         """Factor of a mode on that basis, else of the mode, else None."""
@@ -134,15 +204,48 @@ def _explain_unknown(wanted: str) -> str:
 
 def _load_folder(folder: Path) -> Standard:
     contents = _read_files(folder)
-    document = check_table(DocumentFile, *_parse(contents, "document.toml", folder))
-    limits = check_table(LimitsFile, *_parse(contents, "limits.toml", folder))
-    factors = check_table(FactorsFile, *_parse(contents, "factors.toml", folder))
-    entries: list[Entry] = [*limits.limit, *factors.factor]
+
+    def read(shape: type[FileT], name: str) -> FileT:
+        return check_table(shape, *_parse(contents, name, folder))
+
+    document = read(DocumentFile, "document.toml")
+    limits = read(LimitsFile, "limits.toml")
+    factors = read(FactorsFile, "factors.toml").factor
+    if document.choice or "choices.toml" in contents:
+        choices = read(ChoicesFile, "choices.toml")
+        factors = _choose(document.choice, factors, choices, folder)
+    entries: list[Entry] = [*limits.limit, *factors]
+    if "model.toml" in contents:
+        entries += read(ModelFile, "model.toml").value
+    tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
     return Standard(
         **document.model_dump(),
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
+        tables=tuple(
+            StandardTable(
+                **table.model_dump(exclude={"rows", "unit"}),
+                rows=tuple((row.from_, row.to, row.value) for row in table.rows),
+            )
+            for table in tables
+        ),
         sha256=_hash(contents),
     )
+
+
+def _choose(
+    name: str, factors: list[FactorEntry], choices: ChoicesFile, folder: Path
+) -> list[FactorEntry]:
+    """Factors with those of the chosen set in place of their namesakes."""
+    known = {choice.name: choice for choice in choices.choice}
+    if name not in known:
+        message = (
+            f"{folder / 'document.toml'}: 'choice' = {name!r}: must be one of "
+            f"{', '.join(known)} (choices.toml)"
+        )
+        raise StandardError(message)
+    chosen = {factor.id: factor for factor in known[name].factor}
+    kept = [factor for factor in factors if factor.id not in chosen]
+    return [*kept, *chosen.values()]
 
 
 def _read_files(folder: Path) -> dict[str, bytes]:
@@ -150,6 +253,14 @@ def _read_files(folder: Path) -> dict[str, bytes]:
     missing = [name for name in _FILES if not (folder / name).is_file()]
     if missing:
         message = f"{folder}: lacks {', '.join(missing)}; needs {', '.join(_FILES)}"
+        raise StandardError(message)
+    accepted = (*_FILES, *_OPTIONAL)
+    foreign = [p.name for p in folder.glob("*.toml") if p.name not in accepted]
+    if foreign:
+        message = (
+            f"{folder}: unknown file {', '.join(sorted(foreign))}; accepted are "
+            f"{', '.join(accepted)} and *.md"
+        )
         raise StandardError(message)
     try:
         return {

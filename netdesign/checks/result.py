@@ -8,6 +8,7 @@ from typing import Protocol
 
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
+from netdesign.resistance.pull_out import PullOutTests
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,6 +66,10 @@ class GivenResistance(Protocol):
     @property
     def source(self) -> str:
         """Cell where it stands or should stand."""
+
+    @property
+    def tests(self) -> PullOutTests | None:
+        """Pull-out tests in the place of a value [N]; None without."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Literal, TypeVar, get_args
 
 from pydantic import (
     AfterValidator,
@@ -21,16 +22,67 @@ from netdesign.errors import StandardError
 ACTION_FACTOR = "action.snow"
 MIN_INCLINATION = "geometry.inclination.min"
 MAX_INCLINATION = "geometry.inclination.max"
-MODES = ("tendon", "pull_out", "rope", "compression")
+MIN_SLOPE = "geometry.slope.min"
+MAX_SLOPE = "geometry.slope.max"
+HEIGHT_RATIO = "geometry.height.ratio"
+MAX_GAP = "geometry.gap.max"
+GROUND_FRICTION = "geometry.spacing.ground_friction"
+LATERAL_SHARE = "lateral.share"
+CORRELATION_MEAN = "correlation.tests.mean"
+CORRELATION_LEAST = "correlation.tests.least"
+GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
+MODES = ("tendon", "pull_out", "rope", "compression", "bearing")
 BASES = ("tested", "computed", "declared")
 
-LIMIT_IDS = (MIN_INCLINATION, MAX_INCLINATION)
+# Accepted values of each file, with the unit in which they stand there.
+LIMIT_UNITS = {
+    MIN_INCLINATION: "deg",
+    MAX_INCLINATION: "deg",
+    MIN_SLOPE: "deg",
+    MAX_SLOPE: "deg",
+    HEIGHT_RATIO: "-",
+    MAX_GAP: "m",
+    GROUND_FRICTION: "-",
+}
+_PAIRS = ((MIN_INCLINATION, MAX_INCLINATION), (MIN_SLOPE, MAX_SLOPE))
+LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
     ACTION_FACTOR,
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
 )
+# The load model of a guideline; values that start alike are given all or none.
+MODEL_UNITS = {
+    "snow.gravity": "m/s2",
+    "snow.creep.constant": "-",
+    "snow.creep.linear": "m3/t",
+    "snow.creep.square": "m6/t2",
+    "snow.creep.cube": "m9/t3",
+    "snow.density": "t/m3",
+    "snow.altitude.base": "m",
+    "snow.altitude.top": "m",
+    "snow.altitude.rate": "1/100 m",
+    "snow.case_2.height": "-",
+    "snow.case_2.density": "t/m3",
+    "snow.flexible": "-",
+    "snow.normal": "-",
+    "end.constant": "-",
+    "end.per_glide": "-",
+    "end.cap_constant": "-",
+    "end.cap_per_glide": "-",
+    "end.length": "-",
+    "end.length_cap": "-",
+    "end.isolated_gap": "m",
+    LATERAL_SHARE: "-",
+}
+# Values by a count, such as the number of tests; the counts need no gap.
+TABLE_COUNTS = {
+    CORRELATION_MEAN: "tests",
+    CORRELATION_LEAST: "tests",
+    "glide.factor.north": "ground class",
+    GLIDE_FACTORS: "ground class",
+}
 
 
 def _limit_id(text: str) -> str:
@@ -39,6 +91,14 @@ def _limit_id(text: str) -> str:
 
 def _factor_id(text: str) -> str:
     return _known(text, FACTOR_IDS)
+
+
+def _model_id(text: str) -> str:
+    return _known(text, tuple(MODEL_UNITS))
+
+
+def _table_id(text: str) -> str:
+    return _known(text, tuple(TABLE_COUNTS))
 
 
 def _known(text: str, accepted: Sequence[str]) -> str:
@@ -61,6 +121,7 @@ class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
+    version: Annotated[str, Field(pattern=r"^[0-9]+(\.[0-9]+)*$")]
     title: Text
     edition: Text
     language: Text
@@ -68,6 +129,7 @@ class DocumentFile(_Table):
     checked_by: Text
     what_it_is: Text
     what_it_is_not: Text
+    choice: str = ""  # one of those in choices.toml
 
 
 class Entry(_Table):
@@ -86,7 +148,11 @@ class LimitEntry(Entry):
     """A limit of geometry."""
 
     id: Annotated[str, AfterValidator(_limit_id)]
-    unit: Literal["deg"]
+
+    @model_validator(mode="after")
+    def _check(self) -> LimitEntry:
+        _require_unit(self, LIMIT_UNITS[self.id])
+        return self
 
 
 class FactorEntry(Entry):
@@ -96,6 +162,76 @@ class FactorEntry(Entry):
     unit: Literal["-"]
 
 
+class ModelEntry(Entry):
+    """A number of a guideline's load model."""
+
+    id: Annotated[str, AfterValidator(_model_id)]
+    # some coefficients of a polynomial are negative
+    value: FiniteFloat
+
+    @model_validator(mode="after")
+    def _check(self) -> ModelEntry:
+        _require_unit(self, MODEL_UNITS[self.id])
+        if self.value <= 0 and not self.id.startswith("snow.creep."):
+            message = f"'value' = {self.value!r}: must be above 0"
+            raise ValueError(message)
+        return self
+
+
+class TableRow(_Table):
+    """Value from one count to another, both included; ``to`` may be inf."""
+
+    from_: Annotated[int, Field(ge=1, alias="from")]
+    to: float
+    value: Annotated[FiniteFloat, Field(gt=0)]
+
+
+class TableEntry(_Table):
+    """Values by a count: rows in order, without overlap and without a gap."""
+
+    id: Annotated[str, AfterValidator(_table_id)]
+    clause: Text
+    text: Text
+    over: Text
+    unit: Literal["-"]
+    status: Literal["read", "secondary", "assumed", "user"]
+    source: Text
+    rows: Annotated[list[TableRow], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _check(self) -> TableEntry:
+        if self.over != TABLE_COUNTS[self.id]:
+            message = f"'over' = {self.over!r}: must be {TABLE_COUNTS[self.id]!r}"
+            raise ValueError(message)
+        expected = 1.0
+        for number, row in enumerate(self.rows, 1):
+            if row.from_ != expected:
+                fault = "overlaps the row before" if row.from_ < expected else "leaves"
+                gap = "" if row.from_ < expected else f" {expected:g} without a value"
+                message = (
+                    f"'rows' entry {number} 'from' = {row.from_}: {fault}{gap}; "
+                    f"must be {expected:g}"
+                )
+                raise ValueError(message)
+            is_whole = row.to == math.inf or float(row.to).is_integer()
+            if not (is_whole and row.to >= row.from_):
+                message = (
+                    f"'rows' entry {number} 'to' = {row.to}: must be a whole number "
+                    f"of at least {row.from_}, or inf"
+                )
+                raise ValueError(message)
+            expected = row.to + 1.0
+        return self
+
+
+class ChoiceEntry(_Table):
+    """A named set of factors that takes the place of those in factors.toml."""
+
+    name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
+    text: Text
+    factor: list[FactorEntry]
+
+
 class LimitsFile(_Table):
     """``limits.toml``: ``[[limit]]`` tables; ``limit = []`` if there are none."""
 
@@ -103,14 +239,15 @@ class LimitsFile(_Table):
 
     @model_validator(mode="after")
     def _check(self) -> LimitsFile:
-        _require_unique(self.limit)
+        _require_unique([entry.id for entry in self.limit])
         by_id = {entry.id: entry.value for entry in self.limit}
-        if by_id and set(by_id) != set(LIMIT_IDS):
-            message = f"{' and '.join(LIMIT_IDS)} are only accepted together"
-            raise ValueError(message)
-        if by_id and not by_id[MIN_INCLINATION] < by_id[MAX_INCLINATION]:
-            message = f"{MIN_INCLINATION} must be less than {MAX_INCLINATION}"
-            raise ValueError(message)
+        for least, most in _PAIRS:
+            if (least in by_id) != (most in by_id):
+                message = f"{least} and {most} are only accepted together"
+                raise ValueError(message)
+            if least in by_id and not by_id[least] < by_id[most]:
+                message = f"{least} must be less than {most}"
+                raise ValueError(message)
         return self
 
 
@@ -121,19 +258,74 @@ class FactorsFile(_Table):
 
     @model_validator(mode="after")
     def _check(self) -> FactorsFile:
-        _require_unique(self.factor)
+        _require_unique([entry.id for entry in self.factor])
         return self
 
 
-def _require_unique(entries: Sequence[Entry]) -> None:
-    ids = [entry.id for entry in entries]
+class ModelFile(_Table):
+    """``model.toml``, optional: ``[[value]]`` tables of a guideline's load model."""
+
+    value: list[ModelEntry]
+
+    @model_validator(mode="after")
+    def _check(self) -> ModelFile:
+        given = [entry.id for entry in self.value]
+        _require_unique(given)
+        for group in ("snow.", "end."):
+            needed = [name for name in MODEL_UNITS if name.startswith(group)]
+            missing = [name for name in needed if name not in given]
+            if missing and len(missing) < len(needed):
+                message = f"values of {group}* are given all or none; lacks " + (
+                    ", ".join(missing)
+                )
+                raise ValueError(message)
+        return self
+
+
+class TablesFile(_Table):
+    """``tables.toml``, optional: ``[[table]]`` tables of values by a count."""
+
+    table: list[TableEntry]
+
+    @model_validator(mode="after")
+    def _check(self) -> TablesFile:
+        _require_unique([entry.id for entry in self.table])
+        return self
+
+
+class ChoicesFile(_Table):
+    """``choices.toml``, optional: ``[[choice]]`` tables, sets of factors by name."""
+
+    choice: list[ChoiceEntry]
+
+    @model_validator(mode="after")
+    def _check(self) -> ChoicesFile:
+        _require_unique([entry.name for entry in self.choice])
+        return self
+
+
+def _require_unit(entry: Entry, unit: str) -> None:
+    if entry.unit != unit:
+        message = f"'unit' = {entry.unit!r}: must be {unit!r} for {entry.id}"
+        raise ValueError(message)
+
+
+def _require_unique(ids: Sequence[str]) -> None:
     twice = sorted({name for name in ids if ids.count(name) > 1})
     if twice:
         message = f"each id may stand once; twice or more: {', '.join(twice)}"
         raise ValueError(message)
 
 
-FileT = TypeVar("FileT", DocumentFile, LimitsFile, FactorsFile)
+FileT = TypeVar(
+    "FileT",
+    DocumentFile,
+    LimitsFile,
+    FactorsFile,
+    ModelFile,
+    TablesFile,
+    ChoicesFile,
+)
 
 
 def check_table(
@@ -144,7 +336,7 @@ def check_table(
     Parameters
     ----------
     shape : type
-        One of the three file models of this module.
+        One of the file models of this module.
     table : mapping
         What the TOML parser gave.
     file_name : str
@@ -152,7 +344,7 @@ def check_table(
 
     Returns
     -------
-    DocumentFile, LimitsFile or FactorsFile
+    DocumentFile, LimitsFile, FactorsFile, ModelFile, TablesFile or ChoicesFile
         The checked file; values as printed, in the unit that stands beside them.
 
     Raises
@@ -173,14 +365,25 @@ def _describe(shape: type[BaseModel], detail: ErrorDetails) -> str:
     """One line from one complaint: where, what is accepted, what stands there."""
     place = " ".join(_name(part) for part in detail["loc"]) or "whole file"
     if detail["type"] == "extra_forbidden":
-        known = shape.model_fields if len(detail["loc"]) == 1 else Entry.model_fields
-        return f"{place}: unknown key; accepted are {', '.join(known)}"
+        return f"{place}: unknown key; accepted are {_list_keys(shape, detail)}"
     if detail["type"] == "missing":
         return f"{place}: is missing"
     message = detail["msg"].removeprefix("Value error, ")
-    if detail["type"] == "value_error" and not detail["loc"]:
-        return f"{place}: {message}"
+    if detail["type"] == "value_error" and isinstance(detail["input"], Mapping):
+        return f"{place}: {message}"  # a whole table: too long to repeat
     return f"{place} = {detail['input']!r}: {message}"
+
+
+def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> str:
+    """Keys accepted at the level of an unknown one."""
+    depth = sum(isinstance(part, int) for part in detail["loc"])
+    fields = shape.model_fields
+    if depth:
+        (element,) = get_args(next(iter(fields.values())).annotation)
+        fields = element.model_fields
+    if depth > 1:
+        fields = TableRow.model_fields if element is TableEntry else Entry.model_fields
+    return ", ".join(field.alias or name for name, field in fields.items())
 
 
 def _name(part: str | int) -> str:

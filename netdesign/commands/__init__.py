@@ -1,1 +1,1 @@
-"""Commands in modules of their own, registered by ``cli.py``."""
+"""Commands of the command line that have a module of their own."""

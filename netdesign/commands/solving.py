@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from netdesign.envelope.run import CaseResult
+    from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowEnvelope
     from netdesign.site.model import Site
     from netdesign.site_cases import CheckRun
@@ -37,10 +39,20 @@ def solving_options(command: Any) -> Any:
     return command
 
 
-def solve_rows(
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SolvedRows:
+    """Cases of every row, the envelopes of a search, and what solves further ones."""
+
+    results: Sequence[Sequence[CaseResult]]
+    envelopes: list[RowEnvelope] | None  # None for a grid
+    runner: Runner
+
+
+@contextmanager
+def open_rows(
     site: Site, run: CheckRun, *, executor: str, cache: bool, quiet: bool
-) -> tuple[Sequence[Sequence[CaseResult]], list[RowEnvelope] | None]:
-    """Search or sample the rows of a site; the envelopes of a search."""
+) -> Iterator[SolvedRows]:
+    """Search or sample the rows of a site; workers and store stay open within."""
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
     from netdesign.progress import show_search
@@ -57,6 +69,9 @@ def solve_rows(
         ) as runner,
     ):
         if site.ranges.is_grid:
-            return solve_site(site, run, runner), None
-        envelopes = search_site(site, run, runner, progress.tell_wave)
-        return [one.results for one in envelopes], envelopes
+            results = solve_site(site, run, runner)
+            yield SolvedRows(results=results, envelopes=None, runner=runner)
+            return
+        found = search_site(site, run, runner, progress.tell_wave)
+        results = [list(one.results) for one in found]
+        yield SolvedRows(results=results, envelopes=found, runner=runner)

@@ -54,8 +54,13 @@ def measure_balance(
     )
 
 
-def check_balance(balance: Balance, tolerance: float) -> None:
+def check_balance(
+    balance: Balance, tolerance: float, *, friction_tolerance: float | None = None
+) -> None:
     """Refuse a state that is not in balance, or that hangs on what cannot hold it.
+
+    ``friction_tolerance`` is how far the contact was iterated; the other figures keep
+    ``tolerance``.
 
     Raises
     ------
@@ -65,8 +70,9 @@ def check_balance(balance: Balance, tolerance: float) -> None:
     """
     if not balance.relative_residual <= tolerance:
         _refuse("force missing from the balance", balance.relative_residual, tolerance)
-    if not balance.friction_excess <= tolerance:
-        _refuse("shear beyond the friction limit", balance.friction_excess, tolerance)
+    allowed = tolerance if friction_tolerance is None else friction_tolerance
+    if not balance.friction_excess <= allowed:
+        _refuse("shear beyond the friction limit", balance.friction_excess, allowed)
     tension = balance.smallest_tension
     if tension is not None and not tension > 0.0:
         raise SolveError(

@@ -243,11 +243,11 @@ def advance(
     problem, state : TransientProblem, TransientState
         Scene and start of the step.
     step : float
-        Duration.
+        Duration [time scale].
     tolerance : float
-        Largest relative change of the stress in the last iteration.
+        Largest relative change of the stress in the last iteration [-].
     balance_tolerance : float
-        Largest missing force over the weight.
+        Largest missing force over the weight [-].
     max_iterations : int
         Newton iterations allowed.
     bulge : ndarray, shape (2, n), optional

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.snow.contact import free_unknowns, net_components
+from netdesign.snow.contact import free_unknowns, may_lift, net_components
 from netdesign.snow.flow import FlowState, compute_residual
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
@@ -25,8 +25,9 @@ class SupportForces:
         Nodal forces on the net, foot to head.
     on_ground : ndarray, shape (2,)
         Resultant on the ground.
-    ground_normal : ndarray, shape (n_ground - 1,)
-        Downward nodal forces on the ground, without the node at the foot.
+    ground_normal : ndarray, shape (n,)
+        Downward nodal forces on the ground where it may let go: without the node at
+        the foot and the last thickness upslope.
     unbalanced : float
         Norm of the forces left on nodes that nothing holds.
     """
@@ -67,6 +68,6 @@ def compute_support_forces(
     return SupportForces(
         on_net=on_net,
         on_ground=on_ground,
-        ground_normal=-ground[1],
+        ground_normal=-ground[1, may_lift(template)],
         unbalanced=float(np.linalg.norm(residual[free])),
     )

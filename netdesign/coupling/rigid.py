@@ -11,7 +11,14 @@ from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import SupportForces, compute_support_forces
 from netdesign.coupling.refine import refine
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Cost, EndPull, FailedSolution, WallSolution
+from netdesign.coupling.solution import (
+    Cost,
+    EndPull,
+    FailedSolution,
+    WallSolution,
+    list_skipped,
+    triangle_density,
+)
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowState, solve_flow
@@ -66,7 +73,11 @@ def solve_rigid(
         balance = measure_balance(
             end.law, end.mesh, end.forces, force.vector, None, scale
         )
-        check_balance(balance, chosen.balance_tolerance)
+        check_balance(
+            balance,
+            chosen.balance_tolerance,
+            friction_tolerance=chosen.stress_tolerance,
+        )
     except SolveError as failure:
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
     nodes = end.mesh.nodes[:, end.mesh.template.net]
@@ -85,6 +96,8 @@ def solve_rigid(
         wall_slides=np.append(False, end.state.contact.sign != 0),
         mesh_nodes=end.mesh.nodes * thickness,
         mesh_edges=end.mesh.template.edges,
+        mesh_triangles=end.mesh.template.triangles[:3],
+        mesh_density=triangle_density(scene, end.mesh.template),
         largest_velocity=end.state.largest_velocity(end.mesh) * scene.velocity_scale,
         balance=balance,
         cost=Cost(
@@ -92,15 +105,14 @@ def solve_rigid(
             rounds=len(states),
             elements=end.mesh.template.triangles.shape[1],
             degrees_of_freedom=end.mesh.n_dofs,
+            skipped=list_skipped(scene, end.mesh),
         ),
     )
 
 
 def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
-    thickness = scene.snowpack.thickness
-    law = scene.flow_law
-    aspect = scene.snowpack.upslope_length / thickness
-    template = build_template(aspect, size, scene.layer_tops)
+    law = scene.reach_law
+    template = build_template(scene.reach, size, scene.layer_tops)
     heights = template.net_fractions
     wall = np.array([heights * np.tan(scene.net.inclination), heights])
     mesh = build_placed_mesh(template, place_nodes(template, wall), law.element)

@@ -45,6 +45,7 @@ def build_solution(
     history: History,
     method: Method,
     balance_tolerance: float,
+    friction_tolerance: float | None = None,
 ) -> Solution:
     """Solution whose shapes are those at the end of the finest run.
 
@@ -65,7 +66,7 @@ def build_solution(
     if run.instant.on_net.shape[1] > sliding.glide.size:
         slides = np.append(slides, True)  # a corner held at the head slips freely
     balance = _measure_balance(run, scene)
-    check_balance(balance, balance_tolerance)
+    check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
     corner = -run.instant.on_net.sum(axis=1)
     corner += run.instant.foot_pull + run.instant.head_pull
     return Solution(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -12,6 +12,8 @@ from netdesign.coupling.history import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.outcome import Outcome
+from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.mesh import MeshTemplate
 
 Floats = NDArray[np.float64]
 Method = Literal["steady", "transient", "staggered"]
@@ -69,13 +71,50 @@ class Balance:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Skipped:
+    """What a scene did not need.
+
+    Attributes
+    ----------
+    upslope_length : float
+        Snow beyond the net's reach, taken as a load [m].
+    pressure_unknowns : int
+        Of the mixed element, which only snow near ice needs.
+    """
+
+    upslope_length: float = 0.0
+    pressure_unknowns: int = 0
+
+
+def list_skipped(scene: Scene, mesh: PlacedMesh) -> Skipped:
+    """What a steady solve on this mesh did without."""
+    pack = scene.snowpack
+    is_mixed = mesh.n_dofs > mesh.n_velocities
+    return Skipped(
+        upslope_length=pack.upslope_length - scene.reach * pack.thickness,
+        pressure_unknowns=0 if is_mixed else mesh.template.n_vertices,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Cost:
-    """What a solve took; no clock, so that equal solves are equal."""
+    """What a solve took; no clock, so that equal solves are equal.
+
+    Attributes
+    ----------
+    linear_solves, rounds : int
+        Of all meshes.
+    elements, degrees_of_freedom : int
+        Of the finest mesh.
+    skipped : Skipped
+        What the scene did not need.
+    """
 
     linear_solves: int
     rounds: int
     elements: int
     degrees_of_freedom: int
+    skipped: Skipped = field(default_factory=Skipped)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -164,7 +203,9 @@ class WallSolution:
         Positions [m] and forces [N/m], foot to upper edge.
     wall_slides : ndarray of bool, shape (n,)
         Where the snow slips on the wall.
-    mesh_nodes, mesh_edges, largest_velocity, balance, cost
+    mesh_nodes, mesh_edges, mesh_triangles, mesh_density
+        As in ``Solution``.
+    largest_velocity, balance, cost
         As in ``Solution``.
     """
 
@@ -176,6 +217,8 @@ class WallSolution:
     wall_slides: NDArray[np.bool_]
     mesh_nodes: Floats
     mesh_edges: NDArray[np.int64]
+    mesh_triangles: NDArray[np.int64]
+    mesh_density: Floats
     largest_velocity: float
     balance: Balance
     cost: Cost
@@ -192,3 +235,23 @@ class FailedSolution:
 
     outcome: Outcome
     reason: str
+
+
+def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
+    """Snow density of the triangles of a mesh that has not moved [kg/m3].
+
+    Parameters
+    ----------
+    scene : Scene
+        With uniform or layered snow.
+    template : MeshTemplate
+        Mesh of the snow's thickness 1.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles,)
+        That of the layer which a triangle lies in.
+    """
+    heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
+    layer = np.searchsorted(np.array(scene.layer_tops), heights)
+    return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

@@ -48,6 +48,9 @@ Floats = NDArray[np.float64]
 
 # Share of the time in which net and drag come to rest that a step may take.
 _STABLE_SHARE = 0.3
+# Shear beyond the friction limit, over the weight: increments keep the limit only as
+# steps vanish.
+_FRICTION_TOLERANCE = 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
 
@@ -133,7 +136,9 @@ def solve_staggered(
     history = scale_history(
         runs[-1], scene, Clock(), start=settings.start, densifies=True
     )
-    return build_solution(scene, runs, foot, head, history, "staggered", 1e-8)
+    return build_solution(
+        scene, runs, foot, head, history, "staggered", 1e-8, _FRICTION_TOLERANCE
+    )
 
 
 def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:

@@ -21,8 +21,16 @@ from netdesign.cable.net import Net
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import SupportForces, compute_support_forces
 from netdesign.coupling.refine import Estimate, refine
+from netdesign.coupling.round_tangent import linearise_round
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import Cost, EndPull, FailedSolution, Solution
+from netdesign.coupling.solution import (
+    Cost,
+    EndPull,
+    FailedSolution,
+    Solution,
+    list_skipped,
+    triangle_density,
+)
 from netdesign.coupling.start import guess_pressure
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.fixed_point import mix_anderson
@@ -30,16 +38,26 @@ from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
+from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
 
 Floats = NDArray[np.float64]
 
 # The flow of a round is solved this much more tightly than the net still moves.
-_INNER_SHARE = 1e-2
-_LOOSEST_INNER = 1e-3
+_INNER_SHARE = 0.1
+_LOOSEST_INNER = 1e-2
+# The first mesh is only compared with the next, whose error is far larger.
+_FIRST_MESH = 5.0
 _CONTACT_ROUNDS = 30
-_SURFACE_TOLERANCE = 1e-9
+_HALVINGS = 4
+# Layers whose creep rates differ by more may have no steady state that rounds find.
+_LAYER_CONTRAST = 1e3
+# Rounds that leave more than this share of the last one's movement are slow.
+_SLOW = 0.2
+# Corrected rounds remember little: contacts that changed make old ones mislead.
+_NEWTON_DEPTH, _NEWTON_DAMPING = 2, 0.7
+_SURFACE_TOLERANCE = 1e-10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,6 +83,8 @@ class _Hanging:
 
     cable: Funicular
     contact_length: float  # unstressed
+    forces: Floats  # those of the free end, 0, are the last two
+    lengths: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -128,17 +148,19 @@ def _refine(scene: Scene, settings: SolverSettings) -> Solution:
         settings.accuracy,
     )
     solution = _build_solution(scene, states, pulls)
-    check_balance(solution.balance, settings.balance_tolerance)
+    check_balance(
+        solution.balance,
+        settings.balance_tolerance,
+        friction_tolerance=settings.stress_tolerance,
+    )
     return solution
 
 
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
     thickness = scene.snowpack.thickness
     return _Problem(
-        law=scene.flow_law,
-        template=build_template(
-            scene.snowpack.upslope_length / thickness, size, scene.layer_tops
-        ),
+        law=scene.reach_law,
+        template=build_template(scene.reach, size, scene.layer_tops),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
         slack=net.slack,
@@ -154,33 +176,39 @@ def _couple(
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
     moved, solves = 1.0, 0
+    rough = _FIRST_MESH if guess is None else 1.0
+    tolerance = rough * min(settings.stress_tolerance, settings.accuracy / 50)
+    still = rough * settings.shape_tolerance
     curves: list[Floats] = []
-    images: list[Floats] = []
+    misses: list[Floats] = []
+    inverse: Floats | None = None
     for round_number in range(1, settings.max_rounds + 1):
-        mesh = _place(problem, curve)
+        curve, mesh = _place_between(problem, curves[-1:], curve)
         if state is None and guess is not None:
             state = transfer_state(guess.state, guess.mesh, mesh)
-        wanted = max(
-            settings.stress_tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER)
-        )
+        wanted = max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
         flow = solve_flow(
             problem.law,
             mesh,
             state,
             tolerance=wanted,
             max_iterations=settings.max_iterations,
+            step=settings.step,
         )
         solves += flow.linear_solves
         if flow.outcome is not Outcome.CONVERGED:
-            raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+            raise _fail(
+                problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}"
+            )
         state = flow.state
         forces = compute_support_forces(problem.law, mesh, state)
         hanging = _hang(
             problem, forces.on_net, hanging.cable.pull, hanging.contact_length
         )
-        image = _contact_curve(problem, hanging)
-        moved = float(np.abs(image - curve).max())
-        if moved < settings.shape_tolerance and flow.change < settings.stress_tolerance:
+        curves.append(curve)
+        misses.append(_contact_curve(problem, hanging) - curve)
+        moved = float(np.abs(misses[-1]).max())
+        if moved < still and flow.change < tolerance:
             return _Coupled(
                 problem=problem,
                 mesh=mesh,
@@ -190,14 +218,87 @@ def _couple(
                 linear_solves=solves,
                 rounds=round_number,
             )
-        curves.append(curve.ravel())
-        images.append(image.ravel())
-        curve = mix_anderson(curves, images).reshape(curve.shape)
-    raise SolveError(
+        if _is_slow(misses, state):
+            inverse = _invert_round(problem, mesh, state, hanging)
+        curve = _mix(curves, misses, inverse)
+    raise _fail(
+        problem.law,
         Outcome.MAX_ITERATIONS,
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {settings.max_rounds} rounds",
     )
+
+
+def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
+    """The failure, with what in the scene is known to leave no steady state."""
+    causes = []
+    if "one-sided" in (law.ground_contact, law.net_contact):
+        causes.append("snow lifts off a one-sided support and settles again")
+    rates = [layer.fluidity for layer in law.layers]
+    if max(rates) > _LAYER_CONTRAST * min(rates):
+        contrast = max(rates) / min(rates)
+        causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
+    if outcome is not Outcome.MAX_ITERATIONS or not causes:
+        return SolveError(outcome, what)
+    return SolveError(
+        Outcome.NO_EQUILIBRIUM,
+        f"no steady state was found ({what.rstrip('.')}): {' and '.join(causes)}",
+    )
+
+
+def _is_slow(misses: Sequence[Floats], state: FlowState) -> bool:
+    """Snow slips along the net, and the last round gained little."""
+    if len(misses) < 2 or not state.contact.sign.any():
+        return False
+    before, now = (float(np.abs(miss).max()) for miss in misses[-2:])
+    return now > _SLOW * before
+
+
+def _invert_round(
+    problem: _Problem, mesh: PlacedMesh, state: FlowState, hanging: _Hanging
+) -> Floats | None:
+    """Inverse of the rounds' derivative, eq. (K0); None if it has none."""
+    size = 2 * mesh.template.net.size
+    try:
+        tangent = linearise_round(
+            problem.law,
+            mesh,
+            state,
+            hanging.cable,
+            hanging.forces,
+            hanging.lengths,
+            problem.stiffness,
+        ).reshape(size, size)
+        return np.asarray(np.linalg.inv(np.eye(size) - tangent), dtype=np.float64)
+    except (SingularError, np.linalg.LinAlgError):
+        return None
+
+
+def _mix(
+    curves: Sequence[Floats], misses: Sequence[Floats], inverse: Floats | None
+) -> Floats:
+    """Next curve from all before, and what the rounds made of them."""
+    if inverse is None:
+        images = [curve + miss for curve, miss in zip(curves, misses, strict=True)]
+        return mix_anderson(curves, images)
+    recent = curves[-_NEWTON_DEPTH:]
+    images = [
+        curve + (inverse @ miss.ravel()).reshape(curve.shape)
+        for curve, miss in zip(recent, misses[-_NEWTON_DEPTH:], strict=True)
+    ]
+    return mix_anderson(recent, images, damping=_NEWTON_DAMPING)
+
+
+def _place_between(
+    problem: _Problem, placed: Sequence[Floats], wanted: Floats
+) -> tuple[Floats, PlacedMesh]:
+    """Mesh on the wanted curve, or as near to it from the last one as it can be."""
+    for _ in range(_HALVINGS if placed else 0):
+        try:
+            return wanted, _place(problem, wanted)
+        except SolveError:
+            wanted = (wanted + placed[-1]) / 2
+    return wanted, _place(problem, wanted)
 
 
 def _place(problem: _Problem, curve: Floats) -> PlacedMesh:
@@ -240,17 +341,29 @@ def _hang(
     if not problem.has_freeboard:
         lengths = np.diff(problem.template.net_fractions[::2]) * problem.length
         cable = _solve_cable(problem, forces, lengths, pull)
-        return _Hanging(cable=cable, contact_length=problem.length)
+        return _Hanging(
+            cable=cable, contact_length=problem.length, forces=forces, lengths=lengths
+        )
     loose = np.concatenate([forces, np.zeros((2, 2))], axis=1)
+    before: tuple[float, float] | None = None
     for _ in range(_CONTACT_ROUNDS):
         free_length = problem.length - contact_length
         lengths = np.diff(problem.template.net_fractions[::2]) * contact_length
-        cable = _solve_cable(problem, loose, np.append(lengths, free_length), pull)
+        lengths = np.append(lengths, free_length)
+        cable = _solve_cable(problem, loose, lengths, pull)
         pull = cable.pull
         too_high = float(cable.curve[1, -3]) - 1.0
         if abs(too_high) < _SURFACE_TOLERANCE:
-            return _Hanging(cable=cable, contact_length=contact_length)
+            return _Hanging(
+                cable=cable,
+                contact_length=contact_length,
+                forces=loose,
+                lengths=lengths,
+            )
         rise = float(cable.curve[1, -1] - cable.curve[1, -3]) / free_length
+        if before is not None and contact_length != before[0]:
+            rise = (too_high - before[1]) / (contact_length - before[0])
+        before = (contact_length, too_high)
         contact_length -= too_high / rise
         if not 0.0 < contact_length < problem.length:
             break
@@ -309,7 +422,7 @@ def _build_solution(
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
-        mesh_density=_triangle_density(scene, mesh.template),
+        mesh_density=triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
         balance=measure_balance(law, mesh, end.forces, held, cable.tension, scale),
         cost=Cost(
@@ -317,11 +430,6 @@ def _build_solution(
             rounds=sum(state.rounds for state in states),
             elements=mesh.template.triangles.shape[1],
             degrees_of_freedom=mesh.n_dofs,
+            skipped=list_skipped(scene, mesh),
         ),
     )
-
-
-def _triangle_density(scene: Scene, template: MeshTemplate) -> Floats:
-    heights = template.nodes[1, template.triangles[:3]].mean(axis=0)
-    layer = np.searchsorted(np.array(scene.layer_tops), heights)
-    return np.asarray(np.array([layer.density for layer in scene.layers])[layer])

@@ -24,7 +24,8 @@ class CaseTask:
     """Everything that a worker needs for one case.
 
     ``scene`` is None where the model refuses the case; ``refusal`` says why. Without
-    a ``layout`` the net's own tensions are followed, per metre of width.
+    a ``layout`` the net's own tensions are followed, per metre of width. The kind of
+    settings chooses steady state or history.
     """
 
     case: Case

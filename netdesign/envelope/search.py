@@ -18,8 +18,9 @@ from netdesign.envelope.adaptive import (
     Values,
     search_maxima,
 )
-from netdesign.envelope.extremes import describe_gap
+from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.grid import Case
 from netdesign.envelope.parameters import Box, build_case, place_scene
 from netdesign.envelope.run import (
     CaseResult,
@@ -59,6 +60,9 @@ class RowTask:
         When the search ends.
     confirmed_by : Settings or None
         How the governing cases are solved again; None leaves that out.
+    build : callable or None
+        Scene of a case, where the values of the box cannot be put into ``scene`` one
+        by one.
     """
 
     scene: Scene
@@ -67,6 +71,7 @@ class RowTask:
     settings: SolverSettings
     search: SearchSettings
     confirmed_by: Settings | None
+    build: Callable[[Case], Scene] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -127,31 +132,52 @@ class RowEnvelope:
             "the largest one by more than the gap asked for"
         )
 
-    def bound(self, member: str) -> Band:
-        """Largest force of a member over the whole box, with everything unsure.
-
-        The band's upper end adds what may hide between the cases to the numerical
-        error; a confirmation that lies above it raises it.
-        """
+    def hidden(self, member: str) -> float:
+        """How much larger a member's force may be between the cases [N]."""
         place = self.members.index(member)
-        converged = [one for one in self.results if one.is_converged]
-        bands = [one.member_forces[member] for one in converged]
-        largest = self.maxima.maximum[place]
-        hidden = max(0.0, self.maxima.upper_bound[place] - largest)
+        return max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
+
+    def force(self, member: str) -> Band:
+        """Largest force of a member at the cases, with its numerical error.
+
+        A confirmation that lies above the bound raises the upper end.
+        """
+        bands = [one.member_forces[member] for one in self.results if one.is_converged]
         confirmed = [
-            one.confirmed.member_forces[member].high
+            one.confirmed.member_forces[member].high - self.hidden(member)
             for one in self.confirmations
             if one.confirmed.is_converged
         ]
         return Band(
             low=max(band.low for band in bands),
-            value=largest,
-            high=max([max(band.high for band in bands) + hidden, *confirmed]),
+            value=max(band.value for band in bands),
+            high=max([*(band.high for band in bands), *confirmed]),
         )
+
+    def bound(self, member: str) -> Band:
+        """Largest force of a member over the whole box, with everything unsure.
+
+        The band's upper end adds what may hide between the cases.
+        """
+        force = self.force(member)
+        return replace(force, high=force.high + self.hidden(member))
+
+    def upper_bound(self, member: str) -> float:
+        """Largest force with what may hide, without the numerical error [N]."""
+        return self.force(member).value + self.hidden(member)
 
     def governing(self, member: str) -> CaseResult:
         """Case of a member's largest force; carries the coincident forces."""
-        return self.results[self.maxima.governing[self.members.index(member)]]
+        return find_extremes(self.results)[member].governing
+
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces by member, without what may hide between the cases."""
+        found = find_extremes(self.results)
+        return {
+            member: replace(one, force=self.force(member))
+            for member, one in found.items()
+        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,7 +224,7 @@ def search_row(
     results: list[CaseResult] = []
     points = next(search)
     while True:
-        tasks = [_build_task(task, point) for point in points]
+        tasks = [build_point_task(task, point) for point in points]
         ends = yield from _ask(points, tasks, skip)
         answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
         results += answered
@@ -270,16 +296,17 @@ def run_grid(
     samples = [counts[name] or 2 for name in task.box.axes]
     axes = [[k / (count - 1) for k in range(count)] for count in samples]
     points = [tuple(point) for point in product(*axes)]
-    return run_cases([_build_task(task, point) for point in points], runner)
+    return run_cases([build_point_task(task, point) for point in points], runner)
 
 
-def _build_task(
+def build_point_task(
     task: RowTask, point: Point, settings: Settings | None = None
 ) -> CaseTask:
+    """Task of one point of a row's box; the row's settings unless others are given."""
     values = task.box.place(point)
     return build_task(
         build_case(task.scene, values),
-        lambda _: place_scene(task.scene, values),
+        task.build or (lambda _: place_scene(task.scene, values)),
         task.layout,
         settings or task.settings,
     )
@@ -323,7 +350,9 @@ def _confirm(
         if maxima.maximum[place] > 0.0
     }
     places = sorted(set(loaded.values()))
-    tasks = [_build_task(task, maxima.points[p], task.confirmed_by) for p in places]
+    tasks = [
+        build_point_task(task, maxima.points[p], task.confirmed_by) for p in places
+    ]
     jobs = [job for job in map(build_job, tasks) if job is not None]
     ends = (yield jobs) if jobs else []
     again = {

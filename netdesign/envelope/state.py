@@ -40,8 +40,6 @@ class SolvedState:
         What it took.
     net_curve, net_slides, mesh_nodes, mesh_edges
         As in ``Solution``.
-    plateau_reached : bool or None
-        Of a history; None for a steady state.
     """
 
     method: str
@@ -55,7 +53,6 @@ class SolvedState:
     net_slides: NDArray[np.bool_]
     mesh_nodes: Floats
     mesh_edges: NDArray[np.int64]
-    plateau_reached: bool | None = None
 
     @property
     def head_point(self) -> tuple[float, float]:
@@ -80,7 +77,6 @@ class CaseEnd:
 
 def keep_state(solution: Solution) -> SolvedState:
     """Part of a solution that an envelope keeps."""
-    history = solution.history
     return SolvedState(
         method=solution.method,
         foot=solution.foot,
@@ -93,7 +89,6 @@ def keep_state(solution: Solution) -> SolvedState:
         net_slides=np.asarray(solution.net_slides, dtype="|b1"),
         mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
         mesh_edges=np.asarray(solution.mesh_edges, dtype="<i8"),
-        plateau_reached=None if history is None else history.at_plateau is not None,
     )
 
 
@@ -113,7 +108,6 @@ def encode_end(end: CaseEnd) -> tuple[str, bytes]:
         "balance": asdict(state.balance),
         "elements": state.elements,
         "linear_solves": state.linear_solves,
-        "plateau_reached": state.plateau_reached,
         "shapes": [array.shape for array in arrays],
     }
     shape = b"".join(
@@ -143,7 +137,6 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         balance=Balance(**numbers["balance"]),
         elements=numbers["elements"],
         linear_solves=numbers["linear_solves"],
-        plateau_reached=numbers["plateau_reached"],
         **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
     )
     return CaseEnd(outcome=outcome, reason=reason, state=state)

@@ -66,6 +66,12 @@ def solve_job(job: Job) -> CaseEnd:
                 outcome=Outcome.OUT_OF_VALIDITY,
                 reason="a rigid wall has no net whose forces could be followed",
             )
+        history = solution.history
+        if history is not None and not history.plateau.reached:
+            return CaseEnd(
+                outcome=Outcome.PLATEAU_NOT_REACHED,
+                reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
+            )
         return CaseEnd(outcome=Outcome.CONVERGED, state=keep_state(solution))
     except Exception as error:  # a bug in one case must not hide the others
         return CaseEnd(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,8 +11,8 @@ Floats = NDArray[np.float64]
 
 
 def mix_anderson(
-    points: list[Floats],
-    images: list[Floats],
+    points: Sequence[Floats],
+    images: Sequence[Floats],
     *,
     depth: int = 20,
     damping: float = 0.5,
@@ -22,7 +24,7 @@ def mix_anderson(
 
     Parameters
     ----------
-    points, images : list of ndarray, each shape (n,)
+    points, images : sequence of ndarray, all of one shape
         Iterates and what the map made of them, oldest first; at least one.
     depth : int
         How many of the last entries are used.
@@ -32,8 +34,8 @@ def mix_anderson(
 
     Returns
     -------
-    ndarray, shape (n,)
-        The next iterate.
+    ndarray
+        The next iterate, of that shape.
 
     Source
     ------
@@ -44,8 +46,10 @@ def mix_anderson(
     used = min(len(points), depth)
     if used == 1:
         return images[-1]
-    differences = np.array([residuals[-1] - r for r in residuals[-used:-1]]).T
-    steps = np.array([points[-1] - point for point in points[-used:-1]]).T
-    weights, *_ = np.linalg.lstsq(differences, residuals[-1], rcond=1e-10)
-    left = residuals[-1] - differences @ weights
-    return np.asarray(points[-1] - steps @ weights + damping * left)
+    differences = np.array([residuals[-1] - r for r in residuals[-used:-1]])
+    steps = np.array([points[-1] - point for point in points[-used:-1]])
+    columns = differences.reshape(used - 1, -1).T
+    weights, *_ = np.linalg.lstsq(columns, residuals[-1].ravel(), rcond=1e-10)
+    left = residuals[-1] - np.tensordot(weights, differences, 1)
+    step = damping * left - np.tensordot(weights, steps, 1)
+    return np.asarray(points[-1] + step)

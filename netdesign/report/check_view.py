@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
+from netdesign.report.row_tables import describe_widths
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -152,6 +153,11 @@ def work_out(check: CheckRecord) -> Worked:
     return Worked(
         title=f"{name_check(check)}: {name_case(check.case)}",
         steps=(
+            *(
+                Step(symbols=symbols, numbers=numbers, result=result)
+                for symbols, numbers, result in describe_widths(check)
+            ),
+            *_derive_resistance(check),
             Step(
                 symbols="E_d = γ_E · E_k",
                 numbers=f"{show_number('action_factor', check.action_factor)} · "
@@ -178,6 +184,20 @@ def work_out(check: CheckRecord) -> Worked:
         ),
         needed=f"{VERDICTS[check.verdict].word}. A pass needs R_d of at least "
         f"{needed}, the high end of the demand. Numbers are rounded for print only.",
+    )
+
+
+def _derive_resistance(check: CheckRecord) -> tuple[Step, ...]:
+    """How the characteristic resistance follows from dimensions or tests."""
+    if not check.resistance_derivation:
+        return ()
+    given = check.resistance_characteristic_kN
+    return (
+        Step(
+            symbols="R_k",
+            numbers=show_text(check.resistance_derivation),
+            result=show_with_unit("resistance_characteristic_kN", given),
+        ),
     )
 
 

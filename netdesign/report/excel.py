@@ -21,6 +21,9 @@ SHEETS = (
     "Checks",
     "Envelope",
     "Cases",
+    "Changes",
+    "Support",
+    "Guideline",
     "Quality",
     "Provenance",
 )
@@ -74,11 +77,17 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_check_sheet(book, study)
     extremes = [(row.id, row.extremes) for row in view.rows]
     cases = [(row.id, tables.build_cases(row)) for row in study.rows]
+    changes = [(row.id, row.changes) for row in view.rows]
+    anchors = [(row.id, row.anchors) for row in view.rows]
+    guideline = [(row.id, row.guideline) for row in view.rows]
     for name, title, parts in (
         ("Envelope", "Largest force of each member", extremes),
         ("Cases", "All cases", cases),
+        ("Changes", "What would flip the checks", changes),
+        ("Support", "Forces on the ground in the drawn case", anchors),
+        ("Guideline", "Independent check by the guideline", guideline),
     ):
-        caption = "Characteristic forces per anchor"
+        caption = parts[0][1].caption if parts else title
         stacked = tables.stack_tables(caption, parts) if parts else _say_none(caption)
         book.add_table_sheet(name, title, [stacked])
     book.add_table_sheet("Quality", "Solver quality", [view.quality, view.outcomes])

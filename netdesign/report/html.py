@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
+from netdesign.report.head_figure import draw_head
+from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
+from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
 from netdesign.report.view import ReportView, build_view
-from netdesign.resources import find_resource
 from netdesign.study import RowStudy, Study
 
 if TYPE_CHECKING:
@@ -30,6 +32,9 @@ _ROW_SECTIONS = (
     "drawing",
     "checks",
     "worked",
+    "changes",
+    "support",
+    "guideline",
     "extremes",
     "envelope",
     "failed",
@@ -45,23 +50,14 @@ def render_html(study: Study) -> str:
     NetDesignError
         If the study contradicts its own numbers or a section would be missing.
     """
-    import jinja2
     from markupsafe import Markup
 
-    templates = find_resource("templates")
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(templates),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = build_environment()
     environment.filters["subscripts"] = _write_subscripts
     view = build_view(study)
-    css = (templates / "report.css").read_text(encoding="utf-8")
     page = environment.get_template("report.html").render(
         view=view,
-        css=Markup(css),
+        css=load_style("report.css"),
         running_title=Markup(_quote_css(view.running_title)),
         figures=[
             _draw_row(row, row_view.anchor)
@@ -79,16 +75,21 @@ def list_sections(view: ReportView) -> list[str]:
 
 
 def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
-    from markupsafe import Markup
+    from markupsafe import Markup, escape
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
     record = row.envelope
+    measured = draw_monitoring(row.monitoring, f"{anchor}-r")
+    head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
     return {
+        "head": Markup(head),
         "section": Markup(section),
         "envelope": Markup("" if record else draw_envelope(row, f"{anchor}-e")),
         "maps": Markup(draw_maps(record, f"{anchor}-m") if record else ""),
         "lines": Markup(draw_lines(record, f"{anchor}-l") if record else ""),
         "drivers": Markup(draw_drivers(record, f"{anchor}-d") if record else ""),
+        "monitoring": Markup(measured),
+        "monitoring_note": escape(describe_monitoring(row.monitoring)),
     }
 
 

@@ -246,6 +246,8 @@ def build_provenance(study: Study) -> Table:
         "Site file": made.site_file,
         "Site file, SHA-256": made.site_sha256,
         "Limit profile": f"{study.profile.id}, {study.profile.edition}",
+        "Limit profile, version": study.profile.version,
+        "Limit profile, choice": study.profile.choice,
         "Limit profile, SHA-256": study.profile.sha256,
         "Schema": study.schema,
     }

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from netdesign.report.row_tables import describe_change
 from netdesign.report.view import ReportView, RowView, build_view
-from netdesign.report.words import MISSING, VerdictWords
+from netdesign.report.words import (
+    MISSING,
+    VERDICTS,
+    VerdictWords,
+    name_check,
+    show_text,
+)
 from netdesign.study import Study
 
 if TYPE_CHECKING:
@@ -51,6 +58,26 @@ def print_summary(study: Study, console: Console) -> None:
         console.print(Text(line), soft_wrap=True)
     overall = Text("Verdict: ").append_text(_word(view.verdict))
     console.print(overall.append(f" - {view.verdict.meaning}"), soft_wrap=True)
+
+
+def print_changes(study: Study, console: Console) -> None:
+    """Print for every failing, unproven or close check what would flip it."""
+    from rich.text import Text
+
+    for row in study.rows:
+        for check in row.checks:
+            for change in check.changes:
+                words = VERDICTS[check.verdict].word
+                passes = "passes with " if change.bound is not None else ""
+                text = f"{row.id} {name_check(check)} ({words}): {passes}"
+                text += describe_change(change)
+                if change.now is not None:
+                    text += f", now {change.now:.6g} {change.unit}"
+                text += f"; {change.solves} solves" if change.solves else ""
+                text += f" ({change.note})" if change.note else ""
+                console.print(Text(show_text(text)), soft_wrap=True)
+    if not any(check.changes for row in study.rows for check in row.checks):
+        console.print("No check fails, is unproven or is close to its limit.")
 
 
 def _list_cells(row: RowView) -> list[Text]:

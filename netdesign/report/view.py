@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report import envelope_tables, tables
+from netdesign.report import envelope_tables, row_tables, tables
 from netdesign.report.check_view import (
     SEVERITY,
     CheckView,
@@ -55,6 +55,13 @@ class RowView:
     drivers: Table
     failed: Table
     inputs: Table
+    anchors: Table
+    head: Table
+    spreads: Table
+    changes: Table
+    guideline: Table
+    guideline_sentence: str
+    notes: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,6 +156,13 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         drivers=envelope_tables.build_drivers(row),
         failed=tables.build_failed(row),
         inputs=tables.build_inputs(row.inputs, "Inputs, with the cell of each"),
+        anchors=row_tables.build_anchors(row),
+        head=row_tables.build_head(row),
+        spreads=row_tables.build_spreads(shown),
+        changes=row_tables.build_changes(row),
+        guideline=row_tables.build_guideline(row),
+        guideline_sentence=row.guideline.sentence if row.guideline else "",
+        notes=tuple(show_text(note) for note in row.notes),
     )
 
 

@@ -76,6 +76,8 @@ def show_number(key: str, value: float | None) -> str:
         return show_given(value)
     kind = "e" if quantity.scientific else "f"
     shown = f"{value:.{quantity.decimals}{kind}}"
+    if not float(shown):
+        shown = shown.removeprefix("-")
     if key == "utilisation" and value > 1 and float(shown) <= 1:
         return f">{shown}"
     return shown

@@ -2,10 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from netdesign.site.diagnostics import Finding, Refusal, Severity
+from netdesign.site.numbers import DecimalMark
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TextFormat:
+    """What is declared of a file's text; empty: found out, or judged cell by cell.
+
+    Attributes
+    ----------
+    delimiter : str
+        Between the columns of a csv file.
+    decimal_mark : str
+        Point or comma, in numbers that are stored as text.
+    """
+
+    delimiter: str = ""
+    decimal_mark: DecimalMark = ""
+
+
+UNDECLARED = TextFormat()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +44,7 @@ class Cell:
     formula: str = ""
     is_error: bool = False
     is_percent: bool = False  # the cell's format shows hundredfold
+    decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
 
     @property
     def address(self) -> str:
@@ -65,12 +86,26 @@ class Cell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MergedRange:
-    """Merged cells: their range as text, their first cell, their last row."""
+    """Merged cells: their range as text, their first and last row and column."""
 
     text: str  # "B3:C4"
     row: int
     column: int
     last_row: int
+    last_column: int
+
+    @property
+    def size(self) -> int:
+        """Number of its cells."""
+        rows = self.last_row - self.row + 1
+        return rows * (self.last_column - self.column + 1)
+
+    def covers(self, row: int, column: int) -> bool:
+        """Whether a cell belongs to the range."""
+        return (
+            self.row <= row <= self.last_row
+            and self.column <= column <= self.last_column
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,6 +117,7 @@ class Sheet:
     rows: Mapping[int, Mapping[int, Cell]]
     merged: tuple[MergedRange, ...] = ()
     hidden_rows: frozenset[int] = frozenset()
+    hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
 
     def cell(self, row: int, column: int) -> Cell:
@@ -113,6 +149,7 @@ class Workbook:
     sha256: str
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...]
+    remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
 
 
 def name_column(column: int) -> str:
@@ -126,3 +163,11 @@ def name_column(column: int) -> str:
         column, digit = divmod(column - 1, 26)
         letters = chr(ord("A") + digit) + letters
     return letters
+
+
+def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:
+    """Cells by row, then column, both ascending."""
+    rows: dict[int, dict[int, Cell]] = {}
+    for cell in sorted(cells, key=lambda cell: (cell.row, cell.column)):
+        rows.setdefault(cell.row, {})[cell.column] = cell
+    return rows

@@ -1,8 +1,29 @@
-"""The site workbook as one table: sheets, headings, units, bounds, defaults."""
+"""The site workbook as one table: sheets, headings, units, bounds, defaults.
+
+English here; French and German texts stand in ``words/*.toml``.
+"""
 
 from __future__ import annotations
 
+from netdesign.site.dimension_columns import (
+    ANCHOR_DIMENSIONS,
+    POST_DIMENSIONS,
+    ROPE_DIMENSIONS,
+    ROW_POSITION,
+)
 from netdesign.site.fields import Field, SheetPlan
+from netdesign.site.languages import word_field, word_plan
+from netdesign.site.unit_names import (
+    ANGLES,
+    DENSITIES,
+    FORCES,
+    FORCES_PER_LENGTH,
+    LENGTHS,
+    SHARES,
+    SLOPES,
+    TEMPERATURES,
+    TIMES,
+)
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.layout import DEFAULT_POST_TILT
 from netdesign.units import degree_from_radian
@@ -12,12 +33,16 @@ DEFAULT_SLACK = 0.02
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 DEFAULT_INCLINATION_DEG = (25.0, 35.0)
 
+_SNOW_SIZE = ("snow_thickness", "snow_height")
+_ANY_HEIGHT = (*_SNOW_SIZE, "net_height")
+_ANY_ANCHOR = ("foot_anchor", "uphill_anchor", "downhill_anchor")
+_ANY_GUY = ("uphill_guy", "downhill_guy")
 
-def _reference(key: str, label: str, aliases: tuple[str, ...], sheet: str) -> Field:
+
+def _reference(key: str, label: str, sheet: str) -> Field:
     return Field(
         key=key,
         label=label,
-        aliases=aliases,
         kind="id",
         refers_to=sheet,
         note=f"id of sheet {sheet}; left empty, the checks of this member are "
@@ -25,364 +50,447 @@ def _reference(key: str, label: str, aliases: tuple[str, ...], sheet: str) -> Fi
     )
 
 
-def _resistance(key: str, label: str, aliases: tuple[str, ...]) -> Field:
+def _resistance(key: str, label: str, *aliases: str) -> Field:
     return Field(
         key=key,
         label=label,
         aliases=aliases,
-        units=("kN",),
+        units=FORCES,
         bounds=(1.0, 5000.0),
         note="characteristic; left empty, the checks that need it are not proven",
     )
 
 
 # Bounds are a little wider than what is built; they catch slips of unit and comma.
-NETS = SheetPlan(
-    name="Nets",
-    aliases=("Filets", "Netze"),
-    required=True,
-    one_of=("snow_thickness", "snow_height"),
-    fields=(
-        Field(
-            key="id",
-            label="id",
-            aliases=("net row", "row", "rangée", "filet", "Werkreihe", "Netzreihe"),
-            kind="id",
-            required=True,
-            note="name of the net row; used once",
-        ),
-        Field(
-            key="slope_angle",
-            label="slope angle",
-            aliases=("slope", "pente", "angle de pente", "Hangneigung"),
-            units=("deg", "%"),
-            bounds=(10.0, 75.0),
-            required=True,
-            note="against the horizontal",
-        ),
-        Field(
-            key="snow_thickness",
-            label="snow thickness",
-            aliases=(
-                "snow thickness normal to slope",
-                "épaisseur",
-                "épaisseur de neige",
-                "Schneemächtigkeit",
-                "Schneemaechtigkeit",
+NETS = word_plan(
+    SheetPlan(
+        name="Nets",
+        required=True,
+        one_of=_SNOW_SIZE,
+        unclear={
+            **dict.fromkeys(("snow depth", "snow", "neige", "Schnee"), _SNOW_SIZE),
+            **dict.fromkeys(("hauteur manteau", "Schneetiefe"), _SNOW_SIZE),
+            **dict.fromkeys(("height", "hauteur", "Höhe", "H"), _ANY_HEIGHT),
+            **dict.fromkeys(("anchor", "ancrage", "Anker"), _ANY_ANCHOR),
+            **dict.fromkeys(("guy", "hauban", "Abspannseil"), _ANY_GUY),
+            **dict.fromkeys(
+                ("inclination", "inclinaison", "Neigung"), ("slope_angle", "post_tilt")
             ),
-            units=("m",),
-            bounds=(0.1, 10.0),
-            note="normal to the slope; fill this or the vertical height, not both",
-        ),
-        Field(
-            key="snow_height",
-            label="snow height vertical",
-            aliases=(
-                "snow height",
-                "vertical snow height",
-                "hauteur verticale",
-                "hauteur de neige verticale",
-                "Schneehöhe",
-                "Schneehoehe",
+        },
+        fields=(
+            Field(
+                key="id",
+                label="id",
+                aliases=("net row", "row"),
+                kind="id",
+                required=True,
+                note="name of the net row; used once",
             ),
-            units=("m",),
-            bounds=(0.1, 15.0),
-            note="vertical; fill this or the thickness, not both",
+            Field(
+                key="slope_angle",
+                label="slope angle",
+                aliases=("slope",),
+                units=SLOPES,
+                bounds=(10.0, 75.0),
+                required=True,
+                note="against the horizontal",
+            ),
+            Field(
+                key="snow_thickness",
+                label="snow thickness",
+                aliases=("snow thickness normal to slope",),
+                units=LENGTHS,
+                bounds=(0.1, 10.0),
+                note="normal to the slope; fill this or the vertical height, not both",
+            ),
+            Field(
+                key="snow_height",
+                label="snow height vertical",
+                aliases=("snow height", "vertical snow height"),
+                units=LENGTHS,
+                bounds=(0.1, 15.0),
+                note="vertical; fill this or the thickness, not both",
+            ),
+            Field(
+                key="upslope_length",
+                label="upslope length",
+                units=LENGTHS,
+                bounds=(1.0, 200.0),
+                required=True,
+                note="snowpack that the net carries, along the slope up to the next "
+                "row",
+            ),
+            Field(
+                key="ground_law",
+                label="ground law",
+                aliases=("ground",),
+                kind="word",
+                required=True,
+                words={
+                    "free": ("free glide",),
+                    "no-slip": ("rough",),
+                    "sliding": ("slides",),
+                },
+                note="free: the snow glides freely; no-slip: it does not move on the "
+                "ground; sliding: give a slip length or a glide factor",
+            ),
+            Field(
+                key="slip_length",
+                label="slip length",
+                aliases=("stagnation depth",),
+                units=LENGTHS,
+                bounds=(0.001, 200.0),
+                note="only for sliding ground, instead of a glide factor",
+            ),
+            Field(
+                key="glide_factor",
+                label="glide factor",
+                aliases=("glide factor N",),
+                units=("-",),
+                bounds=(1.0, LARGEST_GLIDE_FACTOR),
+                note="N of the guidelines; only for sliding ground, instead of a slip "
+                "length",
+            ),
+            Field(
+                key="net_height",
+                label="net height",
+                aliases=("net height normal to slope",),
+                units=LENGTHS,
+                bounds=(0.5, 10.0),
+                required=True,
+                note="normal to the slope, from foot to head",
+            ),
+            Field(
+                key="net_stiffness",
+                label="net stiffness",
+                units=FORCES_PER_LENGTH,
+                bounds=(100.0, 1_000_000.0),
+                required=True,
+                note="force per metre of width at unit strain",
+            ),
+            Field(
+                key="slack",
+                label="slack",
+                units=SHARES,
+                bounds=(0.0, 0.3),
+                default=DEFAULT_SLACK,
+                note="unstressed length of the net over its chord, minus 1",
+            ),
+            Field(
+                key="post_spacing",
+                label="post spacing",
+                units=LENGTHS,
+                bounds=(0.5, 15.0),
+                required=True,
+                note="along the row; the width that loads one anchor",
+            ),
+            Field(
+                key="post_tilt",
+                label="post tilt",
+                units=ANGLES,
+                bounds=(-30.0, 45.0),
+                default=degree_from_radian(DEFAULT_POST_TILT),
+                note="from the slope normal, head downslope positive",
+            ),
+            Field(
+                key="uphill_anchor_distance",
+                label="uphill anchor distance",
+                units=LENGTHS,
+                bounds=(0.0, 50.0),
+                note="upslope of the net's foot, along the slope; left empty, it "
+                "follows from the net height",
+            ),
+            Field(
+                key="downhill_anchor_distance",
+                label="downhill anchor distance",
+                units=LENGTHS,
+                bounds=(0.0, 50.0),
+                note="downslope of the post's base, along the slope; left empty, it "
+                "follows from the net height",
+            ),
+            _reference("foot_anchor", "foot anchor", "Anchors"),
+            _reference("uphill_anchor", "uphill anchor", "Anchors"),
+            _reference("downhill_anchor", "downhill anchor", "Anchors"),
+            _reference("uphill_guy", "uphill guy", "Ropes"),
+            _reference("downhill_guy", "downhill guy", "Ropes"),
+            _reference("post", "post", "Posts"),
+            *ROW_POSITION,
         ),
-        Field(
-            key="upslope_length",
-            label="upslope length",
-            aliases=("longueur amont", "Länge bergwärts", "Hanglänge"),
-            units=("m",),
-            bounds=(1.0, 200.0),
-            required=True,
-            note="snowpack that the net carries, along the slope up to the next row",
+    )
+)
+
+# Layers by net row, one a line; a row without lines here is of uniform snow.
+SNOW = word_plan(
+    SheetPlan(
+        name="Snow",
+        one_of=("thickness", "height"),
+        fields=(
+            Field(
+                key="row",
+                label="net row",
+                aliases=("row",),
+                kind="id",
+                required=True,
+                refers_to="Nets",
+                note="id of a row of sheet Nets",
+            ),
+            Field(
+                key="layer",
+                label="layer",
+                aliases=("layer number",),
+                kind="count",
+                bounds=(1.0, 40.0),
+                required=True,
+                note="number from the ground: 1 lies on the ground",
+            ),
+            Field(
+                key="thickness",
+                label="thickness",
+                aliases=("layer thickness",),
+                units=LENGTHS,
+                bounds=(0.01, 10.0),
+                note="normal to the slope; fill this or the vertical height, not both",
+            ),
+            Field(
+                key="height",
+                label="height vertical",
+                aliases=("vertical height",),
+                units=LENGTHS,
+                bounds=(0.01, 15.0),
+                note="vertical; fill this or the thickness, not both",
+            ),
+            Field(
+                key="density",
+                label="density",
+                aliases=("snow density",),
+                units=DENSITIES,
+                bounds=(100.0, 900.0),
+                required=True,
+                note="the layers keep their proportions, their mean follows the range "
+                "of density",
+            ),
+            Field(
+                key="temperature",
+                label="temperature",
+                aliases=("snow temperature",),
+                units=TEMPERATURES,
+                bounds=(-60.0, 0.0),
+                note="for all layers of a row, or for none",
+            ),
         ),
-        Field(
-            key="ground_law",
-            label="ground law",
-            aliases=("ground", "loi de sol", "conditions au sol", "Bodengesetz"),
-            kind="word",
-            required=True,
-            words={
-                "free": ("free glide", "libre", "glissement libre", "frei"),
-                "no-slip": ("rough", "sans glissement", "kein Gleiten", "rau"),
-                "sliding": ("glissement", "glissant", "gleitend", "Gleiten"),
-            },
-            note="free: the snow glides freely; no-slip: it does not move on the "
-            "ground; sliding: give a slip length or a glide factor",
-        ),
-        Field(
-            key="slip_length",
-            label="slip length",
-            aliases=("stagnation depth", "longueur de glissement", "Gleitlänge"),
-            units=("m",),
-            bounds=(0.001, 200.0),
-            note="only for sliding ground, instead of a glide factor",
-        ),
-        Field(
-            key="glide_factor",
-            label="glide factor",
-            aliases=("glide factor N", "facteur de glissement", "Gleitfaktor"),
-            units=("-",),
-            bounds=(1.0, LARGEST_GLIDE_FACTOR),
-            note="N of the guidelines; only for sliding ground, instead of a slip "
-            "length",
-        ),
-        Field(
-            key="net_height",
-            label="net height",
-            aliases=("net height normal to slope", "hauteur du filet", "Netzhöhe"),
-            units=("m",),
-            bounds=(0.5, 10.0),
-            required=True,
-            note="normal to the slope, from foot to head",
-        ),
-        Field(
-            key="net_stiffness",
-            label="net stiffness",
-            aliases=("raideur du filet", "rigidité du filet", "Netzsteifigkeit"),
-            units=("kN/m",),
-            bounds=(100.0, 1_000_000.0),
-            required=True,
-            note="force per metre of width at unit strain",
-        ),
-        Field(
-            key="slack",
-            label="slack",
-            aliases=("mou", "surlongueur", "Überlänge"),
-            units=("-",),
-            bounds=(0.0, 0.3),
-            default=DEFAULT_SLACK,
-            note="unstressed length of the net over its chord, minus 1",
-        ),
-        Field(
-            key="post_spacing",
-            label="post spacing",
-            aliases=("entraxe", "entraxe des poteaux", "Stützenabstand"),
-            units=("m",),
-            bounds=(0.5, 15.0),
-            required=True,
-            note="along the row; the width that loads one anchor",
-        ),
-        Field(
-            key="post_tilt",
-            label="post tilt",
-            aliases=("inclinaison du poteau", "Stützenneigung"),
-            units=("deg",),
-            bounds=(-30.0, 45.0),
-            default=degree_from_radian(DEFAULT_POST_TILT),
-            note="from the slope normal, head downslope positive",
-        ),
-        Field(
-            key="uphill_anchor_distance",
-            label="uphill anchor distance",
-            aliases=("distance de l'ancrage amont", "Abstand bergseitiger Anker"),
-            units=("m",),
-            bounds=(0.0, 50.0),
-            note="upslope of the net's foot, along the slope; left empty, it follows "
-            "from the net height",
-        ),
-        Field(
-            key="downhill_anchor_distance",
-            label="downhill anchor distance",
-            aliases=("distance de l'ancrage aval", "Abstand talseitiger Anker"),
-            units=("m",),
-            bounds=(0.0, 50.0),
-            note="downslope of the post's base, along the slope; left empty, it "
-            "follows from the net height",
-        ),
-        _reference(
-            "foot_anchor", "foot anchor", ("ancrage de pied", "Fußanker"), "Anchors"
-        ),
-        _reference(
-            "uphill_anchor",
-            "uphill anchor",
-            ("ancrage amont", "bergseitiger Anker"),
-            "Anchors",
-        ),
-        _reference(
-            "downhill_anchor",
-            "downhill anchor",
-            ("ancrage aval", "talseitiger Anker"),
-            "Anchors",
-        ),
-        _reference(
-            "uphill_guy",
-            "uphill guy",
-            ("hauban amont", "bergseitiges Abspannseil"),
-            "Ropes",
-        ),
-        _reference(
-            "downhill_guy",
-            "downhill guy",
-            ("hauban aval", "talseitiges Abspannseil"),
-            "Ropes",
-        ),
-        _reference("post", "post", ("poteau", "Stütze"), "Posts"),
-    ),
+    )
 )
 
 _TYPE_ID = Field(
     key="id",
     label="id",
-    aliases=("type", "Typ"),
+    aliases=("type",),
     kind="id",
     required=True,
     note="name of the type, as sheet Nets uses it",
 )
 
 # The keys of the resistances are the modes of `model.MEMBER_MODES`.
-ANCHORS = SheetPlan(
-    name="Anchors",
-    aliases=("Ancrages", "Anker"),
-    fields=(
-        _TYPE_ID,
-        _resistance(
-            "tendon",
-            "tendon resistance",
-            ("tendon", "résistance de l'armature", "Zugglied", "Stahltragkraft"),
+ANCHORS = word_plan(
+    SheetPlan(
+        name="Anchors",
+        fields=(
+            _TYPE_ID,
+            _resistance("tendon", "tendon resistance", "tendon"),
+            _resistance("pull_out", "pull-out resistance", "pull-out"),
+            Field(
+                key="basis",
+                label="basis",
+                kind="word",
+                words={"tested": ("test",), "computed": ("calculated",)},
+                note="how the pull-out resistance is known",
+            ),
+            *ANCHOR_DIMENSIONS,
         ),
-        _resistance(
-            "pull_out",
-            "pull-out resistance",
-            ("pull-out", "résistance à l'arrachement", "Ausziehwiderstand"),
-        ),
-        Field(
-            key="basis",
-            label="basis",
-            aliases=("base", "justification", "Grundlage"),
-            kind="word",
-            words={
-                "tested": ("test", "essai", "essais", "geprüft", "Versuch"),
-                "computed": ("calcul", "calculé", "berechnet"),
-            },
-            note="how the pull-out resistance is known",
-        ),
-    ),
+    )
 )
-ROPES = SheetPlan(
-    name="Ropes",
-    aliases=("Câbles", "Haubans", "Seile"),
-    fields=(
-        _TYPE_ID,
-        _resistance(
-            "rope",
-            "minimum breaking force",
-            ("breaking force", "charge de rupture minimale", "Mindestbruchkraft"),
+ROPES = word_plan(
+    SheetPlan(
+        name="Ropes",
+        aliases=("Guys", "Haubans", "Abspannseile"),
+        fields=(
+            _TYPE_ID,
+            _resistance("rope", "minimum breaking force", "breaking force"),
+            *ROPE_DIMENSIONS,
         ),
-    ),
+    )
 )
-POSTS = SheetPlan(
-    name="Posts",
-    aliases=("Poteaux", "Stützen"),
-    fields=(
-        _TYPE_ID,
-        _resistance(
-            "compression",
-            "compression resistance",
-            ("compression", "résistance en compression", "Druckwiderstand"),
+POSTS = word_plan(
+    SheetPlan(
+        name="Posts",
+        fields=(
+            _TYPE_ID,
+            _resistance("compression", "compression resistance", "compression"),
+            *POST_DIMENSIONS,
         ),
-    ),
+    )
 )
 
-RANGE_QUANTITIES: tuple[Field, ...] = (
-    Field(
-        key="density",
-        label="density",
-        aliases=("snow density", "masse volumique", "densité", "Dichte"),
-        units=("kg/m3",),
-        bounds=(100.0, 900.0),
-        required=True,
-    ),
-    Field(
-        key="friction_angle",
-        label="friction angle",
-        aliases=("friction", "angle de frottement", "Reibungswinkel"),
-        units=("deg",),
-        bounds=(0.0, 45.0),
-        required=True,
-    ),
-    Field(
-        key="inclination",
-        label="net inclination",
-        aliases=("inclination", "inclinaison du filet", "Netzneigung"),
-        units=("deg",),
-        bounds=(0.0, 60.0),
-    ),
+RANGE_QUANTITIES: tuple[Field, ...] = tuple(
+    word_field(field, "quantities")
+    for field in (
+        Field(
+            key="density",
+            label="density",
+            aliases=("snow density",),
+            units=DENSITIES,
+            bounds=(100.0, 900.0),
+            required=True,
+        ),
+        Field(
+            key="friction_angle",
+            label="friction angle",
+            aliases=("friction",),
+            units=ANGLES,
+            bounds=(0.0, 45.0),
+            required=True,
+        ),
+        Field(
+            key="inclination",
+            label="net inclination",
+            aliases=("inclination",),
+            units=ANGLES,
+            bounds=(0.0, 60.0),
+        ),
+    )
 )
 # The cells below low and high are read as the quantity of their line.
-RANGES = SheetPlan(
-    name="Ranges",
-    aliases=("Plages", "Bereiche"),
-    required=True,
-    fields=(
-        Field(
-            key="quantity",
-            label="quantity",
-            aliases=("grandeur", "Größe", "Groesse"),
-            kind="text",
-            required=True,
-            note="density, friction angle or net inclination (default 25 to 35 deg)",
+RANGES = word_plan(
+    SheetPlan(
+        name="Ranges",
+        required=True,
+        fields=(
+            Field(
+                key="quantity",
+                label="quantity",
+                kind="text",
+                required=True,
+                note="density, friction angle or net inclination (default 25 to 35 "
+                "deg)",
+            ),
+            Field(
+                key="unit",
+                label="unit",
+                aliases=("units",),
+                kind="text",
+                note="may stand in brackets behind the quantity instead",
+            ),
+            Field(
+                key="low",
+                label="low",
+                aliases=("minimum", "min"),
+                required=True,
+                note="least value, in the unit of the row",
+            ),
+            Field(
+                key="high",
+                label="high",
+                aliases=("maximum", "max"),
+                required=True,
+                note="largest value, in the unit of the row",
+            ),
+            Field(
+                key="samples",
+                label="samples",
+                aliases=("count",),
+                kind="count",
+                bounds=(1.0, 25.0),
+                note="number of values from low to high; left empty: the worst case is "
+                "searched, with a bound",
+            ),
         ),
-        Field(
-            key="unit",
-            label="unit",
-            aliases=("units", "unité", "Einheit"),
-            kind="text",
-            note="kg/m3 or deg; may stand in brackets behind the quantity instead",
-        ),
-        Field(
-            key="low",
-            label="low",
-            aliases=("minimum", "min", "von"),
-            required=True,
-            note="least value, in the unit of the row",
-        ),
-        Field(
-            key="high",
-            label="high",
-            aliases=("maximum", "max", "bis"),
-            required=True,
-            note="largest value, in the unit of the row",
-        ),
-        Field(
-            key="samples",
-            label="samples",
-            aliases=("count", "nombre", "Anzahl"),
-            kind="count",
-            bounds=(1.0, 25.0),
-            note="number of values from low to high; left empty: the worst case is "
-            "searched, with a bound",
-        ),
-    ),
+    )
 )
 
-PROJECT_ITEMS: tuple[Field, ...] = (
-    Field(key="name", label="name", aliases=("projet", "Projekt"), kind="text"),
-    Field(key="number", label="number", aliases=("numéro", "Nummer"), kind="text"),
-    Field(key="author", label="author", aliases=("auteur", "Bearbeiter"), kind="text"),
-    Field(
-        key="checker", label="checker", aliases=("vérificateur", "Prüfer"), kind="text"
-    ),
-    Field(
-        key="revision", label="revision", aliases=("révision", "Revision"), kind="text"
-    ),
-    Field(key="standard", label="standard", aliases=("norme", "Norm"), kind="text"),
+PROJECT_ITEMS: tuple[Field, ...] = tuple(
+    word_field(Field(key=key, label=key, kind="text"), "items")
+    for key in ("name", "number", "author", "checker", "revision", "standard")
 )
-PROJECT = SheetPlan(
-    name="Project",
-    aliases=("Projet", "Projekt"),
-    fields=(
-        Field(
-            key="item",
-            label="name",
-            aliases=("item", "rubrique", "Angabe"),
-            kind="text",
-            required=True,
+PROJECT = word_plan(
+    SheetPlan(
+        name="Project",
+        fields=(
+            Field(
+                key="item",
+                label="item",
+                aliases=("name",),
+                kind="text",
+                required=True,
+                note="identification printed on every output",
+            ),
+            Field(key="value", label="value", kind="text"),
         ),
-        Field(key="value", label="value", aliases=("valeur", "Wert"), kind="text"),
-    ),
+    )
 )
 
-SHEETS: tuple[SheetPlan, ...] = (PROJECT, NETS, RANGES, ANCHORS, ROPES, POSTS)
+# Measurements, one a line, to stand beside a history; nothing is checked with them.
+MONITORING = word_plan(
+    SheetPlan(
+        name="Monitoring",
+        fields=(
+            Field(
+                key="row",
+                label="net row",
+                kind="id",
+                required=True,
+                refers_to="Nets",
+                note="id of a row of sheet Nets",
+            ),
+            Field(
+                key="member",
+                label="member",
+                kind="word",
+                required=True,
+                words={
+                    "foot anchor": (),
+                    "uphill guy": ("uphill anchor",),
+                    "downhill guy": ("downhill anchor",),
+                    "post": (),
+                },
+            ),
+            Field(
+                key="time",
+                label="time",
+                units=TIMES,
+                bounds=(0.0, 3650.0),
+                note="or date and time in a column of its own",
+            ),
+            Field(
+                key="date",
+                label="date and time",
+                aliases=("date",),
+                kind="text",
+                note="such as 2003-02-18 06:00, instead of a time",
+            ),
+            Field(
+                key="tension",
+                label="tension",
+                aliases=("force",),
+                units=FORCES,
+                bounds=(0.0, 5000.0),
+                note="per anchor; this or the air temperature, or both",
+            ),
+            Field(
+                key="temperature",
+                label="air temperature",
+                aliases=("temperature",),
+                units=TEMPERATURES,
+                bounds=(-60.0, 50.0),
+            ),
+        ),
+    )
+)
+
+SHEETS: tuple[SheetPlan, ...] = (
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
+    MONITORING,
+)
+# The sheet that an annotated copy lists its findings on.
+FINDINGS_SHEET = "netdesign findings"
+# Sheets of the program's own that hold nothing to read.
+QUIET_SHEETS: tuple[str, ...] = ("Notes", "Notice", "Hinweise", FINDINGS_SHEET)

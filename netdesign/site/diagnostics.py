@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal
+
+from netdesign.errors import SiteDataError
 
 Severity = Literal["error", "note"]
 
@@ -70,6 +72,17 @@ class Finding:
         return "the sheet" if self.sheet else "the file"
 
 
+def refuse_file(file: str, rule: str, accepted: str, sheet: str = "") -> SiteDataError:
+    """Error for a file, or one sheet of it, that cannot be read as a whole."""
+    finding = Finding(file=file, sheet=sheet, rule=rule, accepted=accepted)
+    return SiteDataError([finding])
+
+
+def note_file(file: str, rule: str, sheet: str = "") -> Finding:
+    """Remark on a file, or one sheet of it, that is read all the same."""
+    return Finding(file=file, sheet=sheet, rule=rule, severity="note")
+
+
 def quote(text: str) -> str:
     """Quote a cell's text on one line, shortened when it is long."""
     line = " ".join(text.split())
@@ -78,13 +91,22 @@ def quote(text: str) -> str:
     return f'"{line}"'
 
 
-def add_nearest(accepted: str, word: str, known: Iterable[str]) -> str:
-    """Add near matches of a word to what is accepted.
+def add_nearest(
+    accepted: str,
+    word: str,
+    known: Iterable[str],
+    places: Mapping[str, str] | None = None,
+) -> str:
+    """Add near matches of a word to what is accepted, with their cells if given.
 
-    >>> add_nearest("an id of sheet Ropes", "G81", ["G18", "H22"])
-    'an id of sheet Ropes (nearest: "G18")'
+    >>> add_nearest("an id of sheet Ropes", "G81", ["G18"], {"G18": "Ropes!A2"})
+    'an id of sheet Ropes (nearest: "G18" in Ropes!A2)'
     """
     near = difflib.get_close_matches(word, list(known), n=3)
     if not near:
         return accepted
-    return f"{accepted} (nearest: {', '.join(quote(match) for match in near)})"
+    shown = [
+        f"{quote(match)} in {places[match]}" if places else quote(match)
+        for match in near
+    ]
+    return f"{accepted} (nearest: {', '.join(shown)})"

@@ -6,33 +6,25 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Literal
 
-from netdesign.units import (
-    degree_from_radian,
-    newton_from_kilonewton,
-    radian_from_degree,
-    radian_from_percent,
-)
+from netdesign.site.unit_names import normalise_unit
 
 Kind = Literal["number", "count", "word", "id", "text"]
+Language = Literal["en", "fr", "de"]
 
 _LONGEST_HEADING = 100
-_UNIT_SPELLINGS = {
-    "°": "deg",
-    "degree": "deg",
-    "degrees": "deg",
-    "degres": "deg",
-    "kn/ml": "kN/m",
-    "kn/m'": "kN/m",
-    "kn/m": "kN/m",
-    "kn": "kN",
-}
-_TO_SI = {
-    "deg": radian_from_degree,
-    "kN": newton_from_kilonewton,
-    "kN/m": newton_from_kilonewton,
-}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wording:
+    """How one language calls a field: its heading, other headings, its note."""
+
+    label: str
+    aliases: tuple[str, ...] = ()
+    note: str = ""
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +38,7 @@ class Field:
     label : str
         Name in headings and reports.
     aliases : tuple of str
-        Other accepted headings: English, French, German.
+        Other accepted headings.
     kind : str
         ``number``, ``count`` (whole number), ``word``, ``id`` or ``text``.
     units : tuple of str
@@ -64,6 +56,8 @@ class Field:
         Sheet that defines the id, for ids of another sheet.
     note : str
         What the engineer should know; shown on the heading of the template.
+    wordings : mapping of str to Wording
+        Label, aliases, note and words in the other languages.
     """
 
     key: str
@@ -77,6 +71,7 @@ class Field:
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     refers_to: str = ""
     note: str = ""
+    wordings: Mapping[str, Wording] = field(default_factory=dict)
 
     @property
     def unit(self) -> str:
@@ -91,7 +86,28 @@ class Field:
     @property
     def names(self) -> frozenset[str]:
         """Accepted headings without unit, normalised."""
-        return frozenset(normalise(name) for name in (self.label, *self.aliases))
+        names = [self.label, *self.aliases]
+        for wording in self.wordings.values():
+            names += [wording.label, *wording.aliases]
+        return frozenset(map(normalise, names))
+
+    @property
+    def spellings(self) -> dict[str, str]:
+        """Word of the table by each of its spellings in every language."""
+        found = {
+            spelling: word
+            for word, aliases in self.words.items()
+            for spelling in (word, *aliases)
+        }
+        for wording in self.wordings.values():
+            for word, names in wording.words.items():
+                found |= dict.fromkeys(names, word)
+        return found
+
+    def wording(self, language: Language) -> Wording:
+        """Texts in a language; English where that language has none."""
+        english = Wording(label=self.label, note=self.note)
+        return self.wordings.get(language, english)
 
     @property
     def accepted(self) -> str:
@@ -104,6 +120,11 @@ class Field:
             return ", ".join(self.words)
         return "text"
 
+    def heading_for(self, language: Language) -> str:
+        """Label in a language, with the unit in brackets."""
+        label = self.wording(language).label
+        return f"{label} [{self.unit}]" if self.unit else label
+
     def heading_in(self, unit: str) -> str:
         """Label with another of the accepted units."""
         return f"{self.label} [{unit}]" if unit else self.label
@@ -114,17 +135,32 @@ class SheetPlan:
     """One sheet: its names, its columns in template order, its alternatives."""
 
     name: str
-    aliases: tuple[str, ...]
+    aliases: tuple[str, ...] = ()
     fields: tuple[Field, ...]
     required: bool = False
     one_of: tuple[str, ...] = ()  # keys of which at least one heading must be there
+    # Headings that may mean any of several fields: refused with their readings.
+    unclear: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)  # by language
 
     def matches(self, sheet_name: str) -> bool:
         """Whether a workbook's sheet of this name is the planned one."""
-        names = {normalise(name) for name in (self.name, *self.aliases)}
-        return normalise(sheet_name) in names
+        names = (self.name, *self.aliases, *self.names.values())
+        return normalise(sheet_name) in map(normalise, names)
+
+    def name_in(self, language: Language) -> str:
+        """Name of the sheet in a language."""
+        return self.names.get(language, self.name)
+
+    def find_unclear(self, name: str) -> tuple[Field, ...]:
+        """Fields that a normalised heading may mean, if it is an unclear one."""
+        for heading, keys in self.unclear.items():
+            if normalise(heading) == name:
+                return tuple(one for one in self.fields if one.key in keys)
+        return ()
 
 
+@lru_cache(maxsize=4096)
 def normalise(text: str) -> str:
     """Fold a name so that case, accents, spaces and punctuation do not count."""
     decomposed = unicodedata.normalize("NFKD", text.casefold())
@@ -144,23 +180,3 @@ def split_heading(text: str) -> tuple[str, str]:
     if match is None:
         return normalise(heading), ""
     return normalise(match[1]), normalise_unit(match[2])
-
-
-def normalise_unit(text: str) -> str:
-    """Fold a unit to the spelling of this table: ``kg/m³`` to ``kg/m3``."""
-    composed = unicodedata.normalize("NFKC", text)
-    folded = "".join(composed.casefold().replace("^", "").split())
-    return _UNIT_SPELLINGS.get(folded.replace("é", "e"), folded)
-
-
-def to_first_unit(value: float, unit: str) -> float:
-    """Value in a field's first unit; only a slope in per cent changes."""
-    if unit == "%":
-        return degree_from_radian(radian_from_percent(value))
-    return value
-
-
-def to_si(value: float, unit: str) -> float:
-    """SI value of a number in one of the first units."""
-    convert = _TO_SI.get(unit)
-    return convert(value) if convert else value

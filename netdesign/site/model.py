@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from netdesign.envelope.grid import Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.resistance.pull_out import PullOutTests
+from netdesign.site.diagnostics import Finding
 from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 
 # What a member can fail by; the keys under which resistances are given.
@@ -22,6 +26,8 @@ MEMBER_MODES: tuple[tuple[str, str], ...] = (
     ("downhill_anchor", "pull_out"),
     ("post", "compression"),
 )
+# Checked only where the workbook gives the resistance, in the sheet of that member.
+OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (("post_base", "bearing", "post"),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +43,8 @@ class Resistance:
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
     type_id: str  # id of the anchor, rope or post type; "" where none is named
     source: str
+    derivation: str = ""  # how it follows from dimensions, in words
+    tests: PullOutTests | None = None  # instead of a value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,15 +73,69 @@ class NetRow:
     layout: SupportLayout
     resistances: tuple[Resistance, ...]
     inputs: tuple[InputEcho, ...] = ()
+    layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
+    gap: float = math.inf  # free distance beside the row [m]; infinite for none given
+    altitude: float | None = None  # [m]
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
+        if self.gap != math.inf:
+            require_within("gap to the next work", self.gap, 0.0, 1e4, "m")
         require_within("slope angle", self.slope_angle, 0.0, 1.4, "rad")
         require_positive("snow thickness", self.snow_thickness, "m")
         require_positive("upslope length", self.upslope_length, "m")
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    @property
+    def mean_density(self) -> float:
+        """Mean density of layered snow [kg/m3]."""
+        return compute_mean_density(self.layers)
+
+    def layers_at(self, density: float) -> tuple[Layer, ...]:
+        """Layers scaled to a mean density [kg/m3] and to the row's snow thickness.
+
+        None for uniform snow; density and thickness keep their proportions.
+        """
+        if not self.layers:
+            return ()
+        denser = density / self.mean_density
+        thicker = self.snow_thickness / sum(layer.thickness for layer in self.layers)
+        return tuple(
+            replace(
+                layer,
+                thickness=layer.thickness * thicker,
+                density=layer.density * denser,
+            )
+            for layer in self.layers
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MonitoringSeries:
+    """What was measured at one member of one net row.
+
+    Attributes
+    ----------
+    row_id, member : str
+        Net row; ``foot_anchor``, ``uphill_guy``, ``downhill_guy`` or ``post``.
+    times : tuple of float
+        Ascending, from 0 at the first reading [s].
+    tensions : tuple of float or None
+        Per anchor [N]; None where a line has none.
+    air_temperatures : tuple of float or None
+        [K]; None where a line has none.
+    source : str
+        First cell.
+    """
+
+    row_id: str
+    member: str
+    times: tuple[float, ...]
+    tensions: tuple[float | None, ...]
+    air_temperatures: tuple[float | None, ...]
+    source: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,5 +160,7 @@ class Site:
     file_name: str
     sha256: str
     notes: tuple[str, ...] = ()  # e.g. columns that were not understood
+    findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
+    monitoring: tuple[MonitoringSeries, ...] = ()

@@ -8,14 +8,29 @@ from dataclasses import replace
 
 from netdesign.errors import ModelError
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest
-from netdesign.site.model import MEMBER_MODES, InputEcho, NetRow, Resistance
+from netdesign.site.model import (
+    MEMBER_MODES,
+    OPTIONAL_MODES,
+    InputEcho,
+    NetRow,
+    Resistance,
+)
 from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.snow_layers import (
+    LayersByRow,
+    build_layers,
+    echo_layers,
+    refuse_unknown_rows,
+    settle_thickness,
+)
 from netdesign.site.tables import Table, read_rows
+from netdesign.site.type_resistances import DERIVED, find_tests
 from netdesign.snow.ground import (
     GROUND_KINDS,
     GroundLaw,
     build_ground_from_glide_factor,
 )
+from netdesign.snow.snowpack import Layer
 from netdesign.structure.layout import (
     DEFAULT_DOWNHILL_RATIO,
     DEFAULT_UPHILL_RATIO,
@@ -29,7 +44,10 @@ _MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
 
 
 def build_net_rows(
-    table: Table, type_sheets: TypeSheets, findings: list[Finding]
+    table: Table,
+    type_sheets: TypeSheets,
+    snow: LayersByRow,
+    findings: list[Finding],
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -39,6 +57,8 @@ def build_net_rows(
         Sheet Nets.
     type_sheets : mapping of str to mapping of str to Row
         Types of anchors, ropes and posts by sheet name and id.
+    snow : mapping of str to tuple of Row
+        Lines of sheet Snow by net row, from the ground up.
     findings : list of Finding
         Appended to.
 
@@ -51,8 +71,12 @@ def build_net_rows(
     if not rows:
         refusal = Refusal("has no net row", "one line for each net row")
         findings.append(table.sheet.finding(refusal))
-    index_by_id(rows, findings)  # for its findings: ids used twice
-    built = [_build_net_row(row, type_sheets, findings) for row in rows]
+    by_id = index_by_id(rows, findings)
+    refuse_unknown_rows(snow, by_id, findings)
+    built = [
+        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
+        for row in rows
+    ]
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -74,11 +98,12 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
 
 
 def _build_net_row(
-    row: Row, type_sheets: TypeSheets, findings: list[Finding]
+    row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
 ) -> NetRow | None:
     count_before = len(findings)
     row = _fill_in_distances(row)
-    thickness = _understand_thickness(row, findings)
+    layers = build_layers(lines, row["slope_angle"], findings)
+    thickness = _understand_thickness(row, lines, layers, findings)
     ground = _understand_ground(row, thickness, findings)
     _check_types(row, type_sheets, findings)
     is_faulty = any(reading.state == "faulty" for reading in row.values())
@@ -88,17 +113,17 @@ def _build_net_row(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
         snow_thickness=thickness,
+        layers=layers,
         upslope_length=row["upslope_length"].si,
         ground=ground,
         net_height=row["net_height"].si,
         net_stiffness_per_m=row["net_stiffness"].si,
         slack=row["slack"].si,
         layout=_build_layout(row),
-        resistances=tuple(
-            _find_resistance(row[member], mode, member, type_sheets)
-            for member, mode in MEMBER_MODES
-        ),
-        inputs=_echo_inputs(row, thickness, ground),
+        resistances=_find_resistances(row, type_sheets),
+        inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
+        gap=row["gap"].si if row["gap"].state == "given" else math.inf,
+        altitude=row["altitude"].si if row["altitude"].state == "given" else None,
     )
 
 
@@ -119,8 +144,13 @@ def _fill_in_distances(row: Row) -> Row:
     return {**row, **filled}
 
 
-def _understand_thickness(row: Row, findings: list[Finding]) -> float | None:
-    """Snow thickness normal to the slope [m], from exactly one of two columns."""
+def _understand_thickness(
+    row: Row,
+    lines: tuple[Row, ...],
+    layers: tuple[Layer, ...],
+    findings: list[Finding],
+) -> float | None:
+    """Snow thickness normal to the slope [m]: of one column, or of the layers."""
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
     if "faulty" in (thickness.state, height.state):
@@ -129,7 +159,11 @@ def _understand_thickness(row: Row, findings: list[Finding]) -> float | None:
         rule = f"is given beside the snow thickness in {thickness.place}"
         refuse(height, rule, "one of the two, the other empty", findings)
         return None
-    if thickness.state == "given":
+    is_normal = thickness.state == "given"
+    given = thickness if is_normal else height
+    if lines:
+        return settle_thickness(layers, given, slope_angle, findings)
+    if is_normal:
         return thickness.si
     if height.state == "blank":
         empty = thickness if thickness.cell is not None else height
@@ -183,17 +217,33 @@ def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> 
         types = type_sheets[sheet]
         if reading.word and reading.word not in types:
             accepted = f"an id defined in sheet {sheet}, or an empty cell"
-            accepted = add_nearest(accepted, reading.word, types)
+            places = {name: line["id"].place for name, line in types.items()}
+            accepted = add_nearest(accepted, reading.word, types, places)
             refuse(reading, f"is no id of sheet {sheet}", accepted, findings)
 
 
 def _build_layout(row: Row) -> SupportLayout:
+    base = row["post_base_distance"]
     return SupportLayout(
         post_spacing=row["post_spacing"].si,
         post_tilt=row["post_tilt"].si,
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
+        post_base_distance=base.si if base.state == "given" else None,
     )
+
+
+def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
+    """Resistances of all members; of optional modes those that are given."""
+    needed = [
+        _find_resistance(row[member], mode, member, type_sheets)
+        for member, mode in MEMBER_MODES
+    ]
+    optional = [
+        _find_resistance(row[named_by], mode, member, type_sheets)
+        for member, mode, named_by in OPTIONAL_MODES
+    ]
+    return (*needed, *(one for one in optional if one.value is not None))
 
 
 def _find_resistance(
@@ -211,16 +261,23 @@ def _find_resistance(
         )
     kind = type_sheets[reading.field.refers_to][reading.word]
     resistance = kind[mode]
+    tests = find_tests(kind) if mode == "pull_out" else None
     is_given = resistance.state == "given"
+    is_derived = is_given and resistance.text.startswith(DERIVED)
     # A pull-out resistance says how it is known; the others are makers' values.
     basis = kind["basis"].word if mode == "pull_out" else "declared"
+    if is_derived and mode == "pull_out":
+        basis = "computed"
+    place = kind["test_least"].place if tests else resistance.place
     return Resistance(
         member=member,
         mode=mode,
         value=resistance.si if is_given else None,
-        basis=basis if is_given else "",
+        basis="tested" if tests else basis if is_given else "",
         type_id=reading.word,
-        source=resistance.place or reading.field.refers_to,
+        source=place or reading.field.refers_to,
+        derivation=resistance.text.removeprefix(DERIVED) if is_derived else "",
+        tests=tests,
     )
 
 

@@ -11,10 +11,11 @@ from netdesign.site.columns import (
     SEARCHED,
 )
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
-from netdesign.site.fields import Field, normalise_unit, split_heading
+from netdesign.site.fields import Field, split_heading
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
+from netdesign.site.unit_names import UNCLEAR_UNITS, normalise_unit
 
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 
@@ -78,8 +79,13 @@ def _read_line(
         refuse(name, "is given twice", "one line for each quantity", findings)
     else:
         found[field.key] = None
-        if _has_right_unit(name, unit, field, findings):
-            found[field.key] = _read_range(table, row, field, samples, findings)
+        settled = _settle_unit(name, unit, field, findings)
+        if settled:
+            low, high = (
+                _read_end(table, row, key, field, settled, findings)
+                for key in ("low", "high")
+            )
+            found[field.key] = _read_range(field, low, high, samples, findings)
 
 
 def _match_quantity(name: Reading) -> Field | None:
@@ -87,29 +93,35 @@ def _match_quantity(name: Reading) -> Field | None:
     return next((field for field in RANGE_QUANTITIES if quantity in field.names), None)
 
 
-def _has_right_unit(
+def _settle_unit(
     name: Reading, unit: Reading, field: Field, findings: list[Finding]
-) -> bool:
-    """Whether a line gives its unit, in brackets or in a column, and only once."""
+) -> str:
+    """Unit of a line, in brackets or in a column; empty if a finding refused it."""
     _, in_brackets = split_heading(name.word)
     in_column = normalise_unit(unit.word.strip(" []()"))
     given, place = (in_column, unit) if in_column else (in_brackets, name)
+    accepted = " or ".join(f"[{one}]" for one in field.units)
     if in_column and in_brackets and in_column != in_brackets:
         rule = f"is another unit than that of {quote(name.word)}"
         refuse(unit, rule, "one unit", findings)
     elif not given:
         refuse(name, "has no unit", f"{quote(field.heading)}", findings)
+    elif given in UNCLEAR_UNITS:
+        refuse(place, f"is ambiguous: {UNCLEAR_UNITS[given]}", accepted, findings)
     elif given not in field.units:
-        refuse(place, "has an unknown unit", field.unit, findings)
+        refuse(place, "has an unknown unit", accepted, findings)
     else:
-        return True
-    return False
+        return given
+    return ""
 
 
 def _read_range(
-    table: Table, row: int, field: Field, samples: Reading, findings: list[Finding]
+    field: Field,
+    low: Reading | None,
+    high: Reading | None,
+    samples: Reading,
+    findings: list[Finding],
 ) -> _Range | None:
-    low, high = (_read_end(table, row, key, field, findings) for key in ("low", "high"))
     if (
         low is None
         or high is None
@@ -130,13 +142,18 @@ def _read_range(
 
 
 def _read_end(
-    table: Table, row: int, key: str, field: Field, findings: list[Finding]
+    table: Table,
+    row: int,
+    key: str,
+    field: Field,
+    unit: str,
+    findings: list[Finding],
 ) -> Reading | None:
     cell = table.cell(row, key)
     if cell is None:  # the missing heading is a finding already
         return None
     end = replace(field, label=f"{field.label}, {key}")
-    return read_cell(cell, end, field.unit, findings)
+    return read_cell(cell, end, unit, findings)
 
 
 def _settle_samples(

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Literal
 
 from netdesign.errors import ModelError
 from netdesign.site.cells import Cell
 from netdesign.site.diagnostics import Finding, Refusal, Severity, add_nearest
-from netdesign.site.fields import Field, normalise, to_first_unit, to_si
+from netdesign.site.fields import Field, normalise
 from netdesign.site.model import InputEcho
 from netdesign.site.numbers import parse_number
+from netdesign.site.unit_names import convert_unit, to_si
 
 State = Literal["given", "blank", "default", "faulty"]
 
@@ -104,14 +106,21 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     if understood is None:
         return read_nothing(field, cell)
-    is_converted = unit != field.unit
     return Reading(
         field=field,
         state="given",
         value=understood,
-        text=f"{cell.text} {unit}" if is_converted else cell.text,
+        text=_describe_typed(cell, field, unit),
         cell=cell,
     )
+
+
+def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
+    """Text as typed; with its unit where that is another than the field's."""
+    if unit == field.unit:
+        return cell.text
+    shown = _take_percentage(cell, unit) if cell.is_percent else cell.text
+    return f"{shown:g} {unit}" if isinstance(shown, float) else f"{cell.text} {unit}"
 
 
 def read_nothing(field: Field, cell: Cell | None) -> Reading:
@@ -152,6 +161,18 @@ def refuse_stored(cell: Cell) -> Refusal | None:
     return None
 
 
+def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
+    """Read a cell whose column has no usable unit: only what no unit can mend."""
+    if cell.is_blank:
+        refusal = Refusal("is empty", field.accepted) if field.required else None
+    else:
+        number = refuse_stored(cell) or _parse(cell)
+        refusal = number if isinstance(number, Refusal) else None
+    if refusal:
+        findings.append(cell.finding(refusal, field.label))
+    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+
+
 def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:
     if refusal := refuse_stored(cell):
         return refusal
@@ -165,16 +186,10 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
-    if cell.is_percent and unit != "-":
-        # The sheet shows 70 %, the file holds 0.7: which one was meant?
-        return Refusal(
-            "is shown as a percentage by its cell format",
-            "a plain number in the unit of the heading",
-        )
-    number = parse_number(cell.value)
+    number = _take_percentage(cell, unit) if cell.is_percent else _parse(cell)
     if isinstance(number, Refusal):
         return number
-    value = to_first_unit(number, unit)
+    value = convert_unit(number, unit, field.unit)
     low, high = field.bounds
     if not low <= value <= high:
         is_other = bool(cell.formula) or unit != field.unit
@@ -185,15 +200,29 @@ def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
     return value
 
 
+def _parse(cell: Cell) -> float | Refusal:
+    return parse_number(cell.value, cell.decimal_mark)
+
+
+def _take_percentage(cell: Cell, unit: str) -> float | Refusal:
+    """Read a cell whose format shows 0.7 as 70 %."""
+    number = _parse(cell)
+    if unit == "-" or isinstance(number, Refusal):
+        return number
+    if unit == "%":
+        # The decimal shift of what was typed: 0.285 must not become 28.499999999999996.
+        return float(Decimal(repr(number)).scaleb(2))
+    return Refusal(
+        f"is ambiguous: its format shows {100 * number:g} %, the file holds {number:g}",
+        "a plain number in the unit of the heading",
+    )
+
+
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:
-    spellings = {
-        normalise(spelling): word
-        for word, aliases in field.words.items()
-        for spelling in (word, *aliases)
-    }
+    spellings = {normalise(name): word for name, word in field.spellings.items()}
     word = spellings.get(normalise(str(cell.value)))
     if word is None:
-        accepted = add_nearest(field.accepted, str(cell.value), field.words)
+        accepted = add_nearest(field.accepted, str(cell.value), field.spellings)
         return Refusal("is not a known word", accepted)
     return word
 

@@ -6,14 +6,14 @@ are (normal, tangential); pressures and shears are forces of the snow on its sup
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import Floats, Ints
+from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 
 Mask = NDArray[np.bool_]
 
@@ -75,6 +75,7 @@ def update_contact(
     if law.ground_contact == "one-sided":
         upward = 2 * mesh.template.ground[1:] + 1
         is_lifted = _let_go(is_lifted, reaction[upward], -velocity[upward])
+        is_lifted &= may_lift(mesh.template)
     return Contact(
         sign=_update_slip(
             law, contact, pressure, -reaction[tangential], velocity[tangential]
@@ -83,6 +84,42 @@ def update_contact(
         is_open=is_open,
         is_lifted=is_lifted,
     )
+
+
+def may_lift(template: MeshTemplate) -> Mask:
+    """Ground nodes (n_ground - 1,) where a one-sided ground can let go.
+
+    Not within a thickness of the upslope end: the snowpack goes on there, only the
+    calculation ends, and its free end would rock on the ground.
+    """
+    reach = max(template.aspect - 1.0, template.aspect / 2.0)
+    return np.asarray(template.nodes[0, template.ground[1:]] < reach)
+
+
+def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:
+    """Contact with some of the wanted changes.
+
+    Where changing every node at once goes round in circles, changing the first half
+    of each row of neighbours rarely does, and changing a single node on the net and
+    one on the ground, the first (Murty's rule), hardly ever.
+    """
+    sign, is_open = contact.sign.copy(), contact.is_open.copy()
+    changes = (sign != wanted.sign) | (is_open != wanted.is_open)
+    chosen = _choose(changes, only_first=only_first)
+    sign[chosen], is_open[chosen] = wanted.sign[chosen], wanted.is_open[chosen]
+    is_lifted = contact.is_lifted.copy()
+    chosen = _choose(is_lifted != wanted.is_lifted, only_first=only_first)
+    is_lifted[chosen] = wanted.is_lifted[chosen]
+    return replace(wanted, sign=sign, is_open=is_open, is_lifted=is_lifted)
+
+
+def _choose(changes: Mask, *, only_first: bool) -> Ints:
+    """Places of the first change, or of the first half of each row of changes."""
+    places = np.flatnonzero(changes)
+    if only_first or places.size < 2:
+        return places[:1]
+    rows = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
+    return np.concatenate([row[: (row.size + 1) // 2] for row in rows])
 
 
 def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
@@ -131,8 +168,11 @@ def _update_slip(
     exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
     released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
     with_friction = np.where(against_sign, released, contact.sign)
-    frictionless = np.where(velocity < 0.0, -1, 1)
-    return np.where(limit > 0.0, with_friction, frictionless).astype(np.int64)
+    as_it_moves = np.where(velocity < 0.0, -1, 1)
+    # snow that slid without friction goes on the way it went
+    was_loose = (contact.sign != 0) & ~contact.is_pressed & (velocity != 0.0)
+    keeps_friction = (limit > 0.0) & ~was_loose
+    return np.where(keeps_friction, with_friction, as_it_moves).astype(np.int64)
 
 
 def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:

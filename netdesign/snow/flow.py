@@ -8,6 +8,7 @@ the snow hardly deforms, and every full step is in equilibrium exactly (F5).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,8 +16,10 @@ import numpy as np
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
     Contact,
+    change_some,
     free_unknowns,
     friction_shares,
+    net_components,
     start_contact,
     update_contact,
 )
@@ -24,6 +27,7 @@ from netdesign.snow.kernel import (
     PlacedMesh,
     assemble_base_force,
     assemble_body_force,
+    assemble_end_load,
     assemble_stress,
     build_base_stiffness,
     build_stiffness,
@@ -41,12 +45,17 @@ from netdesign.snow.law import (
     squared_size,
     total_stress,
 )
-from netdesign.snow.linear import SingularError, build_ordering, solve_blocks
+from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
 from netdesign.snow.mesh import Floats
 
 # What a Newton step leaves: a share of itself where contacts still change over, else
 # a multiple of its square (measured on random scenes: 95 % stay below the sum).
 _LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
+# After so many steps only some contacts change, after twice as many one at a time.
+_PATIENCE = 12
+# Weight of an error of the stress that the forces on the net do not feel: it sits in
+# the few small triangles at the net's ends.
+_FIELD_WEIGHT = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -84,7 +93,11 @@ class FlowResult:
     outcome: Outcome
     state: FlowState
     linear_solves: int
-    change: float  # relative error that the last step left in the stress [-]
+    change: float  # relative error that the last step left, eq. (F12) [-]
+
+
+# A Newton step to the next state.
+Step = Callable[[FlowLaw, Material, PlacedMesh, FlowState, Contact], FlowState]
 
 
 def solve_flow(
@@ -94,6 +107,7 @@ def solve_flow(
     *,
     tolerance: float,
     max_iterations: int = 40,
+    step: Step | None = None,
 ) -> FlowResult:
     """Stress and velocity in equilibrium with gravity, ground and net.
 
@@ -106,9 +120,12 @@ def solve_flow(
     start : FlowState, optional
         State on a neighbouring placement of the same template.
     tolerance : float
-        Largest relative error that the last step may leave in the stress [-].
+        Largest relative error that the last step may leave [-]: in the sum of the
+        forces on the net from its foot to any node, or 20 times that in the stress.
     max_iterations : int
         Newton steps allowed.
+    step : callable, optional
+        Takes the steps; default is the fast kernel.
 
     Returns
     -------
@@ -120,31 +137,82 @@ def solve_flow(
     -----------
     tests/snow/test_flow.py, tests/verification/test_slab.py
     """
+    advance = step or _advance
     material = sample_material(law, mesh.template)
     state = start
     if state is None:
-        state = _solve_linear_creep(law, material, mesh)
+        state = _solve_linear_creep(law, material, mesh, advance)
     solves = 0 if start is not None else 1
     outcome, change = Outcome.MAX_ITERATIONS, np.inf
-    for _ in range(max_iterations):
-        contact = state.contact
-        if state.unknowns.any():
-            contact = update_contact(law, mesh, contact, state.unknowns, state.reaction)
-        settled = contact.equals(state.contact)
+    contact = state.contact
+    if state.unknowns.any():
+        contact = update_contact(law, mesh, contact, state.unknowns, state.reaction)
+    for iteration in range(max_iterations):
+        before = state
         try:
-            state, change = _advance(law, material, mesh, state, contact)
+            state = advance(law, material, mesh, before, contact)
         except SingularError:
             outcome = Outcome.NONFINITE
             break
         solves += 1
+        change = _estimate_left(law, material, mesh, state, before)
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
             break
-        change = _estimate_left(change)
-        if settled and change < tolerance:
+        contact = update_contact(law, mesh, contact, state.unknowns, state.reaction)
+        if change < tolerance and contact.equals(state.contact):
             outcome = Outcome.CONVERGED
             break
+        if iteration >= _PATIENCE:
+            contact = change_some(
+                state.contact, contact, only_first=iteration >= 2 * _PATIENCE
+            )
     return FlowResult(outcome=outcome, state=state, linear_solves=solves, change=change)
+
+
+def linearise_reaction(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats:
+    """Change of the snow's forces on the net where its normal velocity is prescribed.
+
+    Parameters
+    ----------
+    law : FlowLaw
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh of the state.
+    state : FlowState
+        About which the flow is linearised; its contact does not change.
+
+    Returns
+    -------
+    ndarray, shape (2, n_net, n_net - 1)
+        Forces in the slope's axes, per velocity out of the snow at each node above
+        the foot; 0 for nodes that the snow has left.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    material = sample_material(law, mesh.template)
+    blocks = [
+        build_stiffness(mesh, linearise_creep(law, material, state.stress).modulus)
+    ]
+    if state.base_shear is not None:
+        base = _linearise_base(law, state.base_shear, state.contact)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+    matrix = blocks[0].to_matrix(mesh.n_dofs)
+    for block in blocks[1:]:
+        matrix = matrix + block.to_matrix(mesh.n_dofs)
+    normal, _ = net_components(mesh)
+    held = np.flatnonzero(~state.contact.is_open)
+    unknowns = np.zeros((mesh.n_dofs, normal.size))
+    unknowns[normal[held], held] = 1.0
+    unknowns += _solve_step(law, mesh, state.contact, blocks, matrix @ unknowns)
+    reaction = matrix @ unknowns
+    cosine, sine = mesh.axes[:, mesh.template.net, None]
+    first = reaction[2 * mesh.template.net]
+    second = reaction[2 * mesh.template.net + 1]
+    return -np.array([cosine * first - sine * second, sine * first + cosine * second])
 
 
 def compute_residual(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats:
@@ -158,18 +226,42 @@ def compute_residual(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats
 
 
 def compute_weight(law: FlowLaw, mesh: PlacedMesh) -> Floats:
-    """Weight of the snow on the mesh, shape (2,) [rho g d^2]."""
+    """Weight of the snow on the mesh, and load on its end, shape (2,) [rho g d^2]."""
     material = sample_material(law, mesh.template)
-    return np.array(law.gravity) * float((mesh.weights * material.density).sum())
+    weight = np.array(law.gravity) * float((mesh.weights * material.density).sum())
+    return np.asarray(weight + np.array([law.end_load, 0.0]))
 
 
-def _estimate_left(change: float) -> float:
-    """Relative error that a step of this relative size leaves."""
-    return min(change, _LINEAR_PART * change + _SQUARE_FACTOR * change**2)
+def _estimate_left(
+    law: FlowLaw,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    before: FlowState,
+) -> float:
+    """Relative error that a step leaves, eq. (F12)."""
+    size = _stress_norm(law, material, mesh, state.stress)
+    field = _stress_norm(law, material, mesh, state.stress - before.stress) / size
+    sums = _sum_along_net(mesh, state.reaction)
+    moved = _sum_along_net(mesh, state.reaction - before.reaction)
+    force = float(np.hypot(*moved).max() / np.hypot(*sums).max())
+    return float(np.maximum(_left(force), _FIELD_WEIGHT * _left(field)))
+
+
+def _left(change: float) -> float:
+    """What a step of this relative size leaves."""
+    return float(np.minimum(change, _LINEAR_PART * change + _SQUARE_FACTOR * change**2))
+
+
+def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:
+    """Sums of the net's forces from the foot to each node, shape (2, n_net)."""
+    return np.asarray(
+        np.cumsum(mesh.to_slope_axes(reaction)[:, mesh.template.net], axis=1)
+    )
 
 
 def _solve_linear_creep(
-    law: FlowLaw, material: Material, mesh: PlacedMesh
+    law: FlowLaw, material: Material, mesh: PlacedMesh, advance: Step
 ) -> FlowState:
     """Linear creep of snow held everywhere: a start that needs no guess."""
     at_rest = FlowState(
@@ -182,7 +274,7 @@ def _solve_linear_creep(
         contact=start_contact(mesh),
     )
     linear = replace(law, exponent=1.0)
-    return _advance(linear, material, mesh, at_rest, at_rest.contact)[0]
+    return advance(linear, material, mesh, at_rest, at_rest.contact)
 
 
 def _advance(
@@ -191,8 +283,8 @@ def _advance(
     mesh: PlacedMesh,
     state: FlowState,
     contact: Contact,
-) -> tuple[FlowState, float]:
-    """One Newton step on the stress, eq. (F5), and its relative size."""
+) -> FlowState:
+    """One Newton step on the stress, eq. (F5)."""
     tangent = linearise_creep(law, material, state.stress)
     blocks = [build_stiffness(mesh, tangent.modulus)]
     force = assemble_stress(mesh, tangent.kept) - _gravity_load(law, material, mesh)
@@ -201,7 +293,29 @@ def _advance(
         base = _linearise_base(law, state.base_shear, contact)
         blocks.append(build_base_stiffness(mesh, base.modulus))
         force += assemble_base_force(mesh, base.kept)
-    unknowns = solve_blocks(
+    unknowns = _solve_step(law, mesh, contact, blocks, force)
+    stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
+    base_shear = None
+    if base is not None:
+        base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
+    return FlowState(
+        unknowns=unknowns,
+        reaction=force + sum(block.multiply(unknowns) for block in blocks),
+        stress=stress,
+        base_shear=base_shear,
+        contact=contact,
+    )
+
+
+def _solve_step(
+    law: FlowLaw,
+    mesh: PlacedMesh,
+    contact: Contact,
+    blocks: Sequence[Blocks],
+    force: Floats,
+) -> Floats:
+    """Unknowns that balance forces (n_dofs,) or (n_dofs, m) under a contact."""
+    return solve_blocks(
         build_ordering(
             mesh.template, has_pressures=law.element == "mixed", couples_net=False
         ),
@@ -211,19 +325,6 @@ def _advance(
         friction_shares(law, mesh, contact),
         is_definite=law.element == "velocity",
     )
-    stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
-    base_shear = None
-    if base is not None:
-        base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
-    advanced = FlowState(
-        unknowns=unknowns,
-        reaction=force + sum(block.multiply(unknowns) for block in blocks),
-        stress=stress,
-        base_shear=base_shear,
-        contact=contact,
-    )
-    size = _stress_norm(law, material, mesh, stress)
-    return advanced, _stress_norm(law, material, mesh, stress - state.stress) / size
 
 
 def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
@@ -238,9 +339,13 @@ def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
 
 def _gravity_load(law: FlowLaw, material: Material, mesh: PlacedMesh) -> Floats:
     if isinstance(material.density, float):
-        return mesh.to_node_axes(np.outer(law.gravity, mesh.load * material.density))
-    body_force = np.multiply.outer(np.array(law.gravity), material.density)
-    return assemble_body_force(mesh, body_force)
+        load = mesh.to_node_axes(np.outer(law.gravity, mesh.load * material.density))
+    else:
+        body_force = np.multiply.outer(np.array(law.gravity), material.density)
+        load = assemble_body_force(mesh, body_force)
+    if law.end_load:
+        load += assemble_end_load(mesh, law.end_load)
+    return load
 
 
 def _stress_norm(

@@ -8,6 +8,7 @@ throughout. No solve calls it; tests compare the two to rounding. Plane tensors 
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from netdesign.snow.kernel import QUADRATURE_DEGREE, PlacedMesh
 from netdesign.snow.mesh import Floats
 
 
+@lru_cache(maxsize=2)
 def build_basis(mesh: PlacedMesh) -> skfem.Basis:
     """Quadratic velocities on a placed mesh, its net edges parabolas.
 

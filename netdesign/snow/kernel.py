@@ -204,7 +204,7 @@ def build_stiffness(mesh: PlacedMesh, moduli: Floats) -> Blocks:
 
 def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
     """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, R, R)."""
-    return _assemble(build_stiffness(mesh, moduli), mesh.n_dofs)
+    return build_stiffness(mesh, moduli).to_matrix(mesh.n_dofs)
 
 
 def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
@@ -216,6 +216,20 @@ def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
         for part in force
     ]
     return mesh.to_node_axes(np.array(nodal))
+
+
+def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
+    """Nodal loads (n_dofs,) of a uniform traction along X on the upslope end."""
+    xi, eta = mesh.template.nodes
+    end = np.flatnonzero(xi == mesh.template.aspect)
+    chain = end[np.argsort(eta[end])]
+    start, middle, stop = _edge_triples(chain)
+    lengths = eta[stop] - eta[start]
+    load = np.zeros_like(mesh.nodes)
+    np.add.at(load[0], start, force * lengths / 6.0)
+    np.add.at(load[0], middle, force * lengths * 4.0 / 6.0)
+    np.add.at(load[0], stop, force * lengths / 6.0)
+    return mesh.to_node_axes(load)
 
 
 def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
@@ -235,16 +249,7 @@ def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
 
 def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
     """Matrix (n_dofs, n_dofs) of a base modulus (n_edges, n_points)."""
-    return _assemble(build_base_stiffness(mesh, modulus), mesh.n_dofs)
-
-
-def _assemble(blocks: Blocks, size: int) -> sparse.csr_matrix:
-    count = blocks.dofs.shape[1]
-    rows = np.repeat(blocks.dofs, count, axis=1).ravel()
-    columns = np.tile(blocks.dofs, (1, count)).ravel()
-    return sparse.csr_matrix(
-        (blocks.values.ravel(), (rows, columns)), shape=(size, size)
-    )
+    return build_base_stiffness(mesh, modulus).to_matrix(mesh.n_dofs)
 
 
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
@@ -291,7 +296,7 @@ def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
     start, middle, end = _edge_triples(template.net)
     points = _EDGE_POINTS
     shape = _edge_shape(points)
-    slope = np.array([points - 0.5, -2 * points, points + 0.5]).T
+    slope = _edge_slope(points)
     curve = np.stack([nodes[:, start], nodes[:, middle], nodes[:, end]], axis=-1)
     tangent_x, tangent_y = np.einsum("aei,qi->aeq", curve, slope)
     outward = np.array([tangent_y, -tangent_x]) * _EDGE_WEIGHTS
@@ -302,6 +307,25 @@ def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
             np.add.at(normals[axis], ends, shares[axis, :, place])
     normals = normals[:, template.net]
     return np.asarray(normals / np.hypot(*normals))
+
+
+def turn_normals(mesh: PlacedMesh) -> Floats:
+    """Angle by which each net node's normal turns as net nodes move.
+
+    Returns
+    -------
+    ndarray, shape (n_net, 2, n_net)
+        Counter-clockwise [rad per thickness].
+    """
+    count = mesh.template.net.size
+    shape = _edge_shape(_EDGE_POINTS)
+    pairs = np.einsum("q,qi,qj->ij", _EDGE_WEIGHTS, shape, _edge_slope(_EDGE_POINTS))
+    weights = np.zeros((count, count))
+    for first in range(0, count - 2, 2):
+        weights[first : first + 3, first : first + 3] += pairs
+    tangent = mesh.nodes[:, mesh.template.net] @ weights.T
+    unit = tangent / (tangent**2).sum(axis=0)
+    return np.stack([-unit[1][:, None] * weights, unit[0][:, None] * weights], axis=1)
 
 
 def _build_base(template: MeshTemplate, nodes: Floats) -> BaseEdges:
@@ -324,6 +348,11 @@ def _edge_shape(points: Floats) -> Floats:
     return np.column_stack(
         [points * (points - 1) / 2, 1 - points**2, points * (points + 1) / 2]
     )
+
+
+def _edge_slope(points: Floats) -> Floats:
+    """Their derivatives."""
+    return np.column_stack([points - 0.5, -2 * points, points + 0.5])
 
 
 @lru_cache(maxsize=1)

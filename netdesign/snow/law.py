@@ -18,7 +18,7 @@ from netdesign.snow.mesh import Floats, MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
 # Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).
-STRESS_FLOOR = 1e-3
+STRESS_FLOOR = 3e-3
 
 Sides = Literal["one-sided", "two-sided"]
 
@@ -77,6 +77,8 @@ class FlowLaw:
         ``two-sided``: may pull on the snow; ``one-sided``: lets go instead.
     stress_floor : float
         Stress below which snow creeps linearly [-]; keeps the tangent regular.
+    end_load : float
+        Force along the slope on the upslope end, of snow beyond it [rho g d^2].
     """
 
     exponent: float
@@ -89,6 +91,7 @@ class FlowLaw:
     ground_contact: Sides = "two-sided"
     net_contact: Sides = "two-sided"
     stress_floor: float = STRESS_FLOOR
+    end_load: float = 0.0
 
 
 class Material(NamedTuple):

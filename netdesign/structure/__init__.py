@@ -7,15 +7,27 @@ from netdesign.structure.anchors import (
 )
 from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from netdesign.structure.row_position import (
+    EndEffectRule,
+    LoadedWidth,
+    compute_edge_width,
+    compute_lateral_factor,
+    find_governing_width,
+)
 
 __all__ = [
     "AnchorForces",
+    "EndEffectRule",
     "FailedSupport",
     "GroundForce",
     "HeadForces",
+    "LoadedWidth",
     "SupportLayout",
     "SupportPoints",
     "compute_anchor_forces",
+    "compute_edge_width",
     "compute_head_forces",
+    "compute_lateral_factor",
+    "find_governing_width",
     "place_support",
 ]

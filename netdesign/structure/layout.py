@@ -29,12 +29,16 @@ class SupportLayout:
         Uphill anchor upslope of the net's foot, along the slope [m].
     downhill_anchor_distance : float
         Downhill anchor downslope of the post's base, along the slope [m].
+    post_base_distance : float or None
+        Post's base downslope of the net's foot, along the slope [m]; with it the
+        tilt follows from the head, whatever the net's inclination.
     """
 
     post_spacing: float
     post_tilt: float = DEFAULT_POST_TILT
     uphill_anchor_distance: float
     downhill_anchor_distance: float
+    post_base_distance: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse impossible geometry."""
@@ -46,6 +50,10 @@ class SupportLayout:
         require_within(
             "downhill anchor distance", self.downhill_anchor_distance, 0.0, 100.0, "m"
         )
+        if self.post_base_distance is not None:
+            require_within(
+                "post base distance", self.post_base_distance, -50.0, 50.0, "m"
+            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +70,9 @@ class SupportPoints:
 def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
     """Points of a support whose net hangs from ``head`` [m], foot at the origin."""
     x_head, y_head = head
-    x_base = x_head - y_head * math.tan(layout.post_tilt)
+    x_base = layout.post_base_distance
+    if x_base is None:
+        x_base = x_head - y_head * math.tan(layout.post_tilt)
     return SupportPoints(
         net_foot=(0.0, 0.0),
         head=head,

@@ -45,7 +45,8 @@ def a_document(**changes: object) -> dict[str, object]:
         "what_it_is",
         "what_it_is_not",
     )
-    return {"id": "my-profile"} | dict.fromkeys(keys, "something") | changes
+    named = {"id": "my-profile", "version": "1"}
+    return named | dict.fromkeys(keys, "something") | changes
 
 
 def refusal(shape, table) -> str:

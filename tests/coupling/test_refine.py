@@ -30,11 +30,13 @@ def test_stops_where_two_levels_agree():
 
 
 def test_error_is_the_last_step_and_a_floor():
-    """The floor halves with each level: 1.5e-3, 0.75e-3, ..."""
+    """The floor is a quarter of the one before from the fourth level."""
     _, estimate, _ = run([1.0, 1.1], accuracy=0.1, levels=MESH_LEVELS[:2])
     assert estimate.error == pytest.approx(0.1 + ERROR_FLOOR * 1.1, rel=1e-12)
     _, estimate, _ = run([1.0, 1.1, 1.11], accuracy=0.02)
-    assert estimate.error == pytest.approx(0.01 + ERROR_FLOOR / 2 * 1.11, rel=1e-12)
+    assert estimate.error == pytest.approx(0.01 + ERROR_FLOOR * 1.11, rel=1e-12)
+    _, estimate, _ = run([1.0, 1.1, 1.2, 1.21], accuracy=0.02)
+    assert estimate.error == pytest.approx(0.01 + ERROR_FLOOR / 4 * 1.21, rel=1e-12)
 
 
 def test_error_is_that_of_the_vector():
@@ -47,7 +49,7 @@ def test_error_is_that_of_the_vector():
 
 
 def test_finest_level_says_when_it_is_not_enough():
-    states, estimate, _ = run([1.0, 2.0, 3.0, 4.0], accuracy=0.01)
+    states, estimate, _ = run([1.0, 2.0, 3.0, 4.0, 5.0], accuracy=0.01)
     assert len(states) == len(MESH_LEVELS)
     assert estimate.error > 1.0
 
@@ -66,10 +68,11 @@ def test_every_vector_has_to_be_accurate():
 
 
 def test_nan_never_agrees():
-    states, _, _ = run([1.0, np.nan, np.nan, np.nan], accuracy=0.1)
+    states, _, _ = run([1.0, *(4 * [np.nan])], accuracy=0.1)
     assert len(states) == len(MESH_LEVELS)
 
 
 def test_each_level_starts_from_the_one_before():
-    _, _, guesses = run([1.0, 2.0, 3.0, 4.0], accuracy=0.01)
-    assert guesses == list(zip(MESH_LEVELS, [None, 1.0, 2.0, 3.0], strict=True))
+    sizes = [1.0, 2.0, 3.0, 4.0, 5.0]
+    _, _, guesses = run(sizes, accuracy=0.01)
+    assert guesses == list(zip(MESH_LEVELS, [None, *sizes[:-1]], strict=True))

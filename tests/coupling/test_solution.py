@@ -32,4 +32,5 @@ def test_cost_has_no_clock(solved):
         "rounds",
         "elements",
         "degrees_of_freedom",
+        "skipped",
     }

@@ -13,8 +13,14 @@ from netdesign.coupling.steady import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow import flow
+from netdesign.snow.kernel import PlacedMesh
 
-COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+COARSE = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
 
 ENDS = ("foot", "head")
 
@@ -48,9 +54,9 @@ def test_net_that_touches_the_ground(a_scene):
     fails_with(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
 
 
-def test_net_that_folds_the_mesh(a_scene):
-    scene = a_scene(slack=0.5, inclination_deg=20.0)
-    result = solve_steady(scene, COARSE)
+def test_net_that_folds_the_mesh(a_scene, monkeypatch):
+    monkeypatch.setattr(PlacedMesh, "is_valid", property(lambda _: False))
+    result = solve_steady(a_scene(), COARSE)
     fails_with(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
 
 
@@ -61,7 +67,7 @@ def test_too_few_rounds(a_scene):
 
 
 def test_too_few_newton_steps(a_scene):
-    result = solve_steady(a_scene(), replace(COARSE, max_iterations=2))
+    result = solve_steady(a_scene(), replace(COARSE, max_iterations=1))
     fails_with(Outcome.MAX_ITERATIONS, result, "snow flow")
 
 
@@ -288,3 +294,55 @@ def test_accuracy_that_is_not_reached_is_said(a_scene):
     solution = solve_steady(a_scene(), settings)
     assert isinstance(solution, Solution)
     assert solution.foot.error > 1e-4 * solution.foot.size
+
+
+# --- what a scene does not need ----------------------------------------------
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_snow_beyond_the_nets_reach_becomes_its_load(a_scene, inclination, monkeypatch):
+    """Half the triangles, the same pulls to within the mesh's own error."""
+    scene = a_scene(length_m=80.0, inclination_deg=inclination)
+    cut = solve_steady(scene, COARSE, on_failure="raise")
+    monkeypatch.setattr("netdesign.coupling.scene._CUT_FROM", 1e9)
+    whole = solve_steady(scene, COARSE, on_failure="raise")
+    assert cut.cost.skipped.upslope_length == pytest.approx(80.0 - 8.0 * 4.0)
+    assert whole.cost.skipped.upslope_length == 0.0
+    assert cut.cost.degrees_of_freedom < 0.75 * whole.cost.degrees_of_freedom
+    weights = [one.balance.weight_along_slope for one in (cut, whole)]
+    assert weights[0] == pytest.approx(weights[1], rel=1e-3)  # of the bulges
+    for end in ENDS:
+        np.testing.assert_allclose(
+            pull(getattr(cut, end)),
+            pull(getattr(whole, end)),
+            atol=1e-3 * getattr(whole, end).size,
+        )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"ground": "no-slip"}, {"length_m": 35.0}, {"ground_contact": "one-sided"}],
+    ids=str,
+)
+def test_snow_that_the_ground_holds_or_that_is_near_is_not_cut(a_scene, changes):
+    contact = changes.get("ground_contact", "two-sided")
+    given = {key: value for key, value in changes.items() if key != "ground_contact"}
+    scene = replace(a_scene(**{"length_m": 80.0, **given}), ground_contact=contact)
+    assert scene.reach == scene.snowpack.upslope_length / scene.snowpack.thickness
+    assert scene.reach_law.end_load == 0.0
+
+
+def test_pressures_are_skipped_far_from_ice(solved):
+    solution = solved()
+    unknowns = solution.cost.degrees_of_freedom
+    assert solution.cost.skipped.pressure_unknowns > 0.1 * unknowns
+
+
+def test_failure_names_what_leaves_no_steady_state(a_scene):
+    """One-sided ground under snow that slips: too few rounds are not its only cause."""
+    scene = replace(
+        a_scene(inclination_deg=30.0, friction_deg=5.0), ground_contact="one-sided"
+    )
+    result = solve_steady(scene, replace(COARSE, max_rounds=2))
+    fails_with(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
+    assert "the net still moves by" in result.reason

@@ -21,7 +21,12 @@ from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 
-SETTINGS = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+SETTINGS = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
 
 
 def layered(scene, *layers):
@@ -55,7 +60,7 @@ def test_equal_layers_are_uniform_snow(a_scene):
 
 
 @pytest.mark.parametrize("tops", [(0.5,), (0.1, 0.3, 0.8), (0.02, 0.98)])
-@pytest.mark.parametrize("level", MESH_LEVELS[:2])
+@pytest.mark.parametrize("level", MESH_LEVELS[1:3])
 def test_no_triangle_crosses_an_interface_and_no_mass_is_lost(tops, level):
     template = build_template(3.0, level, tops)
     heights = template.nodes[1, template.triangles[:3]]
@@ -181,10 +186,10 @@ def test_layers_scale_with_the_mean_density(a_scene):
 
 
 def test_one_sided_ground_does_not_pull(a_scene):
-    scene = a_scene(ground="no-slip", inclination_deg=30.0)
+    scene = a_scene(inclination_deg=30.0, friction_deg=15.0)
     two, one = sound(scene), sound(replace(scene, ground_contact="one-sided"))
-    assert two.balance.ground_tension_share > 0.01
-    assert one.balance.ground_tension_share == 0.0
+    assert 0.1 < two.balance.ground_tension_share < 0.2  # physics.md: 12 %
+    assert one.balance.ground_tension_share < 1e-12
     assert one.foot.size == pytest.approx(two.foot.size, rel=0.02)  # physics.md: 2 %
 
 

@@ -21,6 +21,7 @@ MEMBERS = {
     "downhill_guy",
     "downhill_anchor",
     "post",
+    "post_base",
 }
 
 

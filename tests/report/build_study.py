@@ -11,16 +11,23 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.study import (
     SCHEMA,
+    ActionRecord,
+    AnchorRecord,
     Arrow,
     CasePoint,
     CaseRecord,
+    ChangeRecord,
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    GuidelineCase,
+    GuidelineRecord,
+    HeadForce,
     ProfileRecord,
     ProfileValue,
     Provenance,
     RowStudy,
+    SpreadRecord,
     Study,
 )
 
@@ -154,6 +161,78 @@ def build_row(
         ],
         drawing=build_drawing(extremes[0]),
         reasons=reasons,
+        anchors=build_anchors(),
+        head=build_head(),
+        guideline=build_guideline(extremes[0]),
+        notes=[f"no gap is given {SCRIPT}"],
+    )
+
+
+def build_anchors() -> list[AnchorRecord]:
+    """A loaded and a slack anchor."""
+    return [
+        AnchorRecord(
+            anchor="foot_anchor",
+            member="net",
+            force_x_kN=30.0,
+            force_y_kN=40.0,
+            lateral_kN=5.0,
+            size_kN=50.0,
+            direction_deg=53.130102354,
+        ),
+        AnchorRecord(
+            anchor="downhill_anchor",
+            member="downhill_guy",
+            force_x_kN=0.0,
+            force_y_kN=0.0,
+            lateral_kN=0.0,
+            size_kN=0.0,
+            direction_deg=None,
+        ),
+    ]
+
+
+def build_head() -> list[HeadForce]:
+    """Three forces that close."""
+    return [
+        HeadForce(member="net", x_kN=17.5, y_kN=-77.0),
+        HeadForce(member="post", x_kN=28.4, y_kN=106.1),
+        HeadForce(member="uphill_guy", x_kN=-45.9, y_kN=-29.1),
+    ]
+
+
+def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
+    """One load case with numbers, one without."""
+    numbers = {
+        "creep_factor": 0.741,
+        "glide_factor": 1.0,
+        "rigid_kN_per_m": 10.0,
+        "load_kN_per_m": 12.0,
+        "foot_anchor_kN": 90.0,
+        "uphill_guy_kN": 20.0,
+        "post_kN": 80.0,
+        "load_difference_percent": 25.0,
+        "foot_difference_percent": 33.3,
+    }
+    return GuidelineRecord(
+        profile="swiss-guideline-2007",
+        sha256="0" * 64,
+        case=extreme.case,
+        solved_load_kN_per_m=15.0,
+        solved_foot_anchor_kN=extreme.max_kN,
+        cases=[
+            GuidelineCase(
+                name="same snow", density_kg_m3=450.0, height_vertical_m=5.22, **numbers
+            ),
+            GuidelineCase(
+                name="load case 2",
+                density_kg_m3=400.0,
+                height_vertical_m=4.02,
+                **dict.fromkeys(numbers),
+                reason=f"the support fails {SCRIPT}",
+            ),
+        ],
+        sentence=f"They differ because {SCRIPT}.",
     )
 
 
@@ -249,6 +328,45 @@ def build_check(
         resistance_basis="" if resistance is None else "tested",
         resistance_type="GEWI 28" if member != "post" else "HEA 160",
         resistance_cell="Anchors!E7",
+        resistance_derivation=f"π · 90 mm {SCRIPT}" if mode == "pull_out" else "",
+        action=ActionRecord(
+            solved_kN=extreme.max_kN / 1.1,
+            post_spacing_m=4.0,
+            position="edge",
+            loaded_width_m=4.4,
+            end_factor=1.6,
+            end_length_m=1.5,
+            lateral_factor=1.0,
+        ),
+        spreads=[
+            SpreadRecord(source="numerical error", low=0.9, high=0.95, in_verdict=True),
+            SpreadRecord(
+                source="creep law zwinger-2007",
+                low=None,
+                high=None,
+                in_verdict=False,
+                note=f"refused {SCRIPT}",
+            ),
+        ],
+        changes=[
+            ChangeRecord(
+                quantity=f"type {FORMULA}",
+                unit="kN",
+                now=characteristic,
+                bound=900.0,
+                sense="has",
+                solves=0,
+            ),
+            ChangeRecord(
+                quantity="snow density",
+                unit="kg/m3",
+                now=450.0,
+                bound=None,
+                sense="at most",
+                solves=7,
+                note="not even 150 passes",
+            ),
+        ],
     )
 
 

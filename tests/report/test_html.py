@@ -47,7 +47,7 @@ def test_ids_are_unique(page):
 def test_every_section_is_there(page):
     expected = html.list_sections(build_view(build_study()))
     assert set(expected) <= set(PageReader(page).ids)
-    assert len(expected) == 8 + 3 * 7
+    assert len(expected) == 8 + 3 * 10
 
 
 def test_a_missing_section_raises(monkeypatch):
@@ -69,6 +69,9 @@ def test_empty_parts_say_none():
         cases=[],
         inputs=[],
         drawing=None,
+        anchors=[],
+        head=[],
+        guideline=None,
         verdict=Verdict.NOT_PROVEN,
     )
     study = replace(
@@ -80,7 +83,7 @@ def test_empty_parts_say_none():
         verdict=Verdict.NOT_PROVEN,
     )
     page = html.render_html(study)
-    assert page.count('<p class="none">none') == 12
+    assert page.count('<p class="none">none') == 16
     assert "NOT PROVEN" in page
 
 

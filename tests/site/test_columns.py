@@ -3,14 +3,9 @@ import math
 import pytest
 
 from netdesign.site.columns import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
-from netdesign.site.fields import (
-    normalise,
-    normalise_unit,
-    split_heading,
-    to_first_unit,
-    to_si,
-)
+from netdesign.site.fields import normalise, split_heading
 from netdesign.site.model import MEMBER_MODES
+from netdesign.site.unit_names import convert_unit, normalise_unit, to_si
 
 TABLES = {plan.name: plan.fields for plan in SHEETS} | {
     "quantities": RANGE_QUANTITIES,
@@ -73,8 +68,8 @@ def test_names_and_units_keep_what_tells_them_apart():
 
 
 def test_a_slope_of_100_per_cent_is_45_degrees():
-    assert to_first_unit(100.0, "%") == pytest.approx(45.0, rel=1e-15)
-    assert to_first_unit(100.0, "m") == 100.0
+    assert convert_unit(100.0, "%", "deg") == pytest.approx(45.0, rel=1e-15)
+    assert convert_unit(100.0, "m", "m") == 100.0
 
 
 def test_si_values():

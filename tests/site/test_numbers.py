@@ -23,6 +23,16 @@ from netdesign.site.numbers import parse_number
         ("0,450", 0.45),
         ("1234,567", 1234.567),
         ("1,2345", 1.2345),
+        # groups of thousands, where nothing else can be meant
+        ("1.234,5", 1234.5),
+        ("1,234.5", 1234.5),
+        ("1.234.567", 1234567.0),
+        ("1 234", 1234.0),
+        ("12 345,25", 12345.25),
+        ("1\u00a0234,5", 1234.5),
+        ("-1\u202f234", -1234.0),
+        ("1'234.5", 1234.5),
+        ("1’234’567", 1234567.0),
     ],
 )
 def test_numbers_and_clear_text_are_taken(value, number):
@@ -46,7 +56,8 @@ def test_a_thousand_or_a_fraction_is_refused_with_both_readings(text, readings):
 @pytest.mark.parametrize(
     "text",
     [
-        *("0,45O", "3 m", "1 234", "1.234,5", "1,234.5", ".5", "5.", "1e3", "--1"),
+        *("0,45O", "3 m", ".5", "5.", "1e3", "--1", "1,234,5", "1.234,567.8"),
+        *("12 34", "1 2345", "1.234 567", "0 123", "1 234.567,8", "1,23,456"),
         *("", "nan", "inf", "−3", "٣", "2,5;", "=1", "0x10", "1_000", "9" * 40),
     ],
 )
@@ -83,9 +94,36 @@ def test_what_is_typed_with_two_decimals_is_what_is_read(number, separator):
     assert parse_number(typed) == float(number)
 
 
+@pytest.mark.parametrize(
+    ("text", "mark", "number"),
+    [
+        ("1,234", ",", 1.234),
+        ("1,234", ".", 1234.0),
+        ("1.234", ",", 1234.0),
+        ("1.234", ".", 1.234),
+        ("1 234,5", ",", 1234.5),
+        ("1.234.567", ",", 1234567.0),
+        ("12", ",", 12.0),
+    ],
+)
+def test_a_declared_decimal_mark_settles_what_is_ambiguous(text, mark, number):
+    assert parse_number(text, mark) == number
+
+
+@pytest.mark.parametrize(
+    ("text", "mark"),
+    [("2.5", ","), ("2,5", "."), ("0.450", ","), ("1.234,5", "."), ("1,234,567", ",")],
+)
+def test_a_number_against_the_declared_decimal_mark_is_refused(text, mark):
+    refusal = parse_number(text, mark)
+    assert isinstance(refusal, Refusal)
+    assert refusal.rule == f'is not a number with the decimal mark "{mark}"'
+
+
 @settings(derandomize=True, max_examples=300, deadline=None)
-@given(st.text(alphabet="0123456789.,+- eEO m", max_size=9))
-def test_text_is_read_as_its_one_meaning_or_refused(text):
+@given(st.text(alphabet="0123456789.,+- eEO m'", max_size=9))
+def test_text_without_groups_is_read_as_its_one_meaning_or_refused(text):
     number = parse_number(text)
-    if not isinstance(number, Refusal):
-        assert number == float(Decimal(text.strip().replace(",", ".")))
+    if not isinstance(number, Refusal) and text.count(".") + text.count(",") < 2:
+        plain = text.strip().replace(",", ".").replace(" ", "").replace("'", "")
+        assert number == float(Decimal(plain))

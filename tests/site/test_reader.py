@@ -230,8 +230,9 @@ def test_unknown_columns_sheets_and_hidden_rows_are_noted(sheets, save):
 def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
     sheets["Nets"][HEADINGS][1] = "slope angel [deg]"
     unknown, missing = refused(save(sheets))
-    assert unknown.severity == "note"
-    assert '(nearest: "slope angle [deg]"' in unknown.accepted
+    assert unknown.rule == (
+        'is no known heading, but close to "slope angle [deg]", which is missing'
+    )
     assert missing.rule == 'lacks the heading "slope angle [deg]"'
 
 
@@ -287,7 +288,7 @@ def test_dates_in_number_cells_are_refused(sheets, save, refused):
     assert finding.rule == "is a date or time, not a number"
 
 
-def test_a_percent_format_is_refused_unless_the_quantity_has_no_unit(
+def test_a_percent_format_counts_as_shown_and_against_degrees_is_refused(
     sheets, save, refused
 ):
     sheets["Nets"][HEADINGS].append("slack")
@@ -301,22 +302,31 @@ def test_a_percent_format_is_refused_unless_the_quantity_has_no_unit(
 
     assert read_site(save(sheets, show_slack_as_percent)).rows[0].slack == 0.05
     (finding,) = refused(save(sheets, show_slope_as_percent))
-    assert finding.rule == "is shown as a percentage by its cell format"
+    assert finding.rule == ("is ambiguous: its format shows 4000 %, the file holds 40")
+    sheets["Nets"][HEADINGS][1] = "slope angle [%]"
+    sheets["Nets"][FIRST][1], sheets["Nets"][SECOND][1] = 0.7, 70
+    rows = read_site(save(sheets, show_slope_as_percent)).rows
+    assert rows[0].slope_angle == rows[1].slope_angle
+    assert rows[0].slope_angle == pytest.approx(math.atan(0.7), rel=1e-15)
+    assert echoes(rows[0])["slope angle"].text == "70 %"
 
 
 @pytest.mark.parametrize(
     ("heading", "rule"),
     [
-        ("slope angle", "has no unit"),
-        ("slope angle [rad]", "has an unknown unit"),
-        ("slope angle [grad]", "has an unknown unit"),
+        (
+            "slope angle",
+            "has no unit: B2 could be 40 deg or 40 % (21.8 deg) or 40 gon (36 deg)",
+        ),
+        ("slope angle [mil]", "has an unknown unit"),
+        ("slope angle [grad]", "is ambiguous: [deg] or [gon]"),
     ],
 )
 def test_a_missing_or_unknown_unit_is_refused(sheets, save, refused, heading, rule):
     sheets["Nets"][HEADINGS][1] = heading
     (finding,) = refused(save(sheets))
     assert (finding.cell, finding.rule) == ("B1", rule)
-    assert finding.accepted == "[deg] or [%]"
+    assert finding.accepted == "[deg] or [%] or [rad] or [gon]"
 
 
 def test_two_units_for_one_column_are_refused(sheets, save, refused):
@@ -462,7 +472,7 @@ def test_merged_cells_are_refused_below_the_headings_only(sheets, save, refused)
     ("line", "cell", "rule"),
     [
         (["density", 270, 400, 3], "A2", "has no unit"),
-        (["density [t/m3]", 270, 400, 3], "A2", "has an unknown unit"),
+        (["density [lb]", 270, 400, 3], "A2", "has an unknown unit"),
         (["wetness [-]", 1, 2, 3], "A2", "is no known quantity"),
         (["friction angle [deg]", 1, 2, 3], "A3", "is given twice"),
         (["density [kg/m3]", 99, 400, 3], "B2", "is out of range"),

@@ -7,7 +7,7 @@ import pytest
 import xlsxwriter
 
 from netdesign.errors import NetDesignError, SiteDataError
-from netdesign.site import spreadsheet
+from netdesign.site import limits, spreadsheet
 from netdesign.site.cells import name_column
 from netdesign.site.spreadsheet import read_workbook
 
@@ -134,7 +134,6 @@ def test_a_missing_file_is_one_clear_finding(tmp_path):
     ("content", "message"),
     [
         (b"", "cannot be read as a workbook"),
-        (b"id;slope\nR1;40\n", "cannot be read as a workbook"),
         (b"\xd0\xcf\x11\xe0 old", "is an old .xls workbook or has a password"),
         (b"PK\x03\x04 broken", "cannot be read as a workbook"),
     ],
@@ -145,6 +144,12 @@ def test_what_is_no_workbook_is_one_clear_finding(tmp_path, content, message):
     finding = refusal_of(path)
     assert message in finding
     assert "saved as .xlsx" in finding
+
+
+def test_text_under_the_name_of_a_workbook_is_told_apart(tmp_path):
+    path = tmp_path / "site.xlsx"
+    path.write_bytes(b"id;slope\nR1;40\n")
+    assert "is a text file; accepted: the ending .csv" in refusal_of(path)
 
 
 def test_a_truncated_workbook_is_refused(small):
@@ -183,18 +188,18 @@ def test_file_size_is_limited_on_both_sides(small, monkeypatch):
 def test_number_of_parts_is_limited_on_both_sides(small, monkeypatch):
     with zipfile.ZipFile(small) as archive:
         count = len(archive.namelist())
-    monkeypatch.setattr(spreadsheet, "MAX_ENTRIES", count)
+    monkeypatch.setattr(limits, "MAX_ENTRIES", count)
     assert read_all(small).sheets
-    monkeypatch.setattr(spreadsheet, "MAX_ENTRIES", count - 1)
+    monkeypatch.setattr(limits, "MAX_ENTRIES", count - 1)
     assert f"is an archive of {count} parts" in refusal_of(small)
 
 
 def test_expanded_size_is_limited_on_both_sides(small, monkeypatch):
     with zipfile.ZipFile(small) as archive:
         size = sum(entry.file_size for entry in archive.infolist())
-    monkeypatch.setattr(spreadsheet, "MAX_EXPANDED_BYTES", size)
+    monkeypatch.setattr(limits, "MAX_EXPANDED_BYTES", size)
     assert read_all(small).sheets
-    monkeypatch.setattr(spreadsheet, "MAX_EXPANDED_BYTES", size - 1)
+    monkeypatch.setattr(limits, "MAX_EXPANDED_BYTES", size - 1)
     assert "expands beyond" in refusal_of(small)
 
 

@@ -119,7 +119,7 @@ def test_rough_slab_in_both_elements(a_mesh, a_flow_law, ratio):
     found = []
     for law in (plain, mixed):
         law = replace(law, ground="no-slip", friction=np.inf)
-        coarse = a_mesh(inclination_deg=30.0, size=MESH_LEVELS[1])
+        coarse = a_mesh(inclination_deg=30.0, size=MESH_LEVELS[2])
         mesh = kernel.build_placed_mesh(coarse.template, coarse.nodes, law.element)
         result = solve_flow(law, mesh, tolerance=1e-9)
         assert result.outcome is Outcome.CONVERGED
@@ -136,7 +136,7 @@ TOP = FlowLayer(top=1.0, bulk_ratio=3.0, fluidity=0.1, density=0.5)
 TOPS = (0.3, 0.8)
 
 
-def layered_mesh(inclination_deg=0.0, element="velocity", size=MESH_LEVELS[0]):
+def layered_mesh(inclination_deg=0.0, element="velocity", size=MESH_LEVELS[1]):
     template = build_template(5.0, size, TOPS)
     heights = template.net_fractions
     curve = np.array([heights * np.tan(np.radians(inclination_deg)), heights])

@@ -9,7 +9,7 @@ from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.errors import ModelError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
-COARSE = MESH_LEVELS[0]
+COARSE = MESH_LEVELS[1]
 ASPECTS = [0.25, 0.3, 0.7, 1.0, 2.5, 5.0, 20.0]
 
 

@@ -110,6 +110,7 @@ def test_member_forces_are_those_of_the_members():
         "downhill_guy": 0.0,
         "downhill_anchor": 0.0,
         "post": forces.head.post_compression,
+        "post_base": -forces.post_base.y,
     }
 
 

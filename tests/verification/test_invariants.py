@@ -19,7 +19,12 @@ from netdesign.snow import snowpack
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.wall import Wall
 
-COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+COARSE = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
 
 
 def pulls(solution) -> np.ndarray:

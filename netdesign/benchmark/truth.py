@@ -1,0 +1,103 @@
+"""What a solution is compared with: the same scene on a mesh four times finer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.steady import solve_steady
+from netdesign.errors import SolveError
+from netdesign.snow.mesh import MeshSize, build_template
+
+FINER = 4
+# Rounding in the balance grows with the mesh; a truth is not handed out as a result.
+_TRUTH_BALANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Truth:
+    """End pulls of the fine mesh, shape (2,) each [N/m]."""
+
+    foot: NDArray[np.float64]
+    head: NDArray[np.float64]
+
+    def compare(self, solution: Solution) -> float:
+        """Larger relative error of the two end pulls, as vectors [-]."""
+        return max(self.compare_ends(solution))
+
+    def compare_ends(self, solution: Solution) -> tuple[float, float]:
+        """Relative errors of the pulls at foot and head [-]."""
+        return (
+            _relative(solution.foot, self.foot),
+            _relative(solution.head, self.head),
+        )
+
+
+def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth:
+    """End pulls on a mesh ``FINER`` times finer than ``size`` in each direction.
+
+    All lengths of the mesh are divided and all sectors of its rings; how fast rings
+    and columns grow away from the net's ends stays as it is.
+
+    Raises
+    ------
+    SolveError
+        If the fine mesh gives no converged solution.
+    """
+    fine = replace(
+        settings,
+        levels=(size, refine_size(size, FINER)),
+        balance_tolerance=_TRUTH_BALANCE,
+        step=None,
+    )
+    return build_truth(solve_steady(scene, fine))
+
+
+def build_truth(solution: Solution | FailedSolution) -> Truth:
+    """Truth from a fine solution.
+
+    Raises
+    ------
+    SolveError
+        If it has failed.
+    """
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
+    return Truth(foot=_vector(solution.foot), head=_vector(solution.head))
+
+
+def refine_size(size: MeshSize, factor: int) -> MeshSize:
+    """All lengths over ``factor``, as many times the sectors."""
+    return MeshSize(
+        net_spacing=size.net_spacing / factor,
+        corner=size.corner / factor,
+        sectors=size.sectors * factor,
+        upslope_spacing=size.upslope_spacing / factor,
+    )
+
+
+def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
+    """Level whose mesh a solution was found on, by its number of triangles."""
+    aspect = solution.scene.reach
+    for level in levels:
+        template = build_template(aspect, level, solution.scene.layer_tops)
+        if template.triangles.shape[1] == solution.cost.elements:
+            return level
+    return levels[-1]
+
+
+def state_error(solution: Solution) -> float:
+    """Larger relative error of the end forces that a solution states [-]."""
+    return max(pull.error / pull.size for pull in (solution.foot, solution.head))
+
+
+def _relative(pull: EndPull, true: NDArray[np.float64]) -> float:
+    return float(np.hypot(*(_vector(pull) - true)) / np.hypot(*true))
+
+
+def _vector(pull: EndPull) -> NDArray[np.float64]:
+    return np.array([pull.x, pull.y])

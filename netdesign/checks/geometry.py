@@ -1,0 +1,197 @@
+"""Geometry of a net row against the limits of a profile."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.checks.check import judge, list_assumed
+from netdesign.checks.loader import Standard, StandardValue
+from netdesign.checks.result import CheckResult
+from netdesign.checks.schema import (
+    GROUND_FRICTION,
+    HEIGHT_RATIO,
+    MAX_GAP,
+    MAX_INCLINATION,
+    MAX_SLOPE,
+    MIN_INCLINATION,
+    MIN_SLOPE,
+)
+from netdesign.outcome import Verdict
+from netdesign.units import degree_from_radian
+
+_PLACES = {
+    Verdict.PASS: "lies inside",
+    Verdict.FAIL: "lies outside",
+    Verdict.NOT_PROVEN: "is not all inside",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowGeometry:
+    """Geometry of a net row.
+
+    Attributes
+    ----------
+    inclination_low, inclination_high : float
+        Range of the angle between net and slope normal [rad].
+    slope_angle : float
+        psi [rad].
+    snow_thickness, net_height : float
+        Both normal to the slope [m].
+    upslope_length : float
+        To the next row, along the slope [m].
+    gap : float
+        To the next work in the row [m]; infinite where none is given.
+    """
+
+    inclination_low: float
+    inclination_high: float
+    slope_angle: float
+    snow_thickness: float
+    net_height: float
+    upslope_length: float
+    gap: float
+
+
+def check_geometry(row: RowGeometry, standard: Standard) -> list[CheckResult]:
+    """Check a row against every limit of geometry that the profile has.
+
+    Theory: checks/THEORY.md. The inclination is checked under every profile: without
+    limits it is not proven.
+    """
+    checks = (
+        check_inclination(row.inclination_low, row.inclination_high, standard),
+        check_slope(row.slope_angle, standard),
+        check_height(row.net_height, row.snow_thickness, standard),
+        check_row_spacing(row, standard),
+        check_gap(row.gap, standard),
+    )
+    return [check for check in checks if check is not None]
+
+
+def check_inclination(low: float, high: float, standard: Standard) -> CheckResult:
+    """Check a row's range of net inclination against the profile's range.
+
+    Parameters
+    ----------
+    low, high : float
+        Range of the angle between net and slope normal [rad].
+    standard : Standard
+        Profile that gives the limits.
+
+    Returns
+    -------
+    CheckResult
+        Pass if the range lies inside, fail if it lies outside, else not proven.
+    """
+    least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
+    if least is None or most is None:
+        reason = "Not proven: the profile has no limits of the net inclination."
+        return _result("inclination", Verdict.NOT_PROVEN, reason)
+    verdict = judge(low, high, least=least.value_si, most=most.value_si)
+    given = f"{degree_from_radian(low):g} to {degree_from_radian(high):g} degrees"
+    reason = (
+        f"The net inclination {given} {_PLACES[verdict]} {least.value:g} to "
+        f"{most.value:g} degrees."
+    )
+    return _result("inclination", verdict, reason, least, most)
+
+
+def check_slope(slope_angle: float, standard: Standard) -> CheckResult | None:
+    """Check the slope angle [rad]; None where the profile has no limits of it."""
+    least, most = standard.find(MIN_SLOPE), standard.find(MAX_SLOPE)
+    if least is None or most is None:
+        return None
+    verdict = judge(slope_angle, slope_angle, least=least.value_si, most=most.value_si)
+    reason = (
+        f"The slope angle {degree_from_radian(slope_angle):g} degrees "
+        f"{_PLACES[verdict]} {least.value:g} to {most.value:g} degrees."
+    )
+    return _result("slope", verdict, reason, least, most)
+
+
+def check_height(
+    net_height: float, snow_thickness: float, standard: Standard
+) -> CheckResult | None:
+    """Check the net's height against the snow, both normal to the slope [m].
+
+    None where the profile has no such limit.
+    """
+    ratio = standard.find(HEIGHT_RATIO)
+    if ratio is None:
+        return None
+    needed = ratio.value * snow_thickness
+    verdict = judge(net_height, net_height, least=needed, most=math.inf)
+    word = "reaches" if verdict is Verdict.PASS else "does not reach"
+    reason = f"The net height {net_height:g} m {word} the {needed:g} m that are needed."
+    return _result("height", verdict, reason, ratio)
+
+
+def compute_largest_row_spacing(
+    slope_angle: float, net_height: float, ground_friction: float
+) -> float:
+    """Largest distance of rows along the slope, L = f_L H_K.
+
+    Theory: checks/THEORY.md.
+
+    Parameters
+    ----------
+    slope_angle : float
+        psi [rad].
+    net_height : float
+        D_K, normal to the slope [m]; H_K = D_K / cos psi.
+    ground_friction : float
+        tan phi of the ground [-].
+
+    Returns
+    -------
+    float
+        [m]; infinite where the ground alone holds the snow.
+    """
+    slope = math.tan(slope_angle)
+    if slope <= ground_friction:
+        return math.inf
+    factor = 2.0 * slope / (slope - ground_friction)
+    return factor * net_height / math.cos(slope_angle)
+
+
+def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | None:
+    """Check the distance of the rows; None where the profile has no formula."""
+    friction = standard.find(GROUND_FRICTION)
+    if friction is None:
+        return None
+    most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
+    length = row.upslope_length
+    verdict = judge(length, length, least=0.0, most=most)
+    word = "is within" if verdict is Verdict.PASS else "exceeds"
+    reason = f"The distance of the rows {length:g} m {word} f_L H_K = {most:.4g} m."
+    return _result("spacing", verdict, reason, friction)
+
+
+def check_gap(gap: float, standard: Standard) -> CheckResult | None:
+    """Check the gap beside a row [m]; None where the profile has no limit of it."""
+    most = standard.find(MAX_GAP)
+    if most is None:
+        return None
+    verdict = judge(gap, gap, least=0.0, most=most.value)
+    if verdict is Verdict.NOT_PROVEN:
+        reason = "Not proven: no gap to the next work is given."
+    else:
+        word = "is within" if verdict is Verdict.PASS else "exceeds"
+        reason = f"The gap to the next work {gap:g} m {word} {most.value:g} m."
+    return _result("gap", verdict, reason, most)
+
+
+def _result(
+    mode: str, verdict: Verdict, reason: str, *values: StandardValue
+) -> CheckResult:
+    return CheckResult(
+        id=f"geometry.{mode}",
+        clause=values[0].clause if values else "-",
+        member="net",
+        mode=mode,
+        verdict=verdict,
+        reason=reason,
+        assumed=list_assumed(*values),
+    )

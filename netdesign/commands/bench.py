@@ -1,0 +1,176 @@
+"""``netdesign bench``: run time against error, stability, honesty of stated errors."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.benchmark.rows import Row
+
+_EXIT_FAIL = 1
+
+
+@click.command()
+@click.option(
+    "--stress",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Solve N random scenes instead; each has to converge or to be refused.",
+)
+@click.option(
+    "--errors",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Compare N random scenes with finer meshes instead: are errors honest?",
+)
+@click.option(
+    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
+)
+@click.option(
+    "--accuracy",
+    type=click.FloatRange(1e-4, 0.1),
+    default=0.005,
+    show_default=True,
+    help="Asked of the random scenes.",
+)
+@click.option(
+    "--jobs",
+    type=click.IntRange(1, 256),
+    default=1,
+    show_default=True,
+    help="Processes for random scenes; more than cores make times useless.",
+)
+@click.option("--scenes", metavar="A,B", help="Only these named scenes.")
+@click.option("--quick", is_flag=True, help="No histories, fewer meshes, one timing.")
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write run time against error as SVG.",
+)
+@click.option("--force", is_flag=True, help="Overwrite an existing plot.")
+@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
+def bench(
+    *,
+    stress: int | None,
+    errors: int | None,
+    seed: int,
+    accuracy: float,
+    jobs: int,
+    scenes: str | None,
+    quick: bool,
+    plot: Path | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Measure the program itself: run time against error, stability, honesty.
+
+    \b
+    netdesign bench --plot bench.svg
+    netdesign bench --stress 2000 --seed 1 --jobs 2
+    netdesign bench --errors 200 --seed 1 --jobs 2
+    """
+    if stress is not None and errors is not None:
+        raise click.UsageError("give --stress or --errors, not both")
+    random = stress or errors
+    if random and (scenes or quick or plot):
+        raise click.UsageError("--scenes, --quick and --plot are for named scenes only")
+    if random:
+        kind: Literal["stress", "errors"] = "stress" if stress else "errors"
+        sys.exit(_run_random(kind, random, seed, accuracy, jobs, as_json=as_json))
+    names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
+    _run_named(names, plot, quick=quick, force=force, as_json=as_json)
+
+
+def _run_random(
+    kind: Literal["stress", "errors"],
+    count: int,
+    seed: int,
+    accuracy: float,
+    jobs: int,
+    *,
+    as_json: bool,
+) -> int:
+    """Exit code of a run over random scenes."""
+    from netdesign.benchmark.honesty import study_errors, write_errors
+    from netdesign.benchmark.stress import run_stress, write_stress
+    from netdesign.progress import show_progress
+    from netdesign.report.bench_table import print_errors, print_stress
+
+    with show_progress(count, "scenes", quiet=False) as on_done:
+        if kind == "stress":
+            attempts = run_stress(
+                count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done
+            )
+            document = write_stress(attempts, seed, accuracy)
+        else:
+            findings = study_errors(count, seed, accuracy, jobs=jobs, on_done=on_done)
+            document = write_errors(findings, seed, accuracy)
+    if as_json:
+        _print_json(document)
+    else:
+        from rich.console import Console
+
+        (print_stress if kind == "stress" else print_errors)(document, Console())
+    return 0 if document["pass"] else _EXIT_FAIL
+
+
+def _run_named(
+    names: tuple[str, ...],
+    plot: Path | None,
+    *,
+    quick: bool,
+    force: bool,
+    as_json: bool,
+) -> None:
+    from netdesign.benchmark.precision import write_bench
+    from netdesign.output import require_free, write_files
+
+    if plot is not None:
+        require_free([plot], overwrite=force)
+    rows = _measure(names, quick=quick)
+    if plot is not None:
+        from netdesign.report.bench_figure import draw_work_precision
+
+        write_files({plot: draw_work_precision(rows).encode()})
+        click.echo(f"wrote {plot}", err=True)
+    if as_json:
+        _print_json(write_bench(rows))
+    else:
+        from rich.console import Console
+
+        from netdesign.report.bench_table import print_rows
+
+        print_rows(rows, Console())
+
+
+def _measure(names: tuple[str, ...], *, quick: bool) -> Sequence[Row]:
+    from netdesign.benchmark.precision import (
+        FULL,
+        QUICK,
+        measure_steady,
+        measure_transient,
+    )
+    from netdesign.benchmark.scenes import HISTORY_SCENES, load_scenes
+    from netdesign.progress import show_progress
+
+    chosen = load_scenes(names)
+    rows: list[Row] = []
+    with show_progress(len(chosen), "scenes", quiet=False) as on_done:
+        for name, scene in chosen.items():
+            rows += measure_steady(name, scene, QUICK if quick else FULL)
+            if name in HISTORY_SCENES and not quick:
+                rows += measure_transient(name, scene, FULL)
+            if on_done is not None:
+                on_done(name)
+    return rows
+
+
+def _print_json(document: dict[str, Any]) -> None:
+    click.echo(json.dumps(document, indent=1, allow_nan=False))

@@ -1,0 +1,108 @@
+"""Defaults from ``netdesign.toml``: below the command line and the environment.
+
+Order of precedence: option > environment variable > file given by ``--config`` >
+``netdesign.toml`` beside the site file > default of the program. The file has one
+table for each command, with the long names of its options as keys::
+
+    [check]
+    accuracy = 0.005
+    standard = ["nf-p-95-304-style"]
+    html = false
+"""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+
+CONFIG_NAME = "netdesign.toml"
+ENVIRONMENT_PREFIX = "NETDESIGN"
+
+
+class ConfiguredCommand(click.Command):
+    """A command whose defaults may come from a file; it gains ``--config``."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.params.append(
+            click.Option(
+                ["--config"],
+                type=click.Path(path_type=Path, dir_okay=False),
+                expose_value=False,
+                help=f"File with defaults [{CONFIG_NAME} beside the input, if there].",
+            )
+        )
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the defaults first: which file holds them depends on the arguments."""
+        typed, _, _ = self.make_parser(ctx).parse_args(list(args))
+        path = _find_file(self, typed)
+        if path is not None:
+            ctx.default_map = _read_defaults(self, ctx, path)
+        return super().parse_args(ctx, args)
+
+
+def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
+    given = typed.get("config")
+    if isinstance(given, str):
+        return Path(given)
+    names = [
+        param.name for param in command.params if isinstance(param, click.Argument)
+    ]
+    beside = [
+        Path(value).parent / CONFIG_NAME
+        for name in names
+        if isinstance(value := typed.get(name or ""), str)
+    ]
+    return next((path for path in beside if path.is_file()), None)
+
+
+def _read_defaults(
+    command: click.Command, ctx: click.Context, path: Path
+) -> dict[str, Any]:
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise click.UsageError(f"{path}: cannot be read as TOML: {error}") from None
+    group = ctx.find_root().command
+    commands = group.list_commands(ctx) if isinstance(group, click.Group) else []
+    for name in tables:
+        if commands and name not in commands:
+            raise click.UsageError(f"{path}: [{name}]: {_suggest(name, commands)}")
+    table = tables.get(command.name or "", {})
+    if not isinstance(table, dict):
+        raise click.UsageError(f"{path}: {command.name}: must be a table of options")
+    options = _name_options(command)
+    defaults = {}
+    for key, value in table.items():
+        place = f"{path}: [{command.name}] {key}"
+        if key not in options:
+            raise click.UsageError(f"{place}: {_suggest(key, list(options))}")
+        try:
+            options[key].type_cast_value(ctx, value)
+        except click.BadParameter as error:
+            raise click.UsageError(f"{place} = {value!r}: {error.message}") from None
+        defaults[options[key].name or ""] = value
+    return defaults
+
+
+def _name_options(command: click.Command) -> dict[str, click.Option]:
+    """Options by their long names without dashes; the file cannot name another."""
+    return {
+        name.removeprefix("--"): param
+        for param in command.params
+        if isinstance(param, click.Option) and param.name != "config"
+        for name in param.opts
+        if name.startswith("--")
+    }
+
+
+def _suggest(word: str, known: list[str]) -> str:
+    near = difflib.get_close_matches(word, known, n=1)
+    guess = f"; did you mean {near[0]!r}?" if near else ""
+    return f"is not known{guess}"

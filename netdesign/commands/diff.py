@@ -1,0 +1,36 @@
+"""What changed between two studies."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("old", type=click.Path(path_type=Path))
+@click.argument("new", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="Print the changes as JSON.")
+def diff(old: Path, new: Path, *, as_json: bool) -> None:
+    """Show what changed from one study to another: verdicts, cases, inputs.
+
+    \b
+    netdesign diff rev-a/study.json rev-b/study.json
+    netdesign diff rev-a/study.json rev-b/study.json --json
+    """
+    from netdesign.report.difference import compare_studies, write_difference
+    from netdesign.study import load_study
+
+    changes = compare_studies(load_study(old), load_study(new))
+    if as_json:
+        click.echo(json.dumps(write_difference(changes), indent=1, allow_nan=False))
+        return
+    area = ""
+    for change in changes:
+        if change.area != area:
+            area = change.area
+            click.echo(area)
+        click.echo(f"  {change}")
+    if not changes:
+        click.echo("the two studies are the same but for time and command")

@@ -1,0 +1,49 @@
+"""``netdesign paper``: the source paper's study on one page."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+_NOT_PROVEN = 4
+
+
+@click.command()
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    help="Folder of the page, drawings and tables.",
+)
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+@click.option(
+    "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
+)
+@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
+    """Reproduce the source paper's study: histories, meshes, plateaus.
+
+    \b
+    netdesign paper --out paper
+    """
+    import sys
+
+    from netdesign.output import require_free, write_files
+    from netdesign.paper.cases import PaperSettings, list_cases
+    from netdesign.paper.study import run_study
+    from netdesign.progress import show_progress
+    from netdesign.report.paper_page import PAGE_FILE, render_paper
+
+    settings = PaperSettings()
+    require_free([out / PAGE_FILE], overwrite=force)
+    with show_progress(len(list_cases(settings)), "runs", quiet=quiet) as on_done:
+        study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
+    files = {out / name: content for name, content in render_paper(study).items()}
+    require_free(list(files), overwrite=force)
+    write_files(files)
+    if not quiet:
+        click.echo(f"wrote {out / PAGE_FILE} and {len(files) - 1} more", err=True)
+    if any(run.failure for run in study.runs.values()):
+        sys.exit(_NOT_PROVEN)

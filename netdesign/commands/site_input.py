@@ -1,0 +1,109 @@
+"""How commands read a site: its options, and the copy with the findings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from netdesign.errors import SiteDataError
+
+if TYPE_CHECKING:
+    from netdesign.site.cells import TextFormat
+    from netdesign.site.model import Site
+
+_DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
+_MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
+
+
+def site_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say how a site file is read."""
+    for option in (
+        click.option(
+            "--annotate",
+            type=click.Path(path_type=Path, dir_okay=False),
+            metavar="OUT.xlsx",
+            help="Write the workbook again with every finding at its cell.",
+        ),
+        click.option(
+            "--decimal-mark",
+            type=click.Choice(["comma", "point"]),
+            help="Of numbers stored as text [judged cell by cell].",
+        ),
+        click.option(
+            "--delimiter",
+            metavar="SIGN",
+            callback=_check_delimiter,
+            help="Between the columns of a csv file, or tab [found out].",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def _check_delimiter(
+    _context: click.Context, _option: click.Parameter, value: str | None
+) -> str:
+    sign = _DELIMITERS.get(value or "", value or "")
+    if len(sign) > 1 or sign in ('"', "\n", "\r"):
+        raise click.BadParameter("one sign such as ';', or tab")
+    return sign
+
+
+def open_site(
+    path: Path,
+    *,
+    delimiter: str = "",
+    decimal_mark: str | None = None,
+    annotate: Path | None = None,
+    overwrite: bool = False,
+) -> Site:
+    """Read a site; with ``annotate`` also write its copy, whether refused or not.
+
+    Raises
+    ------
+    SiteDataError
+        With all findings; the copy is written before.
+    OutputError
+        If the copy is in the way of another file.
+    """
+    from netdesign.output import require_free
+    from netdesign.site.cells import TextFormat
+    from netdesign.site.reader import read_site
+
+    text_format = TextFormat(
+        delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""]
+    )
+    if annotate is None:
+        return read_site(path, text_format)
+    if annotate.suffix.casefold() != ".xlsx":
+        raise click.UsageError(f"--annotate {annotate}: must end in .xlsx")
+    if annotate.absolute() == path.absolute():
+        raise click.UsageError("--annotate: must be another file than the site's")
+    require_free([annotate], overwrite=overwrite)
+    try:
+        site = read_site(path, text_format)
+    except SiteDataError as error:
+        _write_copy(path, annotate, text_format, error)
+        raise
+    _write_copy(path, annotate, text_format, site)
+    return site
+
+
+def _write_copy(
+    path: Path, copy: Path, text_format: TextFormat, read: Site | SiteDataError
+) -> None:
+    from netdesign.output import write_files
+    from netdesign.site.annotate import annotate_workbook
+    from netdesign.site.diagnostics import Finding
+
+    findings = [one for one in read.findings if isinstance(one, Finding)]
+    try:
+        content = annotate_workbook(path, findings, text_format)
+    except SiteDataError as error:
+        click.echo(f"no annotated copy: {error}", err=True)
+        return
+    write_files({copy: content})
+    click.echo(f"wrote {copy}", err=True)

@@ -1,0 +1,41 @@
+"""The folder that ``netdesign solve --out`` writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solve import Settings, method_of
+from netdesign.output import require_free, write_files
+from netdesign.report.solution_page import (
+    Solved,
+    list_solution_files,
+    render_solution,
+)
+from netdesign.snow.wall import Wall
+
+
+def require_free_folder(
+    folder: Path, scene: Scene, settings: Settings, *, overwrite: bool
+) -> None:
+    """Refuse before solving if any of the outputs exists.
+
+    Raises
+    ------
+    OutputError
+        Naming every path that is in the way.
+    """
+    is_wall = isinstance(scene.net, Wall)
+    names = list_solution_files(method_of(settings), is_wall=is_wall)
+    require_free([folder / name for name in names], overwrite=overwrite)
+
+
+def write_solution_folder(
+    folder: Path, solution: Solved, document: dict[str, Any], scene_file: str
+) -> list[Path]:
+    """Write page, drawings, tables and document; their paths."""
+    contents = render_solution(solution, document, scene_file)
+    files = {folder / name: content for name, content in contents.items()}
+    write_files(files)
+    return list(files)

@@ -1,0 +1,54 @@
+"""How the curve that a round gives moves with the curve it was given.
+
+Theory: coupling/THEORY.md, eq. (K0).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.funicular import Funicular, linearise_curve
+from netdesign.snow.contact import net_components
+from netdesign.snow.flow import FlowState, linearise_reaction
+from netdesign.snow.kernel import PlacedMesh, turn_normals
+from netdesign.snow.law import FlowLaw
+
+Floats = NDArray[np.float64]
+
+
+def linearise_round(
+    law: FlowLaw,
+    mesh: PlacedMesh,
+    state: FlowState,
+    cable: Funicular,
+    forces: Floats,
+    lengths: Floats,
+    stiffness: float,
+) -> Floats:
+    """Derivative of a round, of which only the turning of the net is taken.
+
+    Parameters
+    ----------
+    law : FlowLaw
+        Creep, ground and friction.
+    mesh, state : PlacedMesh, FlowState
+        Snow against the curve that was given.
+    cable : Funicular
+        The net under the forces found.
+    forces, lengths, stiffness
+        As given to ``solve_funicular``; the forces of a freeboard are its last.
+
+    Returns
+    -------
+    ndarray, shape (2, n_net, 2, n_net)
+        Component and node of the curve found; of the curve given.
+    """
+    count = mesh.template.net.size
+    _, tangential = net_components(mesh)
+    speed = state.unknowns[tangential]
+    # velocity along the net turns into one out of the snow: v.n = 0 in a turned n
+    across = -speed[:, None, None] * turn_normals(mesh)[1:]
+    loads = np.tensordot(linearise_reaction(law, mesh, state), across, 1)
+    curve = linearise_curve(cable, forces, lengths, stiffness)
+    return np.tensordot(curve[:, :count, :, :count], loads, 2)

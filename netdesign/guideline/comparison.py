@@ -1,0 +1,166 @@
+"""Guideline's member forces for a net row: load, end pulls, support."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.errors import ModelError
+from netdesign.guideline.load_model import (
+    LoadModel,
+    SnowLoad,
+    compute_altitude_factor,
+    compute_snow_load,
+)
+from netdesign.guideline.net_pull import NetPull, compute_net_pull
+from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_tables
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import SupportLayout, place_support
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NetGeometry:
+    """What the guideline needs of a net row; SI, angles in radians."""
+
+    slope_angle: float
+    snow_thickness: float
+    net_height: float
+    inclination: float
+    stiffness: float
+    slack: float
+    layout: SupportLayout
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuidelineResult:
+    """One load case of the guideline.
+
+    ``load``, ``pull`` and ``anchors`` are None from where the closed forms or the
+    support do not reach; ``reason`` says why. Height in m, density in kg/m3; forces
+    in N for each metre of width, those of anchors for each support.
+    """
+
+    name: str
+    density: float
+    height_vertical: float
+    load: SnowLoad | None = None
+    pull: NetPull | None = None
+    anchors: AnchorForces | None = None
+    reason: str = ""
+
+
+def find_glide_factor(
+    ground: GroundLaw, snow_thickness: float, largest: float
+) -> float:
+    """Glide factor N [-] of a ground; ``largest`` [-] for a free one.
+
+    A slip length [m] goes back through the stored table by which N gives a slip
+    length; beyond the table its end is taken.
+    """
+    if ground.kind == "free":
+        return largest
+    if ground.kind == "no-slip":
+        return 1.0
+    table = load_glide_tables()[DEFAULT_CREEP_LAW]
+    ratio = ground.slip_length / snow_thickness
+    ratios, factors = (0.0, *table.slip_ratios), (1.0, *table.glide_factors)
+    return float(np.interp(ratio, ratios, factors))
+
+
+def compare_with_guideline(
+    model: LoadModel,
+    net: NetGeometry,
+    *,
+    density: float,
+    altitude: float | None,
+    glide_factor: float,
+) -> tuple[GuidelineResult, ...]:
+    """Solve the same snow as the governing case, then load cases 1 and 2.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Of the net row, at the inclination of the governing case.
+    density : float
+        Of the governing case [kg/m3].
+    altitude : float or None
+        Of the row [m]; None is taken as below the base altitude.
+    glide_factor : float
+        N [-].
+
+    Returns
+    -------
+    tuple of GuidelineResult
+        Of each load case, in this order.
+    """
+    height = net.snow_thickness / math.cos(net.slope_angle)
+    factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
+    share = model.case_2_height
+    cases = (
+        ("same snow", density, height),
+        ("load case 1", factor * model.density, height),
+        ("load case 2", model.case_2_density, share * height),
+    )
+    results = []
+    for name, rho, h in cases:
+        try:
+            result = _solve_case(model, net, name, rho, h, glide_factor)
+        except ModelError as error:  # outside the closed forms
+            result = GuidelineResult(
+                name=name, density=rho, height_vertical=h, reason=str(error)
+            )
+        results.append(result)
+    return tuple(results)
+
+
+def _solve_case(
+    model: LoadModel,
+    net: NetGeometry,
+    name: str,
+    density: float,
+    height: float,
+    glide_factor: float,
+) -> GuidelineResult:
+    load = compute_snow_load(
+        model,
+        density=density,
+        height_vertical=height,
+        slope_angle=net.slope_angle,
+        glide_factor=glide_factor,
+        net_height=net.net_height,
+        inclination=net.inclination,
+    )
+    filled = height * math.cos(net.slope_angle) / net.net_height
+    pull = compute_net_pull(
+        load.resultant,
+        inclination=net.inclination,
+        chord=net.net_height / math.cos(net.inclination),
+        loaded_share=min(1.0, filled),
+        stiffness=net.stiffness,
+        slack=net.slack,
+    )
+    head = (net.net_height * math.tan(net.inclination), net.net_height)
+    anchors = compute_anchor_forces(
+        place_support(net.layout, head),
+        foot_pull_per_m=pull.foot,
+        head_pull_per_m=pull.head,
+        post_spacing=net.layout.post_spacing,
+    )
+    if isinstance(anchors, FailedSupport):
+        reason, found = anchors.reason, None
+    else:
+        reason, found = "", anchors
+    return GuidelineResult(
+        name=name,
+        density=density,
+        height_vertical=height,
+        load=load,
+        pull=pull,
+        anchors=found,
+        reason=reason,
+    )

@@ -1,0 +1,203 @@
+"""Snow pressure of a guideline: closed forms with numbers read from a profile."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.checks.loader import Standard
+from netdesign.errors import StandardError
+from netdesign.guards import require_positive, require_within
+from netdesign.structure.row_position import EndEffectRule
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadModel:
+    """Numbers of the load model; SI but for the creep polynomial in t/m3.
+
+    Attributes
+    ----------
+    gravity : float
+        Of the guideline [m/s2].
+    creep : tuple of float, shape (4,)
+        Coefficients of K / sin 2 psi in powers 0 to 3 of the density in t/m3.
+    density : float
+        Mean density up to the base altitude [kg/m3].
+    altitude_base, altitude_top : float
+        Between them the altitude factor grows [m].
+    altitude_rate : float
+        Growth of the altitude factor for each metre [1/m].
+    case_2_height : float
+        Snow height of load case 2 over that of load case 1 [-].
+    case_2_density : float
+        [kg/m3].
+    flexible : float
+        f_s on the pressure for nets [-].
+    normal : float
+        a in S'_Q = S'_N a / (N tan psi) [-].
+    """
+
+    gravity: float
+    creep: tuple[float, float, float, float]
+    density: float
+    altitude_base: float
+    altitude_top: float
+    altitude_rate: float
+    case_2_height: float
+    case_2_density: float
+    flexible: float
+    normal: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SnowLoad:
+    """Load on a net for each metre of width, and its parts.
+
+    Attributes
+    ----------
+    creep_factor, glide_factor : float
+        K, N [-].
+    rigid : float
+        S'_N on a rigid wall normal to the slope [N/m].
+    parallel, normal : float
+        S'_N and S'_Q on the net, the latter towards the ground [N/m].
+    prism : float
+        Weight G' of the snow between the net and the slope normal [N/m].
+    resultant : tuple of float, shape (2,)
+        On the net, X downslope and Y out of the ground [N/m].
+    """
+
+    creep_factor: float
+    glide_factor: float
+    rigid: float
+    parallel: float
+    normal: float
+    prism: float
+    resultant: Point
+
+
+def read_load_model(standard: Standard) -> LoadModel:
+    """Load model of a profile.
+
+    Raises
+    ------
+    StandardError
+        If the profile has none.
+    """
+
+    def read(name: str) -> float:
+        value = standard.find(f"snow.{name}")
+        if value is None:
+            raise StandardError(f"profile {standard.id}: has no value snow.{name}")
+        return value.value
+
+    return LoadModel(
+        gravity=read("gravity"),
+        creep=(
+            read("creep.constant"),
+            read("creep.linear"),
+            read("creep.square"),
+            read("creep.cube"),
+        ),
+        density=1e3 * read("density"),
+        altitude_base=read("altitude.base"),
+        altitude_top=read("altitude.top"),
+        altitude_rate=read("altitude.rate") / 100.0,
+        case_2_height=read("case_2.height"),
+        case_2_density=1e3 * read("case_2.density"),
+        flexible=read("flexible"),
+        normal=read("normal"),
+    )
+
+
+def read_end_effect(standard: Standard) -> EndEffectRule | None:
+    """End effect of a profile; None if it has none."""
+    if standard.find("end.constant") is None:
+        return None
+    fields = EndEffectRule.__dataclass_fields__
+    values = {name: standard.find(f"end.{name}") for name in fields}
+    return EndEffectRule(**{n: v.value for n, v in values.items() if v is not None})
+
+
+def compute_creep_factor(model: LoadModel, density: float, slope_angle: float) -> float:
+    """K of a density [kg/m3] and a slope angle [rad]; guideline/THEORY.md, (G2)."""
+    require_within("density", density, 100.0, 700.0, "kg/m3")
+    require_within("slope angle", slope_angle, 0.0, 0.5 * math.pi, "rad")
+    rho = density / 1e3
+    c0, c1, c2, c3 = model.creep
+    return (c0 + rho * (c1 + rho * (c2 + rho * c3))) * math.sin(2.0 * slope_angle)
+
+
+def compute_altitude_factor(model: LoadModel, altitude: float) -> float:
+    """Factor f_c on the density at an altitude [m]; guideline/THEORY.md, (G3)."""
+    require_within("altitude", altitude, 0.0, 9000.0, "m")
+    top = min(altitude, model.altitude_top)
+    return 1.0 + model.altitude_rate * max(top - model.altitude_base, 0.0)
+
+
+def compute_snow_load(
+    model: LoadModel,
+    *,
+    density: float,
+    height_vertical: float,
+    slope_angle: float,
+    glide_factor: float,
+    net_height: float,
+    inclination: float,
+) -> SnowLoad:
+    """Load of the guideline on a net; guideline/THEORY.md, eqs. (G1) to (G6).
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    density : float
+        Mean density of the snow [kg/m3].
+    height_vertical : float
+        H [m].
+    slope_angle, inclination : float
+        psi, and of the net from the slope normal, downslope positive [rad].
+    glide_factor : float
+        N [-].
+    net_height : float
+        D_K, normal to the slope [m].
+
+    Returns
+    -------
+    SnowLoad
+        For each metre of width [N/m].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+
+    Verified by
+    -----------
+    checks/test_hand_calculations.py, guideline/test_load_model.py
+    """
+    require_positive("snow height", height_vertical, "m")
+    require_positive("net height", net_height, "m")
+    require_within("slope angle", slope_angle, 0.05, 1.5, "rad")
+    require_within("glide factor", glide_factor, 1.0, 20.0)
+    creep = compute_creep_factor(model, density, slope_angle)
+    weight = density * model.gravity
+    rigid = 0.5 * weight * height_vertical**2 * creep * glide_factor
+    parallel = model.flexible * rigid
+    normal = parallel * model.normal / (glide_factor * math.tan(slope_angle))
+    filled = min(net_height, height_vertical * math.cos(slope_angle))
+    prism = 0.5 * weight * filled**2 * math.tan(max(inclination, 0.0))
+    return SnowLoad(
+        creep_factor=creep,
+        glide_factor=glide_factor,
+        rigid=rigid,
+        parallel=parallel,
+        normal=normal,
+        prism=prism,
+        resultant=(
+            parallel + prism * math.sin(slope_angle),
+            -normal - prism * math.cos(slope_angle),
+        ),
+    )

@@ -1,0 +1,39 @@
+"""What every page is made with: templates that escape, styles inside the page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from netdesign.resources import find_resource
+
+if TYPE_CHECKING:
+    import jinja2
+    from markupsafe import Markup
+
+
+def build_environment() -> jinja2.Environment:
+    """Templates in which all text is escaped and a missing value is an error."""
+    import jinja2
+
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(find_resource("templates")),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def load_style(*names: str) -> Markup:
+    """Style sheets of the templates, one after the other."""
+    from markupsafe import Markup
+
+    folder = find_resource("templates")
+    return Markup("\n".join((folder / n).read_text(encoding="utf-8") for n in names))
+
+
+def mark_safe(svg: str) -> Markup:
+    """Mark a drawing of ours as HTML; nothing that somebody typed may come here."""
+    from markupsafe import Markup
+
+    return Markup(svg)

@@ -1,0 +1,1 @@
+"""Characteristic resistances from dimensions: pure functions and their data."""

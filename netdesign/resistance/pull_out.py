@@ -1,0 +1,83 @@
+"""Pull-out of a grouted anchor: from tests, or from the bond of grout and ground."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.guards import require_count, require_positive, require_within
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PullOutTests:
+    """Pull-out tests on the site.
+
+    Attributes
+    ----------
+    count : int
+        Number of tests.
+    least, mean : float
+        Least and mean of the tested resistances [N].
+    """
+
+    count: int
+    least: float
+    mean: float
+
+    def __post_init__(self) -> None:
+        """Refuse what no series of tests can give."""
+        require_count("number of tests", self.count)
+        require_positive("least tested resistance", self.least, "N")
+        require_within("least tested resistance", self.least, 0.0, self.mean, "N")
+
+
+def compute_pull_out_from_tests(
+    tests: PullOutTests, *, correlation_mean: float, correlation_least: float
+) -> float:
+    """Characteristic pull-out resistance from tests; resistance/THEORY.md, (R1).
+
+    Parameters
+    ----------
+    tests : PullOutTests
+        What was measured [N].
+    correlation_mean, correlation_least : float
+        Factors on mean and least, by the number of tests [-].
+
+    Returns
+    -------
+    float
+        min(mean / xi_mean, least / xi_least) [N].
+    """
+    require_positive("correlation factor", correlation_mean)
+    require_positive("correlation factor", correlation_least)
+    return min(tests.mean / correlation_mean, tests.least / correlation_least)
+
+
+def compute_pull_out_from_bond(
+    *,
+    drill_diameter: float,
+    bond_length: float,
+    bond_stress: float,
+    enlargement: float = 1.0,
+) -> float:
+    """Pull-out resistance of a grouted length; resistance/THEORY.md, eq. (R2).
+
+    Parameters
+    ----------
+    drill_diameter, bond_length : float
+        Of the hole, and along it [m].
+    bond_stress : float
+        Ultimate, between grout and ground [Pa].
+    enlargement : float
+        Grouted over drilled diameter [-]; 1 for grout under gravity.
+
+    Returns
+    -------
+    float
+        pi d L tau [N]; ultimate: correlation and partial factors come on top.
+    """
+    require_within("drill diameter", drill_diameter, 0.02, 0.5, "m")
+    require_within("bond length", bond_length, 0.5, 30.0, "m")
+    require_positive("bond stress", bond_stress, "Pa")
+    require_within("enlargement", enlargement, 1.0, 2.0)
+    return math.pi * drill_diameter * enlargement * bond_length * bond_stress

@@ -1,0 +1,1 @@
+"""One net row against one profile: effects, intervals, what would change it."""

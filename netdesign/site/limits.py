@@ -1,0 +1,92 @@
+"""How large a site workbook may be: far above any real one, far below a bomb."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Iterable
+from io import BytesIO
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells import Cell, name_column
+from netdesign.site.diagnostics import refuse_file
+
+# A site workbook has tens of kilobytes; whatever is far larger is not one.
+MAX_FILE_BYTES = 8 * 2**20
+MAX_EXPANDED_BYTES = 32 * 2**20
+MAX_ENTRIES = 500
+MAX_RATIO = 200.0
+MAX_ROWS = 2000
+MAX_COLUMNS = 200
+
+# What zipfile, the XML parsers and openpyxl raise on damaged or hostile files.
+DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+_RATIO_COUNTS_ABOVE = 2**20  # small parts may be as regular as they like
+_CHUNK = 2**16
+
+
+def guard_archive(file: str, content: bytes) -> None:
+    """Refuse archives that would expand beyond reason, before any XML is parsed."""
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        entries = archive.infolist()
+        if len(entries) > MAX_ENTRIES:
+            rule = f"is an archive of {len(entries)} parts"
+            raise refuse_file(file, rule, f"at most {MAX_ENTRIES} parts")
+        if len({entry.filename for entry in entries}) < len(entries):
+            raise refuse_file(file, "holds two parts of the same name", "each once")
+        if sum(entry.file_size for entry in entries) > MAX_EXPANDED_BYTES:
+            raise _refuse_expansion(file)
+        remaining = MAX_EXPANDED_BYTES
+        for entry in entries:
+            remaining -= _expand(archive, entry, remaining, file)
+
+
+def _expand(
+    archive: zipfile.ZipFile, entry: zipfile.ZipInfo, allowed: int, file: str
+) -> int:
+    """Count the bytes that a part really expands to; its checksum is tested too."""
+    size = 0
+    with archive.open(entry) as part:
+        while chunk := part.read(_CHUNK):
+            size += len(chunk)
+            if size > allowed:
+                raise _refuse_expansion(file)
+    if size > _RATIO_COUNTS_ABOVE and size > MAX_RATIO * entry.compress_size:
+        raise _refuse_expansion(file)
+    return size
+
+
+def _refuse_expansion(file: str) -> SiteDataError:
+    return refuse_file(
+        file,
+        "expands beyond what a site workbook needs",
+        f"at most {MAX_EXPANDED_BYTES / 2**20:g} MiB expanded, and no part packed "
+        f"more than {MAX_RATIO:g} to 1",
+    )
+
+
+def require_rows(file: str, sheet: str, last_row: int) -> None:
+    """Refuse a sheet that is filled far down."""
+    if last_row > MAX_ROWS:
+        rule = f"has cells filled down to row {last_row}"
+        raise refuse_file(file, rule, f"at most {MAX_ROWS} rows", sheet)
+
+
+def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:
+    """Refuse a sheet that is filled far to the right."""
+    if any(cell.column > MAX_COLUMNS for cell in cells):
+        rule = f"has cells filled beyond column {name_column(MAX_COLUMNS)}"
+        raise refuse_file(file, rule, f"at most {MAX_COLUMNS} columns", sheet)

@@ -1,0 +1,203 @@
+"""From the lines of sheet Snow to the layers of each net row."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from netdesign.site.diagnostics import Finding, add_nearest
+from netdesign.site.model import InputEcho, NetRow
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import Table, read_rows
+from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
+from netdesign.snow.snowpack import THINNEST_LAYER, Layer
+
+LayersByRow = Mapping[str, tuple[Row, ...]]  # lines from the ground up, by net row
+
+# Layers may miss the thickness of their net row by rounding to the centimetre.
+_SUM_TOLERANCE = 0.0101  # [m]
+
+
+def read_layers(table: Table | None, findings: list[Finding]) -> LayersByRow:
+    """Lines of sheet Snow by net row, from the ground up; faults go to ``findings``."""
+    by_row: dict[str, list[Row]] = {}
+    for row in read_rows(table, findings) if table else ():
+        if row["row"].word and row["layer"].state == "given":
+            by_row.setdefault(row["row"].word, []).append(row)
+    for lines in by_row.values():
+        lines.sort(key=lambda line: line["layer"].number)
+        _check_numbers(lines, findings)
+        _check_temperatures(lines, findings)
+    return {name: tuple(lines) for name, lines in by_row.items()}
+
+
+def refuse_unknown_rows(
+    snow: LayersByRow, net_rows: Mapping[str, Row], findings: list[Finding]
+) -> None:
+    """Refuse layers of a net row that sheet Nets does not have."""
+    places = {name: row["id"].place for name, row in net_rows.items()}
+    for name, lines in snow.items():
+        if name not in net_rows:
+            accepted = add_nearest("an id of sheet Nets", name, net_rows, places)
+            refuse(lines[0]["row"], "is no id of sheet Nets", accepted, findings)
+
+
+def build_layers(
+    lines: tuple[Row, ...], slope_angle: Reading, findings: list[Finding]
+) -> tuple[Layer, ...]:
+    """Layers of one net row, from the ground up; none if a line is faulty.
+
+    Parameters
+    ----------
+    lines : tuple of Row
+        As ``read_layers`` gives them.
+    slope_angle : Reading
+        Turns vertical heights into thicknesses normal to the slope.
+    findings : list of Finding
+        Appended to.
+    """
+    layers = []
+    for line in lines:
+        thickness = _understand_thickness(line, slope_angle, findings)
+        density, temperature = line["density"], line["temperature"]
+        if thickness is None or "faulty" in (density.state, temperature.state):
+            continue
+        layer = Layer(
+            thickness=thickness,
+            density=density.si,
+            temperature=temperature.si if temperature.state == "given" else None,
+        )
+        layers.append(layer)
+    if len(layers) < len(lines):
+        return ()
+    total = sum(layer.thickness for layer in layers)
+    for line, layer in zip(lines, layers, strict=True):
+        if layer.thickness < THINNEST_LAYER * total:
+            rule = f"is below {THINNEST_LAYER:.0%} of the snowpack of {total:g} m"
+            refuse(_size_of(line), rule, "layers put together", findings)
+    return tuple(layers)
+
+
+def settle_thickness(
+    layers: tuple[Layer, ...],
+    given: Reading,
+    slope_angle: Reading,
+    findings: list[Finding],
+) -> float | None:
+    """Snow thickness of layered snow [m]: the sum, which has to agree with sheet Nets.
+
+    Parameters
+    ----------
+    layers : tuple of Layer
+        Of the net row.
+    given : Reading
+        Thickness or vertical height in sheet Nets; may be blank.
+    slope_angle : Reading
+        Of the net row.
+    findings : list of Finding
+        Appended to.
+    """
+    if not layers:  # a line of sheet Snow is faulty: a finding already
+        return None
+    total = sum(layer.thickness for layer in layers)
+    if given.state != "given":
+        return total
+    is_vertical = given.field.key == "snow_height"
+    factor = math.cos(slope_angle.si) if is_vertical else 1.0
+    if abs(total - given.si * factor) > _SUM_TOLERANCE:
+        rule = f"differs from the sum of the layers in sheet Snow, {total / factor:.3g}"
+        refuse(given, f"{rule} m", "the sum, or an empty cell", findings)
+        return None
+    return total
+
+
+def check_densities(
+    rows: tuple[NetRow, ...],
+    snow: LayersByRow,
+    low: float,
+    high: float,
+    findings: list[Finding],
+) -> None:
+    """Refuse layers whose mean lies outside the range, or that it makes too dense.
+
+    Parameters
+    ----------
+    rows : tuple of NetRow
+        Built rows.
+    snow : mapping of str to tuple of Row
+        Lines of sheet Snow.
+    low, high : float
+        Range of density [kg/m3].
+    findings : list of Finding
+        Appended to.
+    """
+    for row in rows:
+        if not row.layers:
+            continue
+        place = snow[row.id][0]["density"]
+        mean = row.mean_density
+        densest = max(layer.density for layer in row.layers) * high / mean
+        if not low <= mean <= high:
+            rule = f"begins layers of mean density {mean:.4g} kg/m3, outside the range"
+            accepted = f"a mean of {low:g} to {high:g} kg/m3, or a wider range"
+            refuse(place, rule, accepted, findings)
+        elif densest > DENSEST_SNOW * ICE_DENSITY:
+            rule = f"begins layers that the range makes as dense as {densest:.4g} kg/m3"
+            accepted = f"at most {DENSEST_SNOW * ICE_DENSITY:.0f} kg/m3"
+            refuse(place, rule, accepted, findings)
+
+
+def echo_layers(lines: tuple[Row, ...]) -> tuple[InputEcho, ...]:
+    """Every input of the layers of a net row."""
+    echoes = []
+    for line in lines:
+        number = f"{line['layer'].number:g}"
+        for key in ("thickness", "height", "density", "temperature"):
+            reading = line[key]
+            if reading.state != "given":
+                continue
+            label = f"layer {number}, {reading.field.label}"
+            named = replace(reading, field=replace(reading.field, label=label))
+            echoes.append(named.echo())
+    return tuple(echoes)
+
+
+def _size_of(line: Row) -> Reading:
+    return line["thickness" if line["thickness"].state == "given" else "height"]
+
+
+def _understand_thickness(
+    line: Row, slope_angle: Reading, findings: list[Finding]
+) -> float | None:
+    thickness, height = line["thickness"], line["height"]
+    if "faulty" in (thickness.state, height.state, slope_angle.state):
+        return None
+    if thickness.state == height.state:
+        is_both = thickness.state == "given"
+        place = height if is_both or thickness.cell is None else thickness
+        rule = "is given beside the thickness" if is_both else "is empty"
+        refuse(place, rule, "one of thickness and vertical height", findings)
+        return None
+    if thickness.state == "given":
+        return thickness.si
+    return height.si * math.cos(slope_angle.si)
+
+
+def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:
+    """Refuse gaps and doubles: 1 lies on the ground, then 2, and so on."""
+    for expected, line in enumerate(lines, start=1):
+        if line["layer"].number != expected:
+            rule = f"is not layer {expected} of net row {line['row'].word}"
+            refuse(line["layer"], rule, "1 on the ground, 2, 3 ... once each", findings)
+            return
+
+
+def _check_temperatures(lines: list[Row], findings: list[Finding]) -> None:
+    """Refuse temperatures of some layers of a row only: the others would be unknown."""
+    states = {line["temperature"].state for line in lines}
+    if "given" not in states or "blank" not in states:
+        return
+    empty = next(line for line in lines if line["temperature"].state == "blank")
+    rule = "is empty beside layers with a temperature"
+    refuse(empty["temperature"], rule, "a temperature for all layers or none", findings)

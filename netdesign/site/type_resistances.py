@@ -1,0 +1,238 @@
+"""Resistances that a type sheet gives by dimensions instead of by one number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from netdesign.errors import ModelError
+from netdesign.resistance.catalogue import (
+    find_bond_stress,
+    find_imperfection,
+    find_rope_factor,
+    find_termination,
+    load_catalogue,
+)
+from netdesign.resistance.post import (
+    compute_bearing_resistance,
+    compute_buckling_resistance,
+)
+from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
+from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
+from netdesign.site.diagnostics import Finding
+from netdesign.site.readings import Row, refuse
+from netdesign.units import kilonewton_from_newton
+
+_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
+DERIVED = "from dimensions: "  # before the text of a resistance that was computed
+TEST_COLUMNS = ("test_count", "test_least", "test_mean")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Rule:
+    """A resistance, the columns that it follows from, and how."""
+
+    key: str
+    needed: tuple[str, ...]
+    optional: tuple[str, ...]
+    compute: Callable[[Row], tuple[float, str]]  # [N], and in words
+
+
+def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
+    """Line of a type sheet with the resistances that its dimensions give.
+
+    Parameters
+    ----------
+    row : Row
+        As read.
+    findings : list of Finding
+        Appended to: a number beside its dimensions, dimensions without the others.
+
+    Returns
+    -------
+    Row
+        A computed resistance stands in the place of the empty cell; its text says
+        how it came about, its cell is that of the first dimension.
+    """
+    for rule in _RULES:
+        if rule.key in row:
+            row = _apply(rule, row, findings)
+    return row
+
+
+def find_tests(row: Row) -> PullOutTests | None:
+    """Pull-out tests of an anchor type; None where none, or refused ones, are given."""
+    count, least, mean = (row[key] for key in TEST_COLUMNS)
+    if any(reading.state != "given" for reading in (count, least, mean)):
+        return None
+    if least.si > mean.si:  # ``check_tests`` has refused it
+        return None
+    return PullOutTests(count=int(count.number), least=least.si, mean=mean.si)
+
+
+def check_tests(row: Row, findings: list[Finding]) -> None:
+    """Refuse tests that are incomplete, contradictory or beside another value."""
+    if "test_count" not in row or not _is_ready(row, TEST_COLUMNS, findings):
+        return
+    count = row["test_count"]
+    if row["pull_out"].state == "given":
+        rule = f"is given beside the pull-out resistance in {row['pull_out'].place}"
+        refuse(count, rule, "one of the two, the other empty", findings)
+    if row["test_least"].si > row["test_mean"].si:
+        rule = f"exceeds the mean in {row['test_mean'].place}"
+        refuse(row["test_least"], rule, "at most the mean", findings)
+
+
+def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
+    if not _is_ready(row, rule.needed, findings):
+        return row
+    first = row[rule.needed[0]]
+    if any(row[key].state == "faulty" for key in rule.optional):
+        return row
+    if row[rule.key].state == "given":
+        place = row[rule.key].place
+        refuse(
+            first,
+            f"is given beside the {row[rule.key].field.label} in {place}",
+            "one of the two, the other empty",
+            findings,
+        )
+        return row
+    try:
+        value, text = rule.compute(row)
+    except ModelError as error:
+        refuse(first, "gives no resistance", str(error), findings)
+        return row
+    computed = replace(
+        row[rule.key],
+        state="given",
+        value=kilonewton_from_newton(value),
+        text=f"{DERIVED}{text}",
+        cell=first.cell,
+    )
+    return {**row, rule.key: computed}
+
+
+def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
+    """All columns are given; some without the others are a finding."""
+    present = [row[key] for key in keys if key in row]
+    given = [reading for reading in present if reading.state == "given"]
+    if any(reading.state == "faulty" for reading in present) or not given:
+        return False
+    lacking = [key for key in keys if key not in row or row[key].state == "blank"]
+    if lacking:
+        labels = ", ".join(
+            row[key].field.label if key in row else key.replace("_", " ")
+            for key in lacking
+        )
+        refuse(given[0], f"needs more beside it: {labels}", "all or none", findings)
+    return not lacking
+
+
+def _word(row: Row, key: str, default: str) -> str:
+    return row[key].word or default
+
+
+def _bar(row: Row) -> tuple[float, str]:
+    diameter, strength = row["bar_diameter"], row["bar_strength"]
+    value = compute_bar_resistance(diameter.si, strength.si)
+    text = f"π/4 · ({diameter.number:g} mm)² · {strength.number:g} MPa"
+    return value, text
+
+
+def _bond(row: Row) -> tuple[float, str]:
+    ground, grouting = row["ground"].word, _word(row, "grouting", _DEFAULT_GROUTING)
+    bond = find_bond_stress(ground, grouting)
+    diameter, length = row["drill_diameter"], row["bond_length"]
+    value = compute_pull_out_from_bond(
+        drill_diameter=diameter.si,
+        bond_length=length.si,
+        bond_stress=1e3 * bond.value,
+    )
+    text = (
+        f"π · {diameter.number:g} mm · {length.number:g} m · {bond.value:g} kPa "
+        f"({ground}, grouting {grouting}; {bond.status}: {bond.source})"
+    )
+    return value, text
+
+
+def _rope(row: Row) -> tuple[float, str]:
+    construction = row["construction"].word
+    kind = _word(row, "termination", _DEFAULT_TERMINATION)
+    factor, loss = find_rope_factor(construction, "K"), find_termination(kind)
+    diameter, grade = row["rope_diameter"], row["grade"]
+    value = compute_rope_resistance(
+        diameter=diameter.si,
+        grade=grade.si,
+        breaking_factor=factor.value,
+        termination=loss.value,
+    )
+    text = (
+        f"{factor.value:g} · ({diameter.number:g} mm)² · {grade.number:g} MPa · "
+        f"{loss.value:g} ({construction}; {factor.status}: {factor.source} {kind}; "
+        f"{loss.status}: {loss.source})"
+    )
+    return value, text
+
+
+def _buckling(row: Row) -> tuple[float, str]:
+    curve = _word(row, "buckling_curve", _DEFAULT_CURVE)
+    imperfection = find_imperfection(curve)
+    found = compute_buckling_resistance(
+        area=row["area"].si,
+        second_moment=row["second_moment"].si,
+        length=row["buckling_length"].si,
+        yield_strength=row["yield_strength"].si,
+        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+        imperfection=imperfection.value,
+    )
+    text = (
+        f"{found.reduction:.4g} · {row['area'].number:g} cm² · "
+        f"{row['yield_strength'].number:g} MPa (slenderness {found.slenderness:.3g}, "
+        f"curve {curve}; {imperfection.status}: {imperfection.source})"
+    )
+    return found.value, text
+
+
+def _bearing(row: Row) -> tuple[float, str]:
+    length, width, stress = (
+        row[key] for key in ("plate_length", "plate_width", "bearing_stress")
+    )
+    value = compute_bearing_resistance(
+        plate_length=length.si, plate_width=width.si, bearing_stress=stress.si
+    )
+    return value, f"{length.number:g} m · {width.number:g} m · {stress.number:g} kPa"
+
+
+_RULES: tuple[_Rule, ...] = (
+    _Rule(
+        key="tendon",
+        needed=("bar_diameter", "bar_strength"),
+        optional=(),
+        compute=_bar,
+    ),
+    _Rule(
+        key="pull_out",
+        needed=("drill_diameter", "bond_length", "ground"),
+        optional=("grouting",),
+        compute=_bond,
+    ),
+    _Rule(
+        key="rope",
+        needed=("rope_diameter", "construction", "grade"),
+        optional=("termination",),
+        compute=_rope,
+    ),
+    _Rule(
+        key="compression",
+        needed=("area", "second_moment", "buckling_length", "yield_strength"),
+        optional=("buckling_curve",),
+        compute=_buckling,
+    ),
+    _Rule(
+        key="bearing",
+        needed=("plate_length", "plate_width", "bearing_stress"),
+        optional=(),
+        compute=_bearing,
+    ),
+)

@@ -1,0 +1,171 @@
+"""Units of a workbook: their spellings, and what turns them into a first unit.
+
+A table and no unit library: it has to refuse what the trade writes with two
+meanings (``grad``, ``t``), and an engineer can read all of it at a glance.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Callable
+
+from netdesign.units import (
+    degree_from_radian,
+    fourth_meter_from_fourth_centimeter,
+    kelvin_from_celsius,
+    meter_from_millimeter,
+    newton_from_kilonewton,
+    pascal_from_kilopascal,
+    pascal_from_megapascal,
+    radian_from_degree,
+    radian_from_percent,
+    second_from_day,
+    square_meter_from_square_centimeter,
+)
+
+# Units that a column may be given in; the first is that of bounds and reports.
+LENGTHS = ("m", "cm", "mm")
+DIAMETERS = ("mm", "cm", "m")
+AREAS = ("cm2", "mm2")
+SECOND_MOMENTS = ("cm4", "mm4")
+STRENGTHS = ("MPa",)
+GROUND_STRESSES = ("kPa", "MPa")
+FORCES = ("kN", "N", "MN")
+FORCES_PER_LENGTH = ("kN/m", "N/m", "MN/m")
+ANGLES = ("deg", "rad", "gon")
+SLOPES = ("deg", "%", "rad", "gon")
+SHARES = ("-", "%")
+DENSITIES = ("kg/m3", "g/cm3", "t/m3")
+TEMPERATURES = ("degC",)
+TIMES = ("d", "h")
+
+# What looks like one unit and is used for two: never guessed.
+UNCLEAR_UNITS = {
+    "grad": "[deg] or [gon]",  # German degrees, French and Swiss gons
+    "t": "tonnes of mass; a force is given in [kN]",
+    "t/m": "tonnes of mass; a force per metre is given in [kN/m]",
+}
+
+_SPELLINGS = {
+    "°": "deg",
+    "degree": "deg",
+    "degrees": "deg",
+    "degre": "deg",
+    "degres": "deg",
+    "radian": "rad",
+    "radians": "rad",
+    "gons": "gon",
+    "percent": "%",
+    "percents": "%",
+    "pourcent": "%",
+    "prozent": "%",
+    "metre": "m",
+    "metres": "m",
+    "meter": "m",
+    "kn/ml": "kN/m",
+    "kn/m'": "kN/m",
+    "kn/lfm": "kN/m",
+    "kn/m": "kN/m",
+    "n/m": "N/m",
+    "mn/m": "MN/m",
+    "kn": "kN",
+    "n": "N",
+    "mpa": "MPa",
+    "n/mm2": "MPa",
+    "kpa": "kPa",
+    "kn/m2": "kPa",
+    "day": "d",
+    "days": "d",
+    "j": "d",
+    "jour": "d",
+    "jours": "d",
+    "tag": "d",
+    "tage": "d",
+    "hour": "h",
+    "hours": "h",
+    "heure": "h",
+    "heures": "h",
+    "stunde": "h",
+    "stunden": "h",
+    "kgm-3": "kg/m3",
+    "°c": "degC",
+    "c": "degC",
+    "degc": "degC",
+    "1": "-",
+    "–": "-",
+    "—": "-",
+}
+
+_FACTORS = {
+    ("cm", "m"): 1e-2,
+    ("mm", "m"): 1e-3,
+    ("cm", "mm"): 10.0,
+    ("m", "mm"): 1e3,
+    ("mm2", "cm2"): 1e-2,
+    ("mm4", "cm4"): 1e-4,
+    ("kPa", "MPa"): 1e-3,
+    ("MPa", "kPa"): 1e3,
+    ("h", "d"): 1 / 24,
+    ("N", "kN"): 1e-3,
+    ("MN", "kN"): 1e3,
+    ("N/m", "kN/m"): 1e-3,
+    ("MN/m", "kN/m"): 1e3,
+    ("gon", "deg"): 0.9,
+    ("%", "-"): 1e-2,
+    ("g/cm3", "kg/m3"): 1e3,
+    ("t/m3", "kg/m3"): 1e3,
+}
+_CONVERSIONS: dict[tuple[str, str], Callable[[float], float]] = {
+    ("rad", "deg"): degree_from_radian,
+    ("%", "deg"): lambda slope: degree_from_radian(radian_from_percent(slope)),
+}
+_TO_SI = {
+    "mm": meter_from_millimeter,
+    "cm2": square_meter_from_square_centimeter,
+    "cm4": fourth_meter_from_fourth_centimeter,
+    "kPa": pascal_from_kilopascal,
+    "MPa": pascal_from_megapascal,
+    "d": second_from_day,
+    "deg": radian_from_degree,
+    "kN": newton_from_kilonewton,
+    "kN/m": newton_from_kilonewton,
+    "degC": kelvin_from_celsius,
+}
+
+
+def normalise_unit(text: str) -> str:
+    """Fold a unit to the spelling of this table: ``kg/m³`` to ``kg/m3``.
+
+    ``mN`` and ``Mn`` stay as they are: of milli and mega none is guessed.
+    """
+    composed = unicodedata.normalize("NFKC", text)
+    compact = "".join(composed.replace("^", "").split())
+    if compact in ("MN", "MN/m", "MN/ml", "MN/m'"):
+        return "MN" if compact == "MN" else "MN/m"
+    if compact == "MN/m2":
+        return "MPa"
+    folded = compact.casefold()
+    if folded.startswith("mn"):
+        return compact
+    return _SPELLINGS.get(folded.replace("é", "e").replace("è", "e"), folded)
+
+
+def convert_unit(value: float, unit: str, first: str) -> float:
+    """Value in a field's first unit.
+
+    >>> convert_unit(350.0, "cm", "m")
+    3.5
+    """
+    if unit == first:
+        return value
+    if (unit, first) in _FACTORS:
+        factor = _FACTORS[unit, first]
+        # Dividing by 1000 is exact where multiplying by 0.001 is not.
+        return value / round(1 / factor) if factor < 0.5 else value * factor
+    return _CONVERSIONS[unit, first](value)
+
+
+def to_si(value: float, unit: str) -> float:
+    """SI value of a number in one of the first units."""
+    convert = _TO_SI.get(unit)
+    return convert(value) if convert else value

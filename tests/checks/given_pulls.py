@@ -1,0 +1,111 @@
+"""A net row from a workbook, judged under given pulls of the net, without a solve."""
+
+import math
+from pathlib import Path
+
+import openpyxl
+
+from netdesign.check_site import judge_site
+from netdesign.checks import Band, load_standard
+from netdesign.coupling.scene import SolverSettings
+from netdesign.envelope.grid import build_cases
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import Outcome
+from netdesign.site.reader import read_site
+from netdesign.site_cases import CheckRun
+from netdesign.structure import compute_anchor_forces, place_support
+
+NETS = {
+    "id": "R",
+    "slope angle [deg]": 35,
+    "snow thickness [m]": 2.8,
+    "upslope length [m]": 18,
+    "ground law": "no-slip",
+    "net height [m]": 3.0,
+    "net stiffness [kN/m]": 10000,
+    "post spacing [m]": 3.5,
+    "post tilt [deg]": 15,
+    "uphill anchor distance [m]": 3.0,
+    "downhill anchor distance [m]": 3.0,
+    "foot anchor": "A",
+    "uphill anchor": "A",
+    "downhill anchor": "A",
+    "uphill guy": "G",
+    "downhill guy": "G",
+    "post": "P",
+}
+ROPE = {
+    "id": "G",
+    "rope diameter [mm]": 20,
+    "construction": "6x36-IWRC",
+    "rope grade [MPa]": 1770,
+    "termination": "clips",
+}
+POST = {
+    "id": "P",
+    "section area [cm2]": 34.0,
+    "second moment of area [cm4]": 318.0,
+    "buckling length [m]": 3.1,
+    "yield strength [MPa]": 235,
+    "buckling curve": "c",
+    "plate length [m]": 0.6,
+    "plate width [m]": 0.5,
+    "bearing stress [kPa]": 900,
+}
+
+
+def judge_row(tmp_path: Path, profile, **changes):
+    """Checks of the row by their ids, with these pulls of the net [kN/m]."""
+    row = study_row(tmp_path, profile, **changes).rows[0]
+    return {check.id: check for check in row.checks}
+
+
+def study_row(tmp_path: Path, profile, *, anchor, foot, head, **nets):
+    """Study of the row under a profile, given by its id or its folder."""
+    sheets = {
+        "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
+        "Anchors": {"id": "A"} | anchor,
+        "Ropes": ROPE,
+        "Posts": POST,
+    }
+    workbook = openpyxl.Workbook()
+    workbook.remove(workbook.active)
+    for name, line in sheets.items():
+        sheet = workbook.create_sheet(name)
+        sheet.append(list(line))
+        sheet.append(list(line.values()))
+    ranges = workbook.create_sheet("Ranges")
+    for line in (
+        ["quantity", "low", "high", "samples"],
+        ["density [kg/m3]", 300, 300, 1],
+        ["friction angle [deg]", 30, 30, 1],
+        ["net inclination [deg]", 30, 30, 1],
+    ):
+        ranges.append(line)
+    path = tmp_path / "site.xlsx"
+    workbook.save(path)
+    site = read_site(path)
+    result = give_pulls(site, foot, head)
+    run = CheckRun(settings=SolverSettings())
+    return judge_site(site, [[result]], load_standard(profile), run)
+
+
+def give_pulls(site, foot, head) -> CaseResult:
+    """Result of the only case, without a solve: the pulls are given."""
+    (row,), (case,) = site.rows, build_cases(site.ranges)
+    point = (row.net_height * math.tan(case.inclination), row.net_height)
+    anchors = compute_anchor_forces(
+        place_support(row.layout, point),
+        foot_pull_per_m=(1e3 * foot[0], 1e3 * foot[1]),
+        head_pull_per_m=(1e3 * head[0], 1e3 * head[1]),
+        post_spacing=row.layout.post_spacing,
+    )
+    return CaseResult(
+        case=case,
+        outcome=Outcome.CONVERGED,
+        member_forces={
+            member: Band(low=force, value=force, high=force)
+            for member, force in anchors.member_forces.items()
+        },
+        anchors=anchors,
+    )

@@ -1,0 +1,248 @@
+"""Three complete net rows by hand, from the net's pulls to the utilisations.
+
+Given are the pulls of the net on foot and head. Everything behind is worked out here
+with a pocket calculator's steps, from the sources named beside each step, without a
+function of the program; then the program reads the same row from a workbook, is given
+the same pulls, and has to find the same numbers to 0.1 %.
+
+Axes: x downslope, y out of the ground, origin at the net's foot.
+"""
+
+import pytest
+from given_pulls import judge_row
+
+from netdesign.outcome import Verdict
+
+CLOSE = {"rel": 1e-3}
+
+
+def expect(check, *, demand, resistance, utilisation, verdict):
+    assert check.demand_kN == pytest.approx(demand, **CLOSE)
+    assert check.resistance_kN == pytest.approx(resistance, **CLOSE)
+    assert check.utilisation == pytest.approx(utilisation, **CLOSE)
+    assert check.verdict is verdict
+
+
+def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
+    checks = judge_row(
+        tmp_path,
+        "nf-p-95-304-style",
+        anchor={
+            "bar diameter [mm]": 28,
+            "bar strength [MPa]": 500,
+            "number of tests": 3,
+            "least tested resistance [kN]": 270,
+            "mean tested resistance [kN]": 290,
+        },
+        foot=(20.0, 18.0),
+        head=(5.0, -22.0),
+        **{"gap to next work [m]": 0.5},
+    )
+    # Geometry (structure/THEORY.md): head (3 tan 30, 3) = (1.7321, 3); post base at
+    # 1.7321 - 3 tan 15 = 0.9282; uphill anchor at -3.
+    # Post, head to base: (-0.8038, -3) / 3.1058 = (-0.2588, -0.9659).
+    # Uphill guy, head to anchor: (-4.7321, -3) / 5.6029 = (-0.8446, -0.5354).
+    # End effect, recalled from UV-0704, A = 0.5 m, N = 1 (no slip):
+    # f_R = (0.92 + 0.65) 0.25 = 0.3925, over 0.60 * 0.25 = 0.15 m;
+    # edge 3.5 / 2 + 0.3925 * 0.15 = 1.809 m < 3.5 m: a support inside governs.
+    width = 3.5
+    # Pull on the head: 3.5 (5, -22) = (17.5, -77) kN. Equilibrium of the head,
+    #   -0.2588 C + 0.8446 T = 17.5,   -0.9659 C + 0.5354 T = -77,
+    # determinant -0.2588 * 0.5354 + 0.8446 * 0.9659 = 0.6772:
+    post = (17.5 * 0.53544 + 0.84458 * 77.0) / 0.67722  # 109.86 kN
+    guy = (0.25882 * 77.0 + 0.96593 * 17.5) / 0.67722  # 54.39 kN
+    assert (post, guy) == (
+        pytest.approx(109.86, **CLOSE),
+        pytest.approx(54.39, **CLOSE),
+    )
+    # Lateral load, 10 % of a pulling force across it: sqrt(1 + 0.01) = 1.00499.
+    lateral = 1.00499
+    # Foot anchor: 3.5 * sqrt(20^2 + 18^2) = 94.18 kN; 1.5 times with lateral load.
+    foot = 1.5 * 94.18 * lateral  # 141.97 kN
+    # Tendon: pi/4 * 28^2 mm2 * 500 MPa = 307.9 kN; 1.15 * 1.3 = 1.495 (ONR 24810).
+    expect(
+        checks["foot_anchor.tendon"],
+        demand=foot,
+        resistance=307.88 / 1.495,
+        utilisation=0.6894,
+        verdict=Verdict.PASS,
+    )
+    # Pull-out, three tests (EN 1997-1 A.9: 1.20 on the mean, 1.05 on the least):
+    # min(290 / 1.20, 270 / 1.05) = min(241.67, 257.14) = 241.67 kN; EN 1537: 1.35.
+    expect(
+        checks["foot_anchor.pull_out"],
+        demand=foot,
+        resistance=241.67 / 1.35,
+        utilisation=0.7931,
+        verdict=Verdict.PASS,
+    )
+    # Rope 20 mm: 0.356 * 20^2 * 1770 = 252.0 kN, clips 0.8: 201.6 kN; 1.5.
+    expect(
+        checks["uphill_guy.rope"],
+        demand=1.5 * guy * lateral,
+        resistance=201.64 / 1.5,
+        utilisation=0.6100,
+        verdict=Verdict.PASS,
+    )
+    # Post (EN 1993-1-1, 6.3.1.2): N_cr = pi^2 * 210 GPa * 318 cm4 / 3.1^2 = 685.8 kN,
+    # lambda = sqrt(799.0 / 685.8) = 1.0794, Phi = 0.5 (1 + 0.49 * 0.8794 + 1.1651)
+    # = 1.2980, chi = 1 / (1.2980 + sqrt(1.6848 - 1.1651)) = 0.4953: 395.7 kN; 1.05.
+    expect(
+        checks["post.compression"],
+        demand=1.5 * post,
+        resistance=395.7 / 1.05,
+        utilisation=0.4373,
+        verdict=Verdict.PASS,
+    )
+    # Base plate: 0.9659 * 109.86 = 106.1 kN across it, 0.6 * 0.5 * 900 = 270 kN; 1.4.
+    expect(
+        checks["post_base.bearing"],
+        demand=1.5 * 0.96593 * post,
+        resistance=270.0 / 1.4,
+        utilisation=0.8253,
+        verdict=Verdict.PASS,
+    )
+    assert checks["downhill_guy.rope"].demand_kN == 0.0
+    assert checks["foot_anchor.tendon"].action.position == "intermediate"
+    assert checks["foot_anchor.tendon"].action.loaded_width_m == width
+
+
+def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
+    checks = judge_row(
+        tmp_path,
+        "swiss-guideline-2007",
+        anchor={
+            "bar diameter [mm]": 32,
+            "bar strength [MPa]": 500,
+            "drill diameter [mm]": 90,
+            "bond length [m]": 5.0,
+            "ground": "gravel",
+            "grouting": "B",
+        },
+        foot=(15.0, 12.0),
+        head=(4.0, -15.0),
+        ground_law="sliding",
+        **{"glide factor [-]": 2.0, "post spacing [m]": 4.0},
+    )
+    # No gap is given: a free end. f_R = 1.00 + 1.25 * 2.0 = 3.5 over D_K / 3 = 1.0 m:
+    # edge 4 / 2 + 3.5 * 1.0 = 5.5 m > 4 m: the edge governs (all recalled, UV-0704).
+    # Geometry as in row 1; head pull on 5.5 m: (22, -82.5) kN.
+    post = (22.0 * 0.53544 + 0.84458 * 82.5) / 0.67722  # 120.28 kN
+    guy = (0.25882 * 82.5 + 0.96593 * 22.0) / 0.67722  # 62.91 kN
+    # Foot: 5.5 * sqrt(15^2 + 12^2) = 105.65 kN.
+    foot = 1.5 * 105.65 * 1.00499  # 159.27 kN
+    # Tendon pi/4 * 32^2 * 500 = 402.1 kN, 1.35 (recalled).
+    expect(
+        checks["foot_anchor.tendon"],
+        demand=foot,
+        resistance=402.12 / 1.35,
+        utilisation=0.5347,
+        verdict=Verdict.PASS,
+    )
+    # Bond: pi * 0.09 * 5.0 * 120 kPa (FHWA, gravel, type B, least) = 169.65 kN;
+    # 1.35 * 1.40 = 1.89: 89.76 kN.
+    expect(
+        checks["foot_anchor.pull_out"],
+        demand=foot,
+        resistance=169.65 / 1.89,
+        utilisation=1.7744,
+        verdict=Verdict.FAIL,
+    )
+    expect(
+        checks["uphill_guy.rope"],
+        demand=1.5 * guy * 1.00499,
+        resistance=201.64 / 1.35,  # recalled factor of ropes
+        utilisation=0.6350,
+        verdict=Verdict.PASS,
+    )
+    expect(
+        checks["post.compression"],
+        demand=1.5 * post,
+        resistance=395.7 / 1.05,
+        utilisation=0.4788,
+        verdict=Verdict.PASS,
+    )
+    action = checks["foot_anchor.pull_out"].action
+    assert (action.position, action.loaded_width_m) == ("edge", pytest.approx(5.5))
+    # Resistance that would do, for the pull-out: 159.27 * 1.89 = 301.0 kN.
+    needed = checks["foot_anchor.pull_out"].changes[0]
+    assert needed.bound == pytest.approx(159.27 * 1.89, **CLOSE)
+    # Widest spacing: the edge may have 5.5 / 1.7744 = 3.0996 m, and its end effect
+    # takes 3.5 m of them: no spacing does.
+    spacing = next(
+        c
+        for c in checks["foot_anchor.pull_out"].changes
+        if c.quantity == "post spacing"
+    )
+    assert spacing.bound is None
+
+
+def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
+    checks = judge_row(
+        tmp_path,
+        "onr-24805-style",
+        anchor={
+            "bar diameter [mm]": 25,
+            "bar strength [MPa]": 500,
+            "number of tests": 1,
+            "least tested resistance [kN]": 180,
+            "mean tested resistance [kN]": 180,
+        },
+        foot=(18.0, 20.0),
+        head=(-12.0, -20.0),
+        **{"gap to next work [m]": 1.0},
+    )
+    # Head pull on 3.5 m: (-42, -70) kN, upslope of the post: the uphill guy is slack.
+    # Downhill guy: anchor at 0.9282 + 3 = 3.9282; head to anchor (2.1962, -3) / 3.7179
+    # = (0.5907, -0.8069). Equilibrium:
+    #   -0.2588 C - 0.5907 T = -42,   -0.9659 C + 0.8069 T = -70,
+    # determinant -0.2588 * 0.8069 - 0.5907 * 0.9659 = -0.7794:
+    post = (-42.0 * 0.80692 - 0.59070 * 70.0) / -0.77942  # 96.53 kN
+    guy = (0.25882 * 70.0 - 0.96593 * 42.0) / -0.77942  # 28.81 kN
+    assert (post, guy) == (pytest.approx(96.53, **CLOSE), pytest.approx(28.81, **CLOSE))
+    assert checks["uphill_guy.rope"].demand_kN == 0.0
+    assert checks["uphill_guy.rope"].verdict is Verdict.PASS
+    # Gap 1 m, N = 1: f_R = 1.57 * 0.5 = 0.785 over 0.3 m, edge 1.985 m < 3.5 m.
+    # Foot: 3.5 * sqrt(18^2 + 20^2) = 94.18 kN.
+    foot = 1.5 * 94.18 * 1.00499
+    # Tendon pi/4 * 25^2 * 500 = 245.4 kN over 1.495; ONR 24810, classes 1 and 2.
+    expect(
+        checks["foot_anchor.tendon"],
+        demand=foot,
+        resistance=245.44 / 1.495,
+        utilisation=0.8648,
+        verdict=Verdict.PASS,
+    )
+    # One test: 180 / 1.40 = 128.57 kN (EN 1997-1 A.9), over 1.2: 107.14 kN.
+    expect(
+        checks["foot_anchor.pull_out"],
+        demand=foot,
+        resistance=128.57 / 1.2,
+        utilisation=1.3251,
+        verdict=Verdict.FAIL,
+    )
+    expect(
+        checks["downhill_guy.rope"],
+        demand=1.5 * guy * 1.00499,
+        resistance=201.64 / 1.5,
+        utilisation=0.3231,
+        verdict=Verdict.PASS,
+    )
+    expect(
+        checks["downhill_anchor.pull_out"],
+        demand=1.5 * guy * 1.00499,
+        resistance=128.57 / 1.2,
+        utilisation=0.4054,
+        verdict=Verdict.PASS,
+    )
+    # Post over gamma_M1 = 1.1.
+    expect(
+        checks["post.compression"],
+        demand=1.5 * post,
+        resistance=395.7 / 1.1,
+        utilisation=0.4025,
+        verdict=Verdict.PASS,
+    )
+    # Tests needed: R_d = 141.98 kN wants R_k = 170.4 kN.
+    needed = checks["foot_anchor.pull_out"].changes[0]
+    assert needed.bound == pytest.approx(foot * 1.2, **CLOSE)

@@ -1,0 +1,269 @@
+"""The shipped profiles side by side, and what a swapped value changes."""
+
+import shutil
+from dataclasses import asdict, replace
+
+import pytest
+from given_pulls import judge_row, study_row
+
+from netdesign.checks import list_standards, load_standard
+from netdesign.errors import StandardError
+from netdesign.outcome import Verdict
+from netdesign.resources import find_resource
+
+NAMES = ("eurocode", "nf-p-95-304-style", "onr-24805-style", "swiss-guideline-2007")
+ROW = {
+    "anchor": {
+        "tendon resistance [kN]": 300,
+        "pull-out resistance [kN]": 200,
+        "basis": "tested",
+    },
+    "foot": (20.0, 18.0),
+    "head": (5.0, -22.0),
+    "gap to next work [m]": 1.0,
+}
+
+
+def edit(path, old, new):
+    text = path.read_text("utf-8")
+    assert text.count(old) == 1, old
+    path.write_text(text.replace(old, new), "utf-8")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    def copy(name):
+        source = find_resource("standards") / name
+        return shutil.copytree(source, tmp_path / name)
+
+    return copy
+
+
+def test_all_four_profiles_are_there():
+    assert list_standards() == NAMES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_value_has_a_source_and_none_claims_to_be_read(name):
+    standard = load_standard(name)
+    entries = [*standard.values, *standard.tables]
+    assert {entry.status for entry in entries} <= {"assumed", "secondary"}
+    assert all(len(entry.source) > 10 for entry in entries)
+    assert "nobody yet" in standard.checked_by
+
+
+@pytest.mark.parametrize(
+    ("name", "tested", "tendon", "post"),
+    [
+        ("nf-p-95-304-style", 1.35, 1.495, 1.05),
+        ("swiss-guideline-2007", 1.35, 1.35, 1.05),
+        ("eurocode", 1.15, 1.15, 1.0),
+        ("onr-24805-style", 1.2, 1.495, 1.1),
+    ],
+)
+def test_profiles_differ_by_their_resistance_factors_alone(
+    tmp_path, name, tested, tendon, post
+):
+    """Same demand under all four: they take the same load factor and end effect."""
+    checks = judge_row(tmp_path, name, **ROW)
+    assert checks["foot_anchor.tendon"].demand_kN == pytest.approx(
+        1.5 * 94.18 * 1.00499, rel=1e-3
+    )
+    factors = [
+        checks[key].resistance_factor
+        for key in ("foot_anchor.pull_out", "foot_anchor.tendon", "post.compression")
+    ]
+    assert factors == pytest.approx([tested, tendon, post], rel=1e-12)
+
+
+def test_geometry_is_checked_as_far_as_a_profile_has_limits(tmp_path):
+    def geometry(name):
+        checks = judge_row(tmp_path, name, **ROW)
+        return {key: c.verdict for key, c in checks.items() if key.startswith("geom")}
+
+    few = {"geometry.inclination", "geometry.height"}
+    assert set(geometry("nf-p-95-304-style")) == few
+    swiss = geometry("swiss-guideline-2007")
+    assert set(swiss) == few | {
+        "geometry.slope",
+        "geometry.spacing",
+        "geometry.gap",
+    }
+    assert set(swiss.values()) == {Verdict.PASS}
+
+
+def test_swapped_limit_changes_verdict_and_hash_and_nothing_else(folder, tmp_path):
+    mine = folder("nf-p-95-304-style")
+    before = study_row(tmp_path, mine, **ROW)
+    edit(mine / "factors.toml", "value = 1.35\n", "value = 2.7\n")
+    after = study_row(tmp_path, mine, **ROW)
+    assert (before.verdict, after.verdict) == (Verdict.PASS, Verdict.FAIL)
+    assert before.profile.sha256 != after.profile.sha256
+    was, now = asdict(before), asdict(after)
+    for study in (was, now):
+        study["profile"].pop("sha256")
+        for value in study["profile"]["values"]:
+            if value["id"] == "resistance.pull_out.tested":
+                value.pop("value")
+        study.pop("verdict")
+        (row,) = study["rows"]
+        row.pop("verdict"), row.pop("reasons")
+        row["checks"] = [c for c in row["checks"] if c["mode"] != "pull_out"]
+    was["provenance"] = now["provenance"]  # hash of the workbook: its time stamp
+    assert was == now
+
+
+def test_profile_without_end_effect_proves_nothing(folder, tmp_path):
+    mine = folder("eurocode")
+    (mine / "model.toml").unlink()
+    checks = judge_row(tmp_path, mine, **ROW)
+    assert checks["geometry.ends"].verdict is Verdict.NOT_PROVEN
+    assert "no end effect (end.*) and no lateral load" in checks["geometry.ends"].reason
+
+
+def test_profile_without_correlation_does_not_prove_by_tests(folder, tmp_path):
+    mine = folder("eurocode")
+    (mine / "tables.toml").unlink()
+    anchor = {
+        "tendon resistance [kN]": 300,
+        "number of tests": 3,
+        "least tested resistance [kN]": 270,
+        "mean tested resistance [kN]": 290,
+    }
+    checks = judge_row(tmp_path, mine, **(ROW | {"anchor": anchor}))
+    check = checks["foot_anchor.pull_out"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert "no correlation factors for 3 tests" in check.reason
+
+
+def test_national_choice_takes_the_place_of_its_factors(folder):
+    mine = folder("eurocode")
+    recommended = load_standard(mine)
+    edit(mine / "document.toml", '"recommended-da2"', '"denmark"')
+    danish = load_standard(mine)
+    assert recommended.find("resistance.pull_out.tested").value == 1.15
+    assert danish.find("resistance.pull_out.tested").value == 1.43
+    assert danish.find("resistance.rope") == recommended.find("resistance.rope")
+    assert len(danish.values) == len(recommended.values)
+    assert danish.sha256 != recommended.sha256
+
+
+def test_consequence_class_3_is_stricter(folder):
+    mine = folder("onr-24805-style")
+    edit(mine / "document.toml", 'choice = "cc2"', 'choice = "cc3"')
+    values = {v.id: v.value for v in load_standard(mine).values}
+    assert values["resistance.tendon"] == pytest.approx(1.15 * 1.5, rel=1e-12)
+    assert values["resistance.pull_out.tested"] == 1.5
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "old", "new", "told"),
+    [
+        (
+            "eurocode",
+            "document.toml",
+            '"recommended-da2"',
+            '"frence"',
+            "'choice' = 'frence': must be one of recommended-da2",
+        ),
+        (
+            "eurocode",
+            "tables.toml",
+            "{ from = 2, to = 2, value = 1.3 }",
+            "{ from = 3, to = 3, value = 1.3 }",
+            "'from' = 3: leaves 2 without a value",
+        ),
+        (
+            "eurocode",
+            "tables.toml",
+            "{ from = 2, to = 2, value = 1.3 }",
+            "{ from = 1, to = 2, value = 1.3 }",
+            "'from' = 1: overlaps the row before",
+        ),
+        (
+            "eurocode",
+            "tables.toml",
+            "{ from = 2, to = 2, value = 1.3 }",
+            "{ from = 2, to = 2, valeu = 1.3 }",
+            "'valeu': unknown key; accepted are from, to, value",
+        ),
+        (
+            "swiss-guideline-2007",
+            "model.toml",
+            'value = 10.0\nunit = "m/s2"',
+            'value = 10.0\nunit = "kN/t"',
+            "'unit' = 'kN/t': must be 'm/s2' for snow.gravity",
+        ),
+        (
+            "swiss-guideline-2007",
+            "model.toml",
+            'id = "snow.flexible"',
+            'id = "snow.flexibel"',
+            "'id' = 'snow.flexibel': must be one of snow.gravity",
+        ),
+        (
+            "swiss-guideline-2007",
+            "limits.toml",
+            'value = 2.0\nunit = "m"',
+            'value = 2.0\nunit = "cm"',
+            "'unit' = 'cm': must be 'm' for geometry.gap.max",
+        ),
+        (
+            "onr-24805-style",
+            "choices.toml",
+            'name = "cc3"',
+            'name = "cc3"\nclass = 3',
+            "'class': unknown key; accepted are name, text, factor",
+        ),
+    ],
+)
+def test_spoilt_profile_is_refused_by_file_and_key(folder, name, file, old, new, told):
+    mine = folder(name)
+    text = (mine / file).read_text("utf-8")
+    assert old in text
+    (mine / file).write_text(text.replace(old, new, 1), "utf-8")
+    with pytest.raises(StandardError) as caught:
+        load_standard(mine)
+    assert file in str(caught.value)
+    assert told in str(caught.value)
+
+
+def test_missing_source_and_half_a_group_are_refused(folder):
+    mine = folder("swiss-guideline-2007")
+    path = mine / "model.toml"
+    text = path.read_text("utf-8")
+    blocks = text.split("[[value]]")
+    path.write_text("[[value]]".join(blocks[:-2] + blocks[-1:]), "utf-8")
+    with pytest.raises(
+        StandardError, match=r"end\.\* are given all or none; lacks end"
+    ):
+        load_standard(mine)
+    start = text.index('source = "')
+    path.write_text(text[:start] + text[text.index("\n", start) :], "utf-8")
+    with pytest.raises(StandardError, match=r"entry 1 'source': is missing"):
+        load_standard(mine)
+
+
+def test_unknown_file_is_refused(folder):
+    mine = folder("eurocode")
+    (mine / "factor.toml").write_text("")
+    with pytest.raises(StandardError, match=r"unknown file factor\.toml; accepted are"):
+        load_standard(mine)
+
+
+def test_a_table_does_not_extrapolate():
+    table = load_standard("swiss-guideline-2007").find_table("glide.factor.south")
+    assert [table.find(k) for k in (0, 1, 4, 5)] == [None, 1.3, 3.2, None]
+    tests = load_standard("eurocode").find_table("correlation.tests.least")
+    assert [tests.find(k) for k in (1, 2, 3, 4, 5, 100)] == [1.4, 1.2, 1.05, 1, 1, 1]
+
+
+def test_edited_value_is_found_by_its_new_number(folder):
+    mine = folder("nf-p-95-304-style")
+    edit(mine / "factors.toml", "value = 1.495\n", "value = 1.725\n")
+    standard = load_standard(mine)
+    assert standard.find("resistance.tendon").value == 1.725
+    shipped = load_standard("nf-p-95-304-style")
+    assert replace(standard, values=shipped.values, sha256=shipped.sha256) == replace(
+        shipped
+    )

@@ -1,0 +1,68 @@
+"""``netdesign bench`` on the command line."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from netdesign.benchmark import precision, stress
+from netdesign.benchmark.precision import Effort
+from netdesign.benchmark.stress import Attempt
+from netdesign.commands.bench import bench
+from netdesign.errors import ModelError, OutputError
+
+
+def run(*arguments):
+    return CliRunner().invoke(bench, arguments)
+
+
+def test_rows_and_plot(monkeypatch, tmp_path):
+    monkeypatch.setattr(precision, "QUICK", Effort(finest=1, repeats=1))
+    plot = tmp_path / "plot.svg"
+    result = run("--quick", "--scenes", "rough-steep", "--json", "--plot", str(plot))
+    assert result.exit_code == 0, result.output
+    document = json.loads(result.stdout)
+    assert [row["path"] for row in document["rows"]] == ["fast", "reference"]
+    assert plot.read_text(encoding="utf-8").startswith("<svg")
+    again = run("--quick", "--scenes", "rough-steep", "--plot", str(plot))
+    assert isinstance(again.exception, OutputError)
+
+
+def test_unknown_scene():
+    assert isinstance(run("--scenes", "no-such").exception, ModelError)
+
+
+@pytest.mark.parametrize(
+    ("kind", "exit_code"), [("converged", 0), ("refused before", 0), ("failed", 1)]
+)
+def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
+    monkeypatch.setattr(
+        stress,
+        "run_stress",
+        lambda *_, **__: [Attempt(number=0, kind=kind, reason="why", balance=0.0)],
+    )
+    result = run("--stress", "1", "--json")
+    assert result.exit_code == exit_code
+    assert json.loads(result.stdout)["schema"] == "netdesign.stress/1"
+    assert run("--stress", "1").exit_code == exit_code
+
+
+def test_errors_of_one_scene():
+    result = run("--errors", "1", "--seed", "1", "--accuracy", "0.05", "--json")
+    document = json.loads(result.stdout)
+    assert document["compared"] == 1
+    assert result.exit_code == (0 if document["pass"] else 1)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--stress", "1", "--errors", "1"],
+        ["--stress", "1", "--quick"],
+        ["--errors", "1", "--plot", "x.svg"],
+        ["--stress", "0"],
+        ["--jobs", "0"],
+    ],
+)
+def test_usage(arguments):
+    assert run(*arguments).exit_code == 2

@@ -1,0 +1,79 @@
+"""Precedence of options, environment, files and defaults."""
+
+import json
+
+import pytest
+
+
+@pytest.fixture
+def jobs(call, tmp_path):
+    """Processes that a dry run of the example plans with."""
+    (tmp_path / "inner").mkdir()
+    site = tmp_path / "inner" / "site.xlsx"
+    assert call("init", site, "--example").code == 0
+
+    def plan(*options):
+        ended = call("check", site, "--dry-run", "--json", *options)
+        assert ended.code == 0, ended.err
+        return json.loads(ended.out)["jobs"]
+
+    return plan
+
+
+def write(path, text):
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_each_source_overrules_the_ones_below_it(jobs, tmp_path, monkeypatch):
+    write(tmp_path / "inner" / "netdesign.toml", "[check]\njobs = 2\n")
+    assert jobs() == 2
+    other = write(tmp_path / "other.toml", "[check]\njobs = 3\n")
+    assert jobs("--config", other) == 3
+    monkeypatch.setenv("NETDESIGN_CHECK_JOBS", "4")
+    assert jobs("--config", other) == 4
+    assert jobs("--config", other, "--jobs", "5") == 5
+
+
+def test_a_file_elsewhere_is_not_read(jobs, tmp_path):
+    write(tmp_path / "netdesign.toml", "[check]\njobs = 200\n")  # the working folder
+    assert jobs() != 200
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[check]\njobbs = 2\n", "[check] jobbs: is not known; did you mean 'jobs'?"),
+        ("[chek]\njobs = 2\n", "[chek]: is not known; did you mean 'check'?"),
+        ("[check]\njobs = 0\n", "[check] jobs = 0: 0 is not in the range"),
+        ("[check]\naccuracy = 'fine'\n", "[check] accuracy = 'fine'"),
+        ("check = 3\n", "check: must be a table of options"),
+        ("[check\n", "cannot be read as TOML"),
+        ("[check]\nconfig = 'x'\n", "[check] config: is not known"),
+    ],
+)
+def test_faults_of_the_file_end_with_2_and_their_place(call, tmp_path, text, message):
+    path = write(tmp_path / "mine.toml", text)
+    ended = call("check", "--example", "--dry-run", "--config", path)
+    assert ended.code == 2
+    assert f"{path}: " in ended.err.replace("\n", " ")
+    assert message in " ".join(ended.err.split())
+
+
+def test_a_named_file_that_is_not_there_ends_with_2(call):
+    ended = call("check", "--example", "--dry-run", "--config", "none.toml")
+    assert ended.code == 2
+    assert "none.toml: cannot be read" in ended.err
+
+
+def test_lists_and_flags_may_stand_in_the_file(call, tmp_path):
+    text = "[check]\nstandard = ['nonsense']\njson = true\n"
+    path = write(tmp_path / "mine.toml", text)
+    ended = call("check", "--example", "--dry-run", "--config", path)
+    assert ended.code == 3
+    assert "nonsense" in ended.err
+    again = call(
+        *("check", "--example", "--dry-run", "--config", path),
+        *("--standard", "nf-p-95-304-style"),
+    )
+    assert json.loads(again.out)["schema"] == "netdesign.plan/1"

@@ -1,0 +1,39 @@
+import json
+
+import pytest
+
+from netdesign import __version__
+from netdesign.commands import doctor
+
+
+def test_the_doctor_names_versions_and_finds_the_program_sound(call):
+    ended = call("doctor", "--json")
+    assert ended.code == 0
+    document = json.loads(ended.out)
+    shown = {probe["what"]: probe for probe in document["probes"]}
+    assert document["sound"] is True
+    assert shown["netdesign"]["shows"] == __version__
+    assert {"numpy", "OMP_NUM_THREADS", "BLAS", "solver"} <= set(shown)
+    assert shown["site workbook"]["shows"].endswith("7 net rows")
+
+
+@pytest.mark.parametrize("broken", ["_solve_small_scene", "_round_trip_example"])
+def test_a_fault_is_told_and_ends_with_5(call, monkeypatch, broken):
+    def fail():
+        raise RuntimeError("out of order")
+
+    monkeypatch.setattr(doctor, broken, fail)
+    ended = call("doctor")
+    assert ended.code == 5
+    (fault,) = [line for line in ended.out.splitlines() if line.startswith("FAULT")]
+    assert "RuntimeError: out of order" in fault
+
+
+def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
+    def miss(name):
+        raise doctor.metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(doctor.metadata, "version", miss)
+    ended = call("doctor")
+    assert ended.code == 5
+    assert "is missing" in ended.out

@@ -1,0 +1,147 @@
+"""Whole ranges of friction, inclination, slack, stiffness, mesh: nothing fails.
+
+The suite runs a thinned part of them; ``python -m pytest -m robustness`` runs all,
+in about half an hour. A scene may be refused before it is solved, and a history may
+end early with a reason; neither may hide in a result.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import Solution
+from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.transient import (
+    TRANSIENT_LEVELS,
+    TransientSettings,
+    run_history,
+)
+from netdesign.errors import ModelError
+from netdesign.snow.mesh import MeshSize
+
+FRICTIONS = [float(phi) for phi in range(46)]
+INCLINATIONS = [0.0, 10.0, 20.0, 30.0, 40.0]
+SLACKS = [0.0, 0.05, 0.15]
+STIFFNESSES = [2e3, 2e4, 1e5]
+DAY = 86400.0
+QUICK = SolverSettings(accuracy=0.1)
+
+
+def uniform(rows):
+    """Mesh whose triangles are about 1 / rows high, with little grading."""
+    size = 1.0 / rows
+    return MeshSize(
+        net_spacing=min(size, 0.34),
+        corner=size / 4.0,
+        sectors=2,
+        upslope_spacing=2.0 * size,
+    )
+
+
+def list_scenes(frictions):
+    return list(itertools.product(frictions, INCLINATIONS, SLACKS, STIFFNESSES))
+
+
+def steady_reasons(a_scene, grid, settings=QUICK):
+    """What went wrong, by scene; scenes that are refused beforehand do not count."""
+    wrong = {}
+    for friction, inclination, slack, stiffness in grid:
+        try:
+            scene = a_scene(
+                friction_deg=friction,
+                inclination_deg=inclination,
+                slack=slack,
+                stiffness_kN_per_m=stiffness,
+            )
+        except ModelError:  # the net would lie on the ground: test_net.py
+            continue
+        result = solve_steady(scene, settings)
+        if not isinstance(result, Solution):
+            wrong[friction, inclination, slack, stiffness] = result.reason
+        elif not result.balance.relative_residual < 1e-8:
+            wrong[friction, inclination, slack, stiffness] = "balance"
+    return wrong
+
+
+def explained(reasons):
+    """Physics that the model names; anything else is a failure of the solver."""
+    named = ("touch the ground", "folds over", "pull on the net")
+    return all(any(name in reason for name in named) for reason in reasons.values())
+
+
+def test_steady_thinned(a_scene):
+    grid = list_scenes(FRICTIONS)
+    rng = np.random.default_rng(4)
+    chosen = [grid[place] for place in rng.choice(len(grid), 80, replace=False)]
+    wrong = steady_reasons(a_scene, chosen)
+    assert explained(wrong), wrong
+
+
+@pytest.mark.parametrize("friction_deg", [2.0, 6.0, 10.0])
+@pytest.mark.parametrize("rows", [2, 10])
+def test_steady_on_plain_meshes(a_scene, friction_deg, rows):
+    """The frictions and meshes on which a prototype stalled (physics.md, section 3)."""
+    levels = (MESH_LEVELS[0], uniform(rows))
+    settings = SolverSettings(accuracy=0.1, levels=levels)
+    grid = [(friction_deg, inclination, 0.0, 2e4) for inclination in (0.0, 30.0)]
+    assert steady_reasons(a_scene, grid, settings) == {}
+
+
+def history_faults(a_scene, grid, start, level=0):
+    wrong = {}
+    for friction, inclination, slack, stiffness in grid:
+        try:
+            scene = a_scene(
+                friction_deg=friction,
+                inclination_deg=inclination,
+                slack=slack,
+                stiffness_kN_per_m=stiffness,
+            )
+        except ModelError:
+            continue
+        settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
+        run = run_history(
+            scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale
+        )
+        key = (friction, inclination, slack, stiffness)
+        if not max(moment.residual for moment in run.moments) < 1e-8:
+            wrong[key] = "balance"
+        elif run.ended and run.plateau.reached is False and len(run.moments) < 3:
+            wrong[key] = run.ended
+        elif not all(math.isfinite(m.tension_max) for m in run.moments):
+            wrong[key] = "not finite"
+    return wrong
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+def test_histories_thinned(a_scene, start):
+    grid = list_scenes(FRICTIONS)
+    rng = np.random.default_rng(5)
+    chosen = [grid[place] for place in rng.choice(len(grid), 8, replace=False)]
+    assert history_faults(a_scene, chosen, start) == {}
+
+
+@pytest.mark.robustness
+@pytest.mark.parametrize("friction_deg", FRICTIONS)
+def test_steady_whole(a_scene, friction_deg):
+    wrong = steady_reasons(a_scene, list_scenes([friction_deg]))
+    assert explained(wrong), wrong
+
+
+@pytest.mark.robustness
+@pytest.mark.parametrize("rows", [2, 4, 8, 16, 24])
+def test_steady_meshes_whole(a_scene, rows):
+    settings = SolverSettings(accuracy=0.1, levels=(MESH_LEVELS[0], uniform(rows)))
+    grid = list(itertools.product(FRICTIONS[::3], [0.0, 30.0], [0.0], [2e4]))
+    assert steady_reasons(a_scene, grid, settings) == {}
+
+
+@pytest.mark.robustness
+@pytest.mark.parametrize("start", ["straight", "sagged"])
+@pytest.mark.parametrize("friction_deg", FRICTIONS)
+def test_histories_whole(a_scene, friction_deg, start):
+    grid = itertools.product([friction_deg], INCLINATIONS[::2], SLACKS, STIFFNESSES[1:])
+    assert history_faults(a_scene, grid, start) == {}

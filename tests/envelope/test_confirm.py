@@ -1,0 +1,118 @@
+"""Governing cases confirmed by histories: larger forces, failures never hidden."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks.result import Band
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.transient import TransientSettings
+from netdesign.envelope import confirm
+from netdesign.envelope.confirm import confirm_rows, find_governing, merge_history
+from netdesign.envelope.extremes import describe_gap
+from netdesign.envelope.grid import Case
+from netdesign.envelope.run import CaseResult, CaseTask, solve_case
+from netdesign.outcome import Outcome
+from netdesign.structure.layout import SupportLayout
+
+
+def band(value, error=0.1):
+    return Band(low=value - error, value=value, high=value + error)
+
+
+def result(density, **forces):
+    case = Case(density=density, friction_angle=0.5, inclination=0.5)
+    member_forces = {member: band(value) for member, value in forces.items()}
+    return CaseResult(case=case, outcome=Outcome.CONVERGED, member_forces=member_forces)
+
+
+GRID = [result(300.0, post=1.0, guy=9.0), result(350.0, post=2.0, guy=5.0)]
+IDLE = result(250.0, post=0.5, guy=0.5)
+
+
+def test_every_governing_case_is_found_once():
+    assert find_governing([IDLE, *GRID]) == [1, 2]
+    assert find_governing([IDLE, result(400.0, post=3.0, guy=9.5), *GRID]) == [1]
+    assert find_governing([]) == []
+
+
+def test_slack_members_need_no_history():
+    slack = replace(IDLE, member_forces={"guy": Band(low=0.0, value=0.0, high=0.0)})
+    assert find_governing([slack]) == []
+
+
+@pytest.mark.parametrize(("history", "expected"), [(11.0, 11.0), (7.0, 9.0)])
+def test_the_larger_force_counts(history, expected):
+    merged = merge_history(GRID[0], result(300.0, post=0.5, guy=history))
+    assert merged.member_forces["guy"] == band(expected)
+    assert merged.member_forces["post"] == band(1.0)
+    assert merged.is_converged
+
+
+def test_a_history_without_plateau_leaves_its_row_unproven(monkeypatch):
+    lost = CaseResult(
+        case=GRID[0].case,
+        outcome=Outcome.PLATEAU_NOT_REACHED,
+        reason=Outcome.PLATEAU_NOT_REACHED.sentence,
+        member_forces={},
+    )
+    monkeypatch.setattr(confirm, "run_cases", lambda tasks, **_: [lost] * len(tasks))
+    tasks = [[build_task(replace_case) for replace_case in GRID]]
+    (row,) = confirm_rows(tasks, [GRID], TransientSettings())
+    assert "came to no plateau" in describe_gap(row)
+    assert "2 of 2 cases failed" in describe_gap(row)
+
+
+def build_task(of, scene=None, settings=None):
+    return CaseTask(
+        case=of.case,
+        scene=scene,
+        refusal="",
+        layout=LAYOUT,
+        settings=settings or SolverSettings(),
+    )
+
+
+LAYOUT = SupportLayout(
+    post_spacing=3.0,
+    uphill_anchor_distance=5.0,
+    downhill_anchor_distance=3.0,
+)
+
+
+def test_tasks_of_idle_cases_are_not_followed(monkeypatch):
+    seen = []
+
+    def follow(tasks, **_):
+        seen.extend(tasks)
+        return [result(task.case.density, post=5.0, guy=5.0) for task in tasks]
+
+    monkeypatch.setattr(confirm, "run_cases", follow)
+    results = [IDLE, *GRID]
+    tasks = [[build_task(one) for one in results]]
+    settings = TransientSettings(accuracy=0.05)
+    (row,) = confirm_rows(tasks, [results], settings)
+    assert [task.case.density for task in seen] == [300.0, 350.0]
+    assert {task.settings for task in seen} == {settings}
+    assert row[0] is IDLE
+    assert row[1].member_forces["post"] == band(5.0)
+
+
+def test_a_case_with_history_settings_is_a_history(a_scene):
+    scene = a_scene(inclination_deg=30.0, length_m=8.0, thickness_m=2.0)
+    quick = TransientSettings(accuracy=0.1, horizon=1.0)
+    task = build_task(GRID[0], scene, quick)
+    short = solve_case(task)
+    assert short.outcome is Outcome.PLATEAU_NOT_REACHED
+    assert not short.member_forces
+    whole = solve_case(
+        replace(task, settings=TransientSettings(accuracy=0.1, horizon=86400.0 * 30))
+    )
+    assert whole.outcome is Outcome.CONVERGED
+    assert whole.solution.method == "transient"
+    steady = solve_case(replace(task, settings=SolverSettings(accuracy=0.01)))
+    # section 6 of the theory: within some per cent of each other, from above at first
+    foot = whole.member_forces["foot_anchor"].value
+    assert foot == pytest.approx(steady.member_forces["foot_anchor"].value, rel=0.12)
+    assert math.isfinite(foot)

@@ -1,0 +1,121 @@
+"""The guideline's load against the collection of standards, sections 2.2 and 2.3."""
+
+import math
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.errors import ModelError, StandardError
+from netdesign.guideline.load_model import (
+    compute_altitude_factor,
+    compute_creep_factor,
+    compute_snow_load,
+    read_end_effect,
+    read_load_model,
+)
+
+MODEL = read_load_model(load_standard("swiss-guideline-2007"))
+STEEP = math.radians(45.0)
+
+
+def a_load(**changes):
+    values = {
+        "density": 270.0,
+        "height_vertical": 3.0,
+        "slope_angle": STEEP,
+        "glide_factor": 2.0,
+        "net_height": 3.0,
+        "inclination": 0.0,
+    }
+    return compute_snow_load(MODEL, **(values | changes))
+
+
+@pytest.mark.parametrize(
+    ("density", "recalled"),
+    [(200, 0.70), (300, 0.76), (400, 0.83), (500, 0.92), (600, 1.05)],
+)
+def test_creep_factor_gives_the_recalled_table(density, recalled):
+    found = compute_creep_factor(MODEL, density, STEEP)
+    assert found == pytest.approx(recalled, abs=0.005)
+
+
+def test_creep_factor_follows_the_sine_of_twice_the_slope():
+    at_30 = compute_creep_factor(MODEL, 300.0, math.radians(30.0))
+    at_45 = compute_creep_factor(MODEL, 300.0, STEEP)
+    assert at_30 == pytest.approx(at_45 * math.sin(math.radians(60.0)), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("height", "density", "glide", "expected"),
+    [
+        (2.0, 270, 1.2, 4.8),
+        (3.0, 270, 2.6, 23.4),
+        (4.0, 270, 3.2, 51.2),
+        (4.0, 400, 1.2, 31.7),
+        (4.0, 400, 2.0, 52.9),
+        (4.0, 400, 3.2, 84.6),
+    ],
+)
+def test_pressure_on_a_rigid_wall(height, density, glide, expected):
+    """Worked values of the collection, section 2.3 [kN/m]."""
+    load = a_load(height_vertical=height, density=density, glide_factor=glide)
+    assert load.rigid / 1e3 == pytest.approx(expected, abs=0.1)
+
+
+def test_dimensioning_form_of_the_guideline():
+    """At 45 degrees S'_N = N f_c H^2 [kN/m] up to rounding of the factors."""
+    assert a_load().rigid / 1e3 == pytest.approx(2.0 * 3.0**2, rel=2e-3)
+
+
+def test_two_load_cases_press_alike():
+    """0.77 of the height in snow of 0.40 t/m3 gives the same pressure within 3 %."""
+    second = a_load(
+        density=MODEL.case_2_density, height_vertical=3.0 * MODEL.case_2_height
+    )
+    assert second.rigid == pytest.approx(a_load().rigid, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("altitude", "factor"),
+    [(0, 1.0), (1500, 1.0), (2000, 1.10), (3000, 1.30), (4000, 1.30)],
+)
+def test_altitude_factor(altitude, factor):
+    assert compute_altitude_factor(MODEL, altitude) == pytest.approx(factor, rel=1e-14)
+
+
+def test_parts_of_the_load():
+    load = a_load(inclination=math.radians(30.0), height_vertical=2.0)
+    assert load.parallel == pytest.approx(0.8 * load.rigid, rel=1e-15)
+    assert load.normal == pytest.approx(load.parallel * 0.35 / 2.0, rel=1e-14)
+    filled = 2.0 * math.cos(STEEP)  # snow below the net's head
+    prism = 270 * 10 * filled**2 / 2 * math.tan(math.radians(30.0))
+    assert load.prism == pytest.approx(prism, rel=1e-14)
+    assert load.resultant[0] == pytest.approx(
+        load.parallel + prism * math.sin(STEEP), rel=1e-14
+    )
+    assert load.resultant[1] == pytest.approx(
+        -load.normal - prism * math.cos(STEEP), rel=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("density", 0.27), ("slope_angle", 0.0), ("glide_factor", 0.9)],
+)
+def test_impossible_input_is_named(name, value):
+    with pytest.raises(ModelError, match=name.replace("_", " ")):
+        a_load(**{name: value})
+
+
+def test_profile_without_load_model_is_refused():
+    with pytest.raises(StandardError, match=r"eurocode: has no value snow\.gravity"):
+        read_load_model(load_standard("eurocode"))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["nf-p-95-304-style", "swiss-guideline-2007", "eurocode", "onr-24805-style"],
+)
+def test_every_profile_has_an_end_effect(name):
+    rule = read_end_effect(load_standard(name))
+    assert (rule.constant, rule.per_glide, rule.isolated_gap) == (0.92, 0.65, 2.0)

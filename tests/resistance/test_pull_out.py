@@ -1,0 +1,80 @@
+"""Pull-out against figures worked out beforehand in the collection of standards."""
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.resistance.catalogue import find_bond_stress, find_enlargement
+from netdesign.resistance.pull_out import (
+    PullOutTests,
+    compute_pull_out_from_bond,
+    compute_pull_out_from_tests,
+)
+
+
+@pytest.mark.parametrize(
+    ("length", "stress_kPa", "expected_kN"),
+    [(3.0, 95.0, 80.6), (3.0, 265.0, 224.8), (4.0, 1035.0, 1171.0)],
+)
+def test_bond_of_a_90_mm_hole(length, stress_kPa, expected_kN):
+    """The three examples of the collection of standards, section 4.2."""
+    found = compute_pull_out_from_bond(
+        drill_diameter=0.090, bond_length=length, bond_stress=1e3 * stress_kPa
+    )
+    assert found / 1e3 == pytest.approx(expected_kN, abs=0.5)
+
+
+def test_enlargement_multiplies_the_diameter():
+    plain = compute_pull_out_from_bond(
+        drill_diameter=0.1, bond_length=3.0, bond_stress=1e5
+    )
+    wide = compute_pull_out_from_bond(
+        drill_diameter=0.1, bond_length=3.0, bond_stress=1e5, enlargement=1.3
+    )
+    assert wide == pytest.approx(1.3 * plain, rel=1e-15)
+
+
+def test_least_governs_where_the_tests_scatter():
+    """Two tests: 400 / 1.30 = 307.7 on the mean, 300 / 1.20 = 250 on the least."""
+    found = compute_pull_out_from_tests(
+        PullOutTests(count=2, least=300e3, mean=400e3),
+        correlation_mean=1.30,
+        correlation_least=1.20,
+    )
+    assert found == pytest.approx(250e3, rel=1e-15)
+
+
+def test_mean_governs_where_its_factor_is_the_larger():
+    """Three tests within 5 %: 315 / 1.20 = 262.5 against 300 / 1.05 = 285.7."""
+    found = compute_pull_out_from_tests(
+        PullOutTests(count=3, least=300e3, mean=315e3),
+        correlation_mean=1.20,
+        correlation_least=1.05,
+    )
+    assert found == pytest.approx(262.5e3, rel=1e-15)
+
+
+def test_tests_whose_least_exceeds_the_mean_are_refused():
+    with pytest.raises(ModelError, match="least tested resistance"):
+        PullOutTests(count=3, least=310e3, mean=300e3)
+
+
+@pytest.mark.parametrize("count", [0, -1, 1.5])
+def test_number_of_tests_is_a_count(count):
+    with pytest.raises(ModelError, match="number of tests"):
+        PullOutTests(count=count, least=1e5, mean=1e5)
+
+
+def test_catalogue_gives_the_least_of_a_range_with_its_source():
+    stress = find_bond_stress("gravel", "A")
+    assert (stress.value, stress.status) == (95.0, "secondary")
+    assert "FHWA" in stress.source
+    assert find_enlargement("sandy-gravel").value == 1.2
+
+
+@pytest.mark.parametrize(
+    ("ground", "grouting", "named"),
+    [("gravle", "A", "nearest: gravel"), ("granite", "B", "must be one of A")],
+)
+def test_unknown_ground_or_grouting_names_what_is_known(ground, grouting, named):
+    with pytest.raises(ModelError, match=named):
+        find_bond_stress(ground, grouting)

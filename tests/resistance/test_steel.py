@@ -1,0 +1,66 @@
+"""Bars and ropes against published breaking forces."""
+
+import math
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.resistance.catalogue import find_rope_factor, find_termination
+from netdesign.resistance.steel import (
+    compute_bar_resistance,
+    compute_rope_area,
+    compute_rope_resistance,
+)
+
+
+@pytest.mark.parametrize(
+    ("diameter_mm", "construction", "grade", "published_kN"),
+    [
+        # API 9A, 6x7 with fibre core
+        (8, "6x7-FC", 1770, 37.6),
+        (12, "6x7-FC", 1770, 84.6),
+        (16, "6x7-FC", 1960, 167.0),
+        (22, "6x7-FC", 1770, 284.0),
+        # collection of standards, section 4.4, IWRC
+        (14, "6x36-IWRC", 1770, 123.5),
+        (20, "6x19-IWRC", 1770, 252.0),
+    ],
+)
+def test_breaking_force_of_ropes(diameter_mm, construction, grade, published_kN):
+    found = compute_rope_resistance(
+        diameter=diameter_mm / 1e3,
+        grade=grade * 1e6,
+        breaking_factor=find_rope_factor(construction, "K").value,
+        termination=find_termination("socket").value,
+    )
+    assert found / 1e3 == pytest.approx(published_kN, rel=5e-3)
+
+
+@pytest.mark.parametrize(("kind", "share"), [("ferrule", 0.9), ("clips", 0.8)])
+def test_ends_take_their_share(kind, share):
+    termination = find_termination(kind)
+    assert (termination.value, termination.status) == (share, "assumed")
+
+
+@pytest.mark.parametrize(("diameter_mm", "area_mm2"), [(12, 66.2), (22, 222.6)])
+def test_metallic_area(diameter_mm, area_mm2):
+    factor = find_rope_factor("6x36-IWRC", "C").value
+    found = compute_rope_area(diameter_mm / 1e3, factor)
+    assert 1e6 * found == pytest.approx(area_mm2, abs=0.05)
+
+
+def test_bar_of_28_mm_and_500_mpa():
+    assert compute_bar_resistance(0.028, 500e6) == pytest.approx(
+        math.pi * 14.0**2 * 500.0, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize("diameter", [28.0, 0.0, math.nan])
+def test_diameter_in_millimetres_is_refused(diameter):
+    with pytest.raises(ModelError, match="bar diameter"):
+        compute_bar_resistance(diameter, 500e6)
+
+
+def test_rope_factor_that_a_construction_lacks_is_refused():
+    with pytest.raises(ModelError, match=r"6x19-WSC.*nearest: 6x19"):
+        find_rope_factor("6x19-WSC", "K")

@@ -1,0 +1,103 @@
+"""An imported number is the one typed, or it is refused: three locales.
+
+The typed text is made by rule from a decimal number, as spreadsheet programs show it
+in English, French, German and Swiss; the truth is that decimal number.
+"""
+
+from decimal import Decimal
+
+import openpyxl
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from netdesign.site.diagnostics import Refusal
+from netdesign.site.numbers import parse_number
+from netdesign.site.spreadsheet import read_workbook
+
+# decimal mark, signs that may separate thousands
+LOCALES = {
+    "en": (".", (",",)),
+    "fr": (",", (" ", "\u00a0", "\u202f")),
+    "de": (",", (".",)),
+    "de_CH": (".", ("'", "\u2019")),
+}
+
+
+@st.composite
+def typed_numbers(draw):
+    """A decimal number, and the text that someone types for it in a locale."""
+    digits = draw(st.integers(min_value=0, max_value=10**9))
+    decimals = draw(st.integers(min_value=0, max_value=6))
+    sign = draw(st.sampled_from(["", "-", "+"]))
+    number = Decimal(digits).scaleb(-decimals)
+    mark, separators = LOCALES[draw(st.sampled_from(sorted(LOCALES)))]
+    text = f"{number:.{decimals}f}"
+    whole, _, rest = text.partition(".")
+    if draw(st.booleans()):
+        whole = f"{int(whole):,}".replace(",", draw(st.sampled_from(separators)))
+    spaces = draw(st.sampled_from(["", " ", "\t"]))
+    typed = f"{spaces}{sign}{whole}{mark + rest if rest else ''}{spaces}"
+    return typed, (-number if sign == "-" else number), mark
+
+
+def judge(typed_number, declared=""):
+    typed, truth, mark = typed_number
+    understood = parse_number(typed, declared and mark)
+    if isinstance(understood, Refusal):
+        return False
+    assert understood == float(truth), typed
+    return True
+
+
+@settings(derandomize=True, max_examples=1000, deadline=None)
+@given(typed_numbers())
+def test_a_number_is_the_one_typed_or_refused(typed_number):
+    judge(typed_number)
+
+
+@pytest.mark.slow
+@settings(derandomize=True, max_examples=10_000, deadline=None)
+@given(typed_numbers())
+def test_ten_thousand_numbers_are_the_ones_typed_or_refused(typed_number):
+    judge(typed_number)
+
+
+@settings(derandomize=True, max_examples=1000, deadline=None)
+@given(typed_numbers())
+def test_with_the_decimal_mark_declared_every_number_is_taken(typed_number):
+    assert judge(typed_number, declared="yes")
+
+
+@settings(derandomize=True, max_examples=500, deadline=None)
+@given(typed_numbers())
+def test_without_it_only_what_has_two_readings_is_refused(typed_number):
+    typed, _, _ = typed_number
+    text = typed.strip().lstrip("+-")
+    marks = [sign for sign in text if sign in ".,"]
+    is_unclear = len(marks) == 1 and len(text.split(marks[0])[1]) == 3
+    if not judge(typed_number):
+        assert is_unclear
+        assert len(text.split(marks[0])[0]) <= 3
+
+
+@settings(
+    derandomize=True,
+    max_examples=10,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+@given(st.lists(typed_numbers(), min_size=20, max_size=50))
+def test_through_a_real_workbook_too(tmp_path, typed):
+    path = tmp_path / "numbers.xlsx"
+    workbook = openpyxl.Workbook()
+    for row, (text, truth, _) in enumerate(typed, start=1):
+        workbook.active.cell(row, 1, text)
+        workbook.active.cell(row, 2, float(truth))  # typed into a number cell
+    workbook.save(path)
+    (sheet,) = read_workbook(path, lambda _: True).sheets
+    for row, typed_number in enumerate(typed, start=1):
+        as_text, as_number = sheet.cell(row, 1), sheet.cell(row, 2)
+        assert as_text.value == typed_number[0]
+        assert parse_number(as_number.value) == float(typed_number[1])
+        judge((as_text.value, *typed_number[1:]))

@@ -1,0 +1,106 @@
+"""Sheet Monitoring: series in SI, every fault with its cell."""
+
+from datetime import datetime
+
+import pytest
+
+from netdesign.site.reader import read_site
+
+HEADINGS = ["net row", "member", "time [d]", "tension [kN]", "air temperature [°C]"]
+
+
+def with_lines(sheets, *lines, headings=HEADINGS):
+    sheets["Monitoring"] = [headings, *map(list, lines)]
+    return sheets
+
+
+def test_without_the_sheet_there_is_nothing(sheets, save):
+    assert read_site(save(sheets)).monitoring == ()
+
+
+def test_series_are_read_by_row_and_member(sheets, save):
+    site = read_site(
+        save(
+            with_lines(
+                sheets,
+                ["R1", "uphill anchor", 2.0, 31.5, -4.0],
+                ["R1", "foot_anchor", 2.0, 80.0, None],
+                ["R1", "ancrage amont", 2.25, None, -12.5],
+            )
+        )
+    )
+    uphill, foot = site.monitoring
+    assert (uphill.row_id, uphill.member) == ("R1", "uphill_guy")
+    assert uphill.times == (0.0, 0.25 * 86400.0)
+    assert uphill.tensions == (31500.0, None)
+    assert uphill.air_temperatures == pytest.approx((269.15, 260.65))
+    assert uphill.source == "Monitoring!A2"
+    assert foot.tensions == (80000.0,)
+    assert foot.air_temperatures == (None,)
+    assert not [note for note in site.notes if "Monitoring" in note]
+
+
+@pytest.mark.parametrize(
+    "moments",
+    [
+        ("2003-02-18 06:00", "2003-02-18 18:00"),
+        (datetime(2003, 2, 18, 6), datetime(2003, 2, 18, 18)),
+    ],
+)
+def test_dates_become_times_since_the_first(sheets, save, moments):
+    headings = ["net row", "member", "date and time", "tension [kN]"]
+    lines = [["R1", "post", moment, 10.0] for moment in moments]
+    site = read_site(save(with_lines(sheets, *lines, headings=headings)))
+    assert site.monitoring[0].times == (0.0, 43200.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "headings", "member"),
+    [
+        ("Mesures", ["Rangée", "Élément", "Temps [h]", "Effort [N]"], "hauban amont"),
+        (
+            "Messungen",
+            ["Werkreihe", "Bauteil", "Zeit [h]", "Zugkraft [N]"],
+            "bergseitiges Abspannseil",
+        ),
+    ],
+)
+def test_french_and_german_sheets_with_other_units(
+    sheets, save, name, headings, member
+):
+    sheets[name] = [headings, ["R1", member, 6, 31500], ["R1", member, 12, 32000]]
+    (series,) = read_site(save(sheets)).monitoring
+    assert series.member == "uphill_guy"
+    assert series.times == (0.0, 6 * 3600.0)
+    assert series.tensions == (31500.0, 32000.0)
+
+
+@pytest.mark.parametrize(
+    ("line", "cell", "rule"),
+    [
+        (["R9", "post", 1.0, 10.0, None], "A2", "is no id of sheet Nets"),
+        (["R1", "roof", 1.0, 10.0, None], "B2", "is not a known word"),
+        (["R1", "post", None, 10.0, None], "A2", "has no time"),
+        (["R1", "post", 1.0, None, None], "A2", "without a measurement"),
+        (["R1", "post", 1.0, -3.0, None], "D2", "out of range"),
+        (["R1", "post", 1.0, 10.0, 260.0], "E2", "out of range"),
+    ],
+)
+def test_each_fault_names_its_cell(sheets, save, refused, line, cell, rule):
+    (finding,) = refused(save(with_lines(sheets, line)))
+    assert (finding.sheet, finding.cell) == ("Monitoring", cell)
+    assert rule in finding.rule
+
+
+def test_times_must_ascend(sheets, save, refused):
+    lines = [["R1", "post", time, 10.0, None] for time in (1.0, 1.0)]
+    (finding,) = refused(save(with_lines(sheets, *lines)))
+    assert finding.cell == "C3"
+    assert "is not after the line before" in finding.rule
+
+
+def test_what_is_no_date_is_refused(sheets, save, refused):
+    headings = ["net row", "member", "date and time", "tension [kN]"]
+    lines = [["R1", "post", "18th of February", 10.0]]
+    (finding,) = refused(save(with_lines(sheets, *lines, headings=headings)))
+    assert finding.rule == "is no date"

@@ -1,0 +1,161 @@
+"""Three whole sites, in every kind of file that they may come in."""
+
+import math
+import shutil
+import subprocess
+
+import openpyxl
+import pytest
+from ods_files import write_ods
+from whole_sites import (
+    DAMAGED_FINDINGS,
+    FRENCH_HEIGHTS,
+    FRENCH_SLOPES_PERCENT,
+    GERMAN_DOWNWARD,
+    GERMAN_MERGES,
+    damaged_site,
+    french_site,
+    german_site,
+)
+
+from netdesign.errors import SiteDataError
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+from netdesign.snow.ground import build_ground_from_glide_factor
+
+
+def merge_german_headings(workbook):
+    for place in (*GERMAN_MERGES, *(f"{c}1:{c}2" for c in GERMAN_DOWNWARD)):
+        workbook["Netze"].merge_cells(place)
+
+
+def convert(path, kind):
+    """The same workbook, written by LibreOffice."""
+    if shutil.which("soffice") is None:
+        pytest.skip("LibreOffice is not installed")
+    profile = f"-env:UserInstallation=file://{path.parent}/profile"
+    command = ("soffice", profile, "--headless", "--convert-to", kind)
+    subprocess.run(
+        [*command, "--outdir", str(path.parent), str(path)],
+        check=True,
+        capture_output=True,
+        timeout=100,
+    )
+    return path.with_suffix(f".{kind}")
+
+
+def check_french(site):
+    assert site.project.author == "É. Façade"
+    assert [row.id for row in site.rows] == [f"F{k:02}" for k in range(1, 13)]
+    for row, slope, height in zip(
+        site.rows, FRENCH_SLOPES_PERCENT, FRENCH_HEIGHTS, strict=True
+    ):
+        angle = math.atan(float(slope.replace(",", ".")) / 100)
+        thickness = float(height.replace(",", ".")) * math.cos(angle)
+        assert row.slope_angle == pytest.approx(angle, rel=1e-14)
+        assert row.snow_thickness == pytest.approx(thickness, rel=1e-14)
+        assert (row.net_stiffness_per_m, row.slack) == (12.5e6, 0.05)
+        assert row.upslope_length == 18.5
+    sliding = build_ground_from_glide_factor(1.4, site.rows[2].snow_thickness)
+    assert site.rows[2].ground == sliding
+    assert site.rows[0].ground.kind == "no-slip"
+    assert site.ranges.density.high == 412.5
+    values = {(one.member, one.mode): one.value for one in site.rows[0].resistances}
+    assert values["foot_anchor", "tendon"] == 442_500.0
+    assert values["downhill_anchor", "pull_out"] == 300_250.0
+    notes = "\n".join(site.notes)
+    assert notes.count("is a note below the table") == 2
+    assert '"Remarque" is no known heading' in notes
+
+
+def check_german(site):
+    first, second = site.rows
+    assert [row.id for row in site.rows] == ["W1", "W2"]
+    assert first.slope_angle == math.radians(38.5)
+    assert (first.snow_thickness, first.net_stiffness_per_m) == (2.8, 12.5e6)
+    assert first.layout.post_tilt == pytest.approx(math.radians(9), rel=1e-15)
+    assert second.ground.slip_length == 1.25
+    assert second.net_stiffness_per_m == 9e6
+    assert [layer.density for layer in second.layers] == [400.0, 250.0]
+    assert [layer.thickness for layer in second.layers] == [1.0, 1.755]
+    assert second.snow_thickness == 2.755
+    assert site.ranges.density.low == pytest.approx(270.0, rel=1e-15)
+    assert site.ranges.friction_angle.high == pytest.approx(math.radians(45))
+    types = {one.member: one.type_id for one in second.resistances}
+    assert types == {
+        **dict.fromkeys({member for member, _ in MEMBER_MODES}, "A2"),
+        **{"foot_anchor": "A1", "uphill_guy": "S1", "downhill_guy": "S1"},
+        "post": "P1",
+    }
+    post = next(one for one in second.resistances if one.member == "post")
+    assert post.value == pytest.approx(380e3, rel=1e-15)
+    assert site.notes == ()
+
+
+def test_twelve_french_rows_with_commas_and_per_cent(save):
+    check_french(read_site(save(french_site())))
+
+
+def test_a_german_site_with_units_row_and_grouped_headings(save):
+    check_german(read_site(save(german_site(), merge_german_headings)))
+
+
+def test_a_french_site_written_by_hand_as_ods(tmp_path):
+    check_french(read_site(write_ods(tmp_path / "site.ods", french_site())))
+
+
+@pytest.mark.parametrize("kind", ["ods", "xlsx"])
+def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
+    (tmp_path / "typed").mkdir()
+    typed = tmp_path / "typed" / "site.xlsx"
+    save(french_site()).rename(typed)
+    source = typed if kind == "ods" else convert(typed, "ods")
+    check_french(read_site(convert(source, kind)))
+
+
+def test_the_german_site_saved_by_libreoffice(save):
+    check_german(read_site(convert(save(german_site(), merge_german_headings), "ods")))
+
+
+def test_a_damaged_site_gives_every_finding_at_once(save, refused):
+    findings = refused(save(damaged_site()))
+    errors = {
+        (f"{f.sheet}!{f.cell}", f.rule) for f in findings if f.severity == "error"
+    }
+    assert errors == DAMAGED_FINDINGS
+    accepted = {f.cell: f.accepted for f in findings}
+    assert '(nearest: "A32" in Anchors!A2)' in accepted["I3"]
+    assert '(nearest: "G18" in Ropes!A2)' in accepted["J3"]
+    notes = {(f.sheet, f.cell) for f in findings if f.severity == "note"}
+    assert notes == {("Nets", "K1"), ("Old", "")}
+
+
+def test_the_damaged_site_comes_back_with_its_findings_marked(save, tmp_path):
+    path = save(damaged_site())
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    findings = caught.value.findings
+    copy = tmp_path / "copy.xlsx"
+    copy.write_bytes(annotate_workbook(path, findings))
+    before, after = openpyxl.load_workbook(path), openpyxl.load_workbook(copy)
+    assert after.sheetnames[1:] == before.sheetnames
+    marked = {
+        (sheet.title, cell.coordinate): cell
+        for sheet in after.worksheets[1:]
+        for row in sheet.iter_rows()
+        for cell in row
+        if cell.comment is not None
+    }
+    assert set(marked) == {(f.sheet, f.cell) for f in findings if f.cell}
+    for finding in findings:
+        if finding.cell:
+            cell = marked[finding.sheet, finding.cell]
+            assert finding.rule in cell.comment.text
+            assert cell.fill.fill_type == "solid"
+    for sheet in before.worksheets:
+        for row in sheet.iter_rows():
+            for cell in row:
+                assert after[sheet.title][cell.coordinate].value == cell.value
+    listed = [[cell.value for cell in row] for row in after.worksheets[0].iter_rows()]
+    assert [line[5] for line in listed[1:]] == [f.rule for f in findings]

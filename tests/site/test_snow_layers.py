@@ -1,0 +1,193 @@
+"""Layers by net row: from sheet Snow to the scenes that are solved."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.check_site import judge_site
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.envelope.grid import Case
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.workers import OwnProcess
+from netdesign.rowcheck.probe import build_scene
+from netdesign.site.reader import read_site
+from netdesign.site_cases import CheckRun, search_site, solve_site
+from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
+
+SNOW = [
+    ["net row", "layer", "thickness [m]", "density [kg/m3]", "temperature [°C]"],
+    ["R1", 1, 1.0, 450, None],
+    ["R1", 2, 1.5, 300, None],
+    ["R1", 3, 0.5, 200, None],
+]
+MEAN = (1.0 * 450 + 1.5 * 300 + 0.5 * 200) / 3.0
+
+
+@pytest.fixture
+def layered(sheets):
+    sheets["Snow"] = [list(row) for row in SNOW]
+    return sheets
+
+
+def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
+    layered["Snow"][1:] = [layered["Snow"][k] for k in (3, 1, 2)]
+    first, second = read_site(save(layered)).rows
+    assert [layer.density for layer in first.layers] == [450.0, 300.0, 200.0]
+    assert [layer.thickness for layer in first.layers] == [1.0, 1.5, 0.5]
+    assert first.snow_thickness == 3.0
+    assert first.mean_density == pytest.approx(MEAN)
+    assert second.layers == ()
+
+
+def test_every_input_of_a_layer_is_echoed(layered, save):
+    shown = {echo.label: echo for echo in read_site(save(layered)).rows[0].inputs}
+    assert shown["layer 2, density"].value == 300.0
+    assert shown["layer 2, density"].cell == "Snow!D3"
+
+
+def test_thickness_may_be_left_to_the_layers(layered, save):
+    layered["Nets"][1][2] = None
+    assert read_site(save(layered)).rows[0].snow_thickness == 3.0
+
+
+def test_vertical_heights_become_thicknesses_and_temperatures_kelvin(layered, save):
+    layered["Snow"][0][2] = "height vertical [m]"
+    for line, celsius in zip(layered["Snow"][1:], (-1, -5, -8), strict=True):
+        line[4] = celsius
+    layered["Nets"][1][2:4] = [None, 3.0]
+    row = read_site(save(layered)).rows[0]
+    assert row.layers[1].thickness == pytest.approx(1.5 * math.cos(math.radians(40)))
+    assert row.snow_thickness == pytest.approx(3.0 * math.cos(math.radians(40)))
+    assert [one.temperature for one in row.layers] == pytest.approx(
+        [272.15, 268.15, 265.15]
+    )
+
+
+@pytest.mark.parametrize(
+    ("cell", "value", "place", "rule"),
+    [
+        ((1, 0), "R9", "Snow!A2", "is no id of sheet Nets"),
+        ((2, 1), 3, "Snow!B3", "is not layer 2 of net row R1"),
+        ((2, 1), 1, "Snow!B3", "is not layer 2 of net row R1"),
+        ((1, 1), 2, "Snow!B2", "is not layer 1 of net row R1"),
+        ((1, 1), 1.5, "Snow!B2", "is not a whole number"),
+        ((1, 2), 1.5, "Nets!C2", "differs from the sum of the layers in sheet Snow"),
+        ((1, 2), None, "Snow!C2", "is empty"),
+        ((3, 2), 0.02, "Snow!C4", "is below 2% of the snowpack"),
+        ((1, 3), "4OO", "Snow!D2", "is not a number"),
+        ((1, 3), 899, "Snow!D2", "begins layers of mean density"),
+        ((1, 4), -3, "Snow!E3", "is empty beside layers with a temperature"),
+        ((1, 4), 3, "Snow!E2", "is out of range"),
+    ],
+)
+def test_faults_of_layers_are_refused(layered, save, refused, cell, value, place, rule):
+    layered["Snow"][cell[0]][cell[1]] = value
+    found = [(f"{f.sheet}!{f.cell}", f.rule) for f in refused(save(layered))]
+    assert any(where == place and what.startswith(rule) for where, what in found), found
+
+
+def test_a_range_that_makes_a_layer_denser_than_snow_is_refused(layered, save, refused):
+    layered["Ranges"][1][2] = 700
+    (finding,) = refused(save(layered))
+    assert finding.cell == "D2"
+    # the densest layer at the top of the range: 450 / 333 x 700
+    assert finding.rule.endswith(f"as dense as {450 / MEAN * 700:.4g} kg/m3")
+
+
+def test_a_change_of_height_or_density_keeps_the_proportions(layered, save):
+    """What would flip a check is searched with changed rows: rowcheck.flips."""
+    row = replace(read_site(save(layered)).rows[0], snow_thickness=2.4)
+    case = Case(density=300.0, friction_angle=0.5, inclination=0.5)
+    pack = build_scene(row, case, BOUTILLIER_2004).snowpack
+    assert (pack.thickness, pack.density) == (2.4, 300.0)
+    assert [layer.thickness for layer in pack.layers] == pytest.approx([0.8, 1.2, 0.4])
+    assert [layer.density for layer in pack.layers] == pytest.approx(
+        [density * 300.0 / MEAN for density in (450, 300, 200)]
+    )
+
+
+@pytest.mark.parametrize("is_layered", [True, False])
+def test_densities_outside_the_creep_law_are_told_layer_by_layer(
+    layered, save, is_layered
+):
+    low, high = (bound * ICE_DENSITY for bound in BOUTILLIER_2004.calibrated)
+    assert low < 400 < 480 < high  # the range itself is inside
+    layered["Ranges"][1][1:4] = [400, 480, 2]
+    for line, density in zip(layered["Snow"][1:], (500, 420, 300), strict=True):
+        line[3] = density
+    mean = (1.0 * 500 + 1.5 * 420 + 0.5 * 300) / 3.0
+    if not is_layered:
+        del layered["Snow"]
+    site = read_site(save(layered))
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
+    standard = load_standard("nf-p-95-304-style")
+    study = judge_site(site, [[] for _ in site.rows], standard, run)
+    notes = [note for note in study.notes if "the creep law" in note]
+    if not is_layered:
+        assert notes == []
+        return
+    (note,) = notes
+    least, largest = 300 * 400 / mean, 500 * 480 / mean
+    told = f"net row R1: layer densities of {least:g} to {largest:g} kg/m3 reach"
+    assert note.startswith(told)
+
+
+def test_layers_reach_the_solver_and_change_its_forces(layered, save):
+    for name, values in (("Ranges", [300, 360, 2]),):
+        layered[name][1][1:4] = values
+    layered["Ranges"][2][1:4] = [30, 30, 1]
+    layered["Ranges"].append(["net inclination [deg]", 30, 30, 1])
+    layered["Nets"][2:] = []
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
+    site = read_site(save(layered))
+    workers = Recording()
+    results = solve_site(site, run, Runner(workers=workers))
+    packs = [job.scene.snowpack for job in workers.seen]
+    assert [pack.density for pack in packs] == [r.case.density for r in results[0]]
+    for pack in packs:
+        # in proportion as typed, with the mean of the case
+        assert [layer.density for layer in pack.layers] == pytest.approx(
+            [density * pack.density / MEAN for density in (450, 300, 200)]
+        )
+    study = judge_site(site, results, load_standard("nf-p-95-304-style"), run)
+    (note,) = [note for note in study.notes if "layers" in note]
+    assert note.startswith("net row R1: its 3 layers of mean density 333.3 kg/m3")
+    del layered["Snow"]
+    uniform = solve_site(read_site(save(layered)), run)
+    heads = [
+        found[0][0].member_forces["uphill_guy"].value for found in (results, uniform)
+    ]
+    assert abs(heads[0] / heads[1] - 1) > 0.01
+
+
+def test_layers_follow_the_density_of_a_search_too(layered, save):
+    layered["Ranges"][1][1:4] = [300, 360, None]
+    layered["Ranges"][2][1:4] = [30, 30, None]
+    layered["Ranges"].append(["net inclination [deg]", 30, 30, None])
+    layered["Nets"][2:] = []
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
+    site = read_site(save(layered))
+    assert not site.ranges.is_grid
+    workers = Recording()
+    (found,) = search_site(site, run, Runner(workers=workers))
+    assert found.gap == ""
+    densities = {job.scene.snowpack.density for job in workers.seen}
+    assert {300.0, 330.0, 360.0} <= densities
+    for job in workers.seen:
+        pack = job.scene.snowpack
+        assert [layer.density for layer in pack.layers] == pytest.approx(
+            [density * pack.density / MEAN for density in (450, 300, 200)]
+        )
+
+
+class Recording(OwnProcess):
+    """Workers that remember their jobs."""
+
+    def __init__(self):
+        self.seen = []
+
+    def solve(self, jobs):
+        self.seen += jobs
+        return super().solve(jobs)

@@ -1,0 +1,186 @@
+"""Resistances from dimensions, read from the type sheets of a workbook."""
+
+import math
+
+import pytest
+
+from netdesign.site.reader import read_site
+
+
+def add_columns(sheets, name, **columns):
+    """Columns with one value for the first type of a sheet; clears the second."""
+    head, first = sheets[name][:2]
+    for label, value in columns.items():
+        head.append(label)
+        first.append(value)
+
+
+def resistance(site, member, mode):
+    return next(
+        r for r in site.rows[0].resistances if (r.member, r.mode) == (member, mode)
+    )
+
+
+BOND = {
+    "drill diameter [mm]": 90,
+    "bond length [m]": 3.0,
+    "ground": "gravel",
+}
+
+
+def test_bar_and_bond(sheets, save):
+    sheets["Anchors"][1][1:] = [None, None, None]
+    add_columns(
+        sheets,
+        "Anchors",
+        **{"bar diameter [mm]": 28, "bar strength [N/mm2]": 500, **BOND},
+    )
+    site = read_site(save(sheets))
+    tendon = resistance(site, "foot_anchor", "tendon")
+    assert tendon.value == pytest.approx(math.pi / 4 * 0.028**2 * 500e6, rel=1e-12)
+    assert tendon.derivation == "π/4 · (28 mm)² · 500 MPa"
+    pull_out = resistance(site, "foot_anchor", "pull_out")
+    assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
+    assert pull_out.basis == "computed"
+    assert "95 kPa (gravel, grouting A; secondary: FHWA" in pull_out.derivation
+    assert pull_out.source == "Anchors!G2"
+
+
+def test_tests_stand_in_the_place_of_a_value(sheets, save):
+    sheets["Anchors"][1][2:] = [None, None]
+    add_columns(
+        sheets,
+        "Anchors",
+        **{
+            "number of tests": 3,
+            "least tested resistance [kN]": 270,
+            "mean tested resistance [kN]": 290,
+        },
+    )
+    found = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
+    assert (found.value, found.basis) == (None, "tested")
+    assert (found.tests.count, found.tests.least) == (3, 270e3)
+    assert found.source == "Anchors!F2"
+
+
+def test_rope_and_post(sheets, save):
+    sheets["Ropes"][1][1] = sheets["Posts"][1][1] = None
+    add_columns(
+        sheets,
+        "Ropes",
+        **{
+            "rope diameter [mm]": 20,
+            "construction": "6x36-IWRC",
+            "rope grade [MPa]": 1770,
+        },
+    )
+    add_columns(
+        sheets,
+        "Posts",
+        **{
+            "section area [cm2]": 34,
+            "second moment of area [cm4]": 318,
+            "buckling length [m]": 3.0,
+            "yield strength [MPa]": 235,
+            "buckling curve": "c",
+        },
+    )
+    site = read_site(save(sheets))
+    rope = resistance(site, "uphill_guy", "rope")
+    assert rope.value / 1e3 == pytest.approx(0.8 * 252.0, rel=1e-3)  # clips
+    post = resistance(site, "post", "compression")
+    assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
+    modes = {r.mode for r in site.rows[0].resistances}
+    assert "bearing" not in modes
+
+
+def test_bearing_is_checked_where_it_is_given(sheets, save):
+    add_columns(sheets, "Posts", **{"bearing resistance [kN]": 240})
+    found = resistance(read_site(save(sheets)), "post_base", "bearing")
+    assert (found.value, found.source) == (240e3, "Posts!C2")
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        {"Bohrdurchmesser [cm]": 9, "Verbundlänge [m]": 3.0, "Baugrund": "Kies"},
+        {
+            "diamètre de forage [m]": 0.09,
+            "longueur de scellement [cm]": 300,
+            "terrain": "gravier",
+        },
+    ],
+)
+def test_dimensions_in_other_languages_and_units(sheets, save, columns):
+    sheets["Anchors"][1][1:] = [None, None, None]
+    add_columns(sheets, "Anchors", **columns)
+    pull_out = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
+    assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
+    assert pull_out.derivation.startswith("π · 90 mm · 3 m · 95 kPa (gravel")
+
+
+@pytest.mark.parametrize(
+    ("columns", "told"),
+    [
+        ({"bar diameter [mm]": 28}, "needs more beside it: bar strength"),
+        (BOND, "is given beside the pull-out resistance in Anchors!C2"),
+        (
+            BOND | {"ground": "gravle"},
+            "is not a known word (ground); accepted: clay-soft",
+        ),
+        (
+            {
+                "number of tests": 2,
+                "least tested resistance [kN]": 300,
+                "mean tested resistance [kN]": 290,
+            },
+            "exceeds the mean in Anchors!G2",
+        ),
+        (
+            {"number of tests": 2, "least tested resistance [kN]": 300},
+            "needs more beside it: mean tested resistance",
+        ),
+        (
+            {
+                "number of tests": 2,
+                "least tested resistance [kN]": 300,
+                "mean tested resistance [kN]": 310,
+            },
+            "is given beside the pull-out resistance in Anchors!C2",
+        ),
+    ],
+)
+def test_contradictions_and_gaps_are_refused(sheets, save, refused, columns, told):
+    add_columns(sheets, "Anchors", **columns)
+    assert told in "\n".join(str(finding) for finding in refused(save(sheets)))
+
+
+def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused):
+    sheets["Anchors"][1][2:] = [None, None]
+    add_columns(sheets, "Anchors", **(BOND | {"ground": "granite", "grouting": "B"}))
+    (finding,) = refused(save(sheets))
+    assert "grouting in granite = 'B': must be one of A" in str(finding)
+
+
+def test_type_that_no_sheet_defines_names_cell_and_near_matches(sheets, save, refused):
+    sheets["Nets"][1][11] = "A11"
+    sheets["Nets"][1][12] = "H1"
+    first, second = refused(save(sheets))
+    assert (first.cell, second.cell) == ("L2", "M2")
+    assert 'nearest: "A1"' in first.accepted
+    assert "an id defined in sheet Ropes" in second.accepted
+
+
+def test_place_in_the_row_is_read(sheets, save):
+    for label, value in (
+        ("gap to next work [m]", 1.5),
+        ("altitude [m]", 2100),
+        ("post base distance [m]", 0.8),
+    ):
+        sheets["Nets"][0].append(label)
+        sheets["Nets"][1].append(value)
+    first, second = read_site(save(sheets)).rows
+    assert (first.gap, first.altitude) == (1.5, 2100.0)
+    assert first.layout.post_base_distance == 0.8
+    assert (second.gap, second.altitude) == (math.inf, None)
+    assert second.layout.post_base_distance is None

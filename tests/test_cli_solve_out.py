@@ -1,0 +1,144 @@
+"""`netdesign solve --out` and `netdesign paper`: files, exit codes, refusals."""
+
+import csv
+import io
+import json
+import sys
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign import cli
+from netdesign.report.solution_page import render_solution, write_history
+
+SCENE = """
+[slope]
+angle_deg = 40
+[snow]
+thickness_m = 4.0
+upslope_length_m = 20
+density_kg_m3 = 366.8
+[net]
+inclination_deg = 30
+{net}
+friction_deg = 30
+[solve]
+accuracy = 0.1
+horizon_days = {days}
+densification = {dense}
+"""
+CABLE, WALL = "stiffness_kN_per_m = 20000", 'kind = "rigid"'
+DRAWINGS = {"node_forces.svg", "stick_slip.svg", "mesh.svg"}
+
+
+def write_scene(folder, net=CABLE, days=1e-3, dense="true"):
+    path = folder / "scene.toml"
+    path.write_text(SCENE.format(net=net, days=days, dense=dense), encoding="utf-8")
+    return path
+
+
+def run(monkeypatch, *arguments):
+    monkeypatch.setattr(sys, "argv", ["netdesign", *map(str, arguments)])
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    return end.value.code
+
+
+def names(folder):
+    return {path.name for path in folder.iterdir()}
+
+
+@pytest.mark.parametrize("net", [CABLE, WALL])
+def test_steady_scene_becomes_a_folder(tmp_path, monkeypatch, capsys, net):
+    out = tmp_path / "out"
+    assert run(monkeypatch, "solve", write_scene(tmp_path, net), "--out", out) == 0
+    assert names(out) == {"solution.json", "index.html", *DRAWINGS}
+    page = (out / "index.html").read_text(encoding="utf-8")
+    assert "default-src 'none'" in page
+    assert "<script" not in page
+    document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
+    pull = (
+        document["wall"]["force_x_kN_per_m"]
+        if net == WALL
+        else document["anchor_forces"]["foot"]["size_kN_per_m"]
+    )
+    assert f"{pull:.2f}" in page
+    for name in DRAWINGS:
+        ElementTree.parse(out / name)
+    assert "wrote" in capsys.readouterr().err
+
+
+def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, monkeypatch, capsys):
+    out = tmp_path / "out"
+    scene = write_scene(tmp_path)
+    code = run(monkeypatch, "solve", scene, "--method", "transient", "--out", out)
+    assert code == 4
+    assert names(out) == {
+        *("solution.json", "index.html", "history.svg", "history.csv"),
+        *DRAWINGS,
+    }
+    page = (out / "index.html").read_text(encoding="utf-8")
+    assert "Not proven: no plateau" in page
+    document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
+    lines = (out / "history.csv").read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 1 + len(document["history"])
+    capsys.readouterr()
+
+
+def test_existing_outputs_are_refused_before_solving(tmp_path, monkeypatch, capsys):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "solution.json").write_text("mine", encoding="utf-8")
+    scene = write_scene(tmp_path)
+    assert run(monkeypatch, "solve", scene, "--out", out) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert names(out) == {"solution.json"}
+    assert run(monkeypatch, "solve", scene, "--out", out, "--force") == 0
+    assert "index.html" in names(out)
+
+
+def test_json_stays_alone_on_stdout(tmp_path, monkeypatch, capsys):
+    out = tmp_path / "out"
+    run(monkeypatch, "solve", write_scene(tmp_path), "--json", "--out", out)
+    printed = json.loads(capsys.readouterr().out)
+    assert printed == json.loads((out / "solution.json").read_text(encoding="utf-8"))
+
+
+def test_a_failed_solve_has_a_page_with_its_reason():
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.outcome import Outcome
+    from netdesign.solution_file import write_solution_document
+
+    failed = FailedSolution(outcome=Outcome.NO_EQUILIBRIUM, reason="<b>too slack</b>")
+    document = write_solution_document(failed, SolverSettings(), 0.1)
+    files = render_solution(failed, document, "scene.toml")
+    assert set(files) == {"solution.json", "index.html"}
+    page = files["index.html"].decode()
+    assert "No result: no equilibrium." in page
+    assert "&lt;b&gt;too slack" in page
+
+
+def test_history_table_has_a_column_for_each_node():
+    moment = {"time_d": 1.0, "foot_kN_per_m": 2.0, "node_forces": [[3.0, 4.0], [5, 6]]}
+    (row,) = csv.DictReader(io.StringIO(write_history([moment]).decode()))
+    assert row["time_d"] == "1.0"
+    assert row["node_2_y_kN_per_m"] == "6"
+
+
+def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsys):
+    from build_paper import build_study
+
+    from netdesign.paper import study as module
+    from netdesign.paper.cases import find_history
+
+    made = build_study()
+    monkeypatch.setattr(module, "run_study", lambda *_, **__: made)
+    out = tmp_path / "paper"
+    assert run(monkeypatch, "paper", "--out", out) == 0
+    assert {"index.html", "plateau.csv", "methods.svg"} <= names(out)
+    assert "index.html and" in capsys.readouterr().err
+    assert run(monkeypatch, "paper", "--out", out) == 2
+    failing = build_study(failing=[find_history(0.0)])
+    monkeypatch.setattr(module, "run_study", lambda *_, **__: failing)
+    assert run(monkeypatch, "paper", "--out", out, "--force", "--quiet") == 4

@@ -1,0 +1,148 @@
+"""Results that may not depend on how they were computed, and ill-conditioned scenes."""
+
+import copy
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from netdesign.benchmark.scenes import SCENES, build_tables
+from netdesign.coupling import steady
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import Solution
+from netdesign.coupling.steady import solve_steady
+from netdesign.snow.mesh import MeshTemplate, build_template
+
+# The order of summation and of elimination changes; the iterations stop at 1e-6, but
+# take the same steps: what differs is their rounding.
+ROUNDING = 1e-9
+SETTINGS = SolverSettings(accuracy=0.01)
+CHOSEN = ("paper-30", "slipping-part", "rough-ground", "layered")
+
+
+def solve(tables) -> Solution:
+    solution = solve_steady(build_tables(tables), SETTINGS, on_failure="raise")
+    assert isinstance(solution, Solution)
+    return solution
+
+
+def pulls(solution: Solution) -> list[float]:
+    ends = (solution.foot, solution.head)
+    return [part for end in ends for part in (end.x, end.y)]
+
+
+def renumber(template: MeshTemplate, seed: int) -> MeshTemplate:
+    """The same mesh with vertices, midpoints and triangles in random order."""
+    rng = np.random.default_rng(seed)
+    n_nodes, n_vertices = template.nodes.shape[1], template.n_vertices
+    midpoints = rng.permutation(n_nodes - n_vertices)
+    order = np.concatenate([rng.permutation(n_vertices), n_vertices + midpoints])
+    new_number = np.empty(n_nodes, dtype=np.int64)
+    new_number[order] = np.arange(n_nodes)
+    shuffled = rng.permutation(template.triangles.shape[1])
+    return MeshTemplate(
+        nodes=template.nodes[:, order],
+        triangles=new_number[template.triangles[:, shuffled]],
+        orientation=template.orientation[shuffled],
+        edges=new_number[template.edges][:, midpoints],
+        net=new_number[template.net],
+        ground=new_number[template.ground],
+        aspect=template.aspect,
+    )
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_numbering_of_nodes_does_not_matter(monkeypatch, name):
+    expected = solve(SCENES[name])
+    shuffled = {}
+
+    def build_shuffled(*arguments):
+        if arguments not in shuffled:
+            shuffled[arguments] = renumber(build_template(*arguments), seed=7)
+        return shuffled[arguments]
+
+    monkeypatch.setattr(steady, "build_template", build_shuffled)
+    found = solve(SCENES[name])
+    assert len(shuffled) >= 2
+    assert found.cost == expected.cost
+    np.testing.assert_allclose(pulls(found), pulls(expected), rtol=ROUNDING)
+    # the meshes are not by chance numbered alike
+    assert not np.array_equal(found.mesh_nodes, expected.mesh_nodes)
+
+
+def test_order_of_cases_does_not_matter():
+    forwards = {name: pulls(solve(SCENES[name])) for name in CHOSEN}
+    backwards = {name: pulls(solve(SCENES[name])) for name in reversed(CHOSEN)}
+    assert backwards == forwards  # to the last bit: nothing is carried between cases
+
+
+PROBE = """
+from netdesign.benchmark.scenes import SCENES, build_tables
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady import solve_steady
+for name in ("paper-30", "slipping-part"):
+    solution = solve_steady(build_tables(SCENES[name]), SolverSettings(accuracy=0.002))
+    for end in (solution.foot, solution.head):
+        print(repr(end.x), repr(end.y), solution.cost.linear_solves)
+"""
+
+
+def test_number_of_threads_does_not_matter(tmp_path):
+    found = []
+    for threads in ("1", "2"):
+        names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+        result = subprocess.run(
+            [sys.executable, "-c", PROBE],
+            env={**os.environ, **dict.fromkeys(names, threads)},
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert result.returncode == 0, result.stderr
+        found.append([float(word) for word in result.stdout.split()])
+    assert len(found[0]) == 12
+    np.testing.assert_allclose(found[0], found[1], rtol=ROUNDING)
+
+
+STIFF = {"net": {"stiffness_kN_per_m": 1e6, "slack": 0.0}}
+DENSE = {"snow": {"density_kg_m3": 900.0}}
+THIN = {
+    "snow": {"thickness_m": 0.2, "upslope_length_m": 5.0},
+    "net": {"height_m": 0.2},
+}
+LONG = {"snow": {"upslope_length_m": 180.0}}  # of 3 m
+ALL = {
+    "snow": {"density_kg_m3": 900.0, "thickness_m": 0.2, "upslope_length_m": 12.0},
+    "net": {"stiffness_kN_per_m": 1e6, "slack": 0.0, "height_m": 0.2},
+}
+GROUNDS = (
+    {"law": "free"},
+    {"law": "no-slip"},
+    {"law": "sliding", "slip_length_m": 1.0},
+    {"law": "free", "contact": "one-sided"},
+)
+
+
+@pytest.mark.parametrize("ground", GROUNDS, ids=str)
+@pytest.mark.parametrize(
+    "extreme",
+    [STIFF, DENSE, THIN, LONG, ALL],
+    ids=["stiff", "dense", "thin", "long", "all"],
+)
+def test_ill_conditioned_scenes_converge(ground, extreme):
+    tables = copy.deepcopy(SCENES["sliding-short"])
+    for table, values in extreme.items():
+        tables[table] |= values
+    solution = solve(tables | {"ground": ground})
+    balance = solution.balance
+    assert balance.relative_residual <= 1e-8
+    assert balance.friction_excess <= 1e-8
+    assert balance.smallest_tension > 0.0
+    # along X the net holds the whole weight on a free ground, else a part of it
+    share = (solution.foot.x + solution.head.x) / balance.weight_along_slope
+    assert 0.0 < share <= 1.0 + 1e-8
+    if ground["law"] == "free":
+        assert share == pytest.approx(1.0, abs=1e-8)
