@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from netdesign.report.envelope_figure import draw_envelope
+from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
@@ -77,13 +78,16 @@ def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
     from markupsafe import Markup, escape
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
-    envelope = draw_envelope(row, f"{anchor}-e")
-    measured = draw_monitoring(row.monitoring, f"{anchor}-m")
+    record = row.envelope
+    measured = draw_monitoring(row.monitoring, f"{anchor}-r")
     head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
     return {
         "head": Markup(head),
         "section": Markup(section),
-        "envelope": Markup(envelope),
+        "envelope": Markup("" if record else draw_envelope(row, f"{anchor}-e")),
+        "maps": Markup(draw_maps(record, f"{anchor}-m") if record else ""),
+        "lines": Markup(draw_lines(record, f"{anchor}-l") if record else ""),
+        "drivers": Markup(draw_drivers(record, f"{anchor}-d") if record else ""),
         "monitoring": Markup(measured),
         "monitoring_note": escape(describe_monitoring(row.monitoring)),
     }
