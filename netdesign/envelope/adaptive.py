@@ -9,7 +9,7 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -42,6 +42,7 @@ _WANTED = 200  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 1024.0
 _BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
+_MOST_SURPRISE = 2.0  # more would widen what is dense with cases by now
 _NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
 _MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
 _TEST_APART = 0.125  # least distance of a test from every known case
@@ -77,7 +78,7 @@ class SearchSettings:
     tests: int = 2
     small_share: float = 0.2
     batch: int = 6
-    max_cases: int = 400
+    max_cases: int = 250
 
     def __post_init__(self) -> None:
         """Refuse settings that would certify anything."""
@@ -174,7 +175,7 @@ def search_maxima(
     dimension: int,
     settings: SearchSettings,
     on_round: Callable[[float], None] = lambda _: None,
-    watch: Callable[[], Sequence[int]] | None = None,
+    watch: Callable[[], Mapping[int, float]] | None = None,
 ) -> Search:
     """Ask for values until every maximum is bounded; ``send`` answers each question.
 
@@ -187,8 +188,10 @@ def search_maxima(
     on_round : callable, optional
         Takes the largest gap left after each round, over its quantity [-].
     watch : callable, optional
-        Which quantities have to be bounded, asked once the first answers are there;
-        the others are modelled along. All of them unless told otherwise.
+        Which quantities have to be bounded, and the closest gap that is worth it for
+        each, in its unit: nobody bounds a force closer than its cases are accurate.
+        Asked once answers are there; other quantities are modelled along. All of them
+        unless told otherwise.
 
     Yields
     ------
@@ -226,10 +229,11 @@ def search_maxima(
             return _finish(points, values, log, None, None, is_closed=False)
         places = np.array([points[k] for k in solved])
         known = np.array([values[k] for k in solved])
-        tolerance = _set_tolerance(known, settings)
+        everything = dict.fromkeys(range(known.shape[1]), 0.0)
+        watched = everything if watch is None else watch()
+        tolerance = _set_tolerance(known, settings, watched)
         model = fit_surrogate(places, known, _NOISE * tolerance)
-        watched = range(known.shape[1]) if watch is None else watch()
-        bounds = _bound(model, known, lattice, settings, surprises, watched)
+        bounds = _bound(model, known, lattice, settings, surprises, tolerance, watched)
         on_round(bounds.gap * settings.gap)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
@@ -243,7 +247,7 @@ def search_maxima(
         covered = np.maximum(settings.certainty * claimed, bounds.tolerance / 2.0)
         passed = passed + 1 if bounds.is_closed and np.all(held <= covered) else 0
         surprises += [
-            _Surprise(place=np.array(point), ratio=ratio)
+            _Surprise(place=np.array(point), ratio=np.minimum(ratio, _MOST_SURPRISE))
             for (point, _), ratio in zip(batch, held / covered, strict=True)
             if np.any(ratio > 1.0)
         ]
@@ -294,11 +298,11 @@ def _bound(
     lattice: Floats,
     settings: SearchSettings,
     surprises: Sequence[_Surprise],
-    watched: Sequence[int],
+    tolerance: Floats,
+    watched: Mapping[int, float],
 ) -> _Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it."""
     best = np.maximum(values.max(axis=0), 0.0)  # a negative force is none
-    tolerance = _set_tolerance(values, settings)
     around = [model.places[np.argmax(column)] for column in values.T]
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
@@ -337,11 +341,15 @@ def _bound(
     )
 
 
-def _set_tolerance(values: Floats, settings: SearchSettings) -> Floats:
+def _set_tolerance(
+    values: Floats, settings: SearchSettings, watched: Mapping[int, float]
+) -> Floats:
     """Gap that each quantity may keep, in its unit."""
     best = np.maximum(values.max(axis=0), 0.0)
     scale = np.maximum(best, settings.small_share * best.max())
-    result: Floats = settings.gap * np.maximum(scale, np.finfo(float).tiny)
+    worth = np.array([watched.get(q, 0.0) for q in range(values.shape[1])])
+    tolerance = np.maximum(settings.gap * scale, worth)
+    result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
     return result
 
 

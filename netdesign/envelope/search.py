@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
@@ -39,6 +39,9 @@ from netdesign.structure.layout import SupportLayout
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.25
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
+
+# A gap closer than this share of the numerical error is not worth a case.
+_WORTH = 0.5
 
 Conversation = Generator[list[Job], list[CaseEnd], "RowEnvelope"]
 
@@ -343,6 +346,7 @@ class _Reader:
     members: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     is_shared: bool = False
+    errors: dict[str, float] = field(default_factory=dict)  # smallest of each member
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -351,6 +355,11 @@ class _Reader:
     def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
         """Values of some cases; the first decide whether signed forces exist."""
         behind = [self._find_signed(result) for result in results]
+        for result in results:
+            for member, band in result.member_forces.items():
+                if band.value > 0.0:
+                    error = band.high - band.value
+                    self.errors[member] = min(error, self.errors.get(member, error))
         converged = [k for k, result in enumerate(results) if result.is_converged]
         if converged and not self.members:
             first = results[converged[0]]
@@ -363,10 +372,25 @@ class _Reader:
             for result, signed in zip(results, behind, strict=True)
         ]
 
-    def watch(self) -> list[int]:
-        """Places of the quantities that have to be bounded."""
+    def watch(self) -> dict[int, float]:
+        """Places of the quantities to be bounded, with half their numerical error."""
         watched = choose_watched(self.members, self.signed, is_shared=self.is_shared)
-        return [self.quantities.index(name) for name in watched]
+        return {
+            self.quantities.index(name): _WORTH * self._find_error(name)
+            for name in watched
+        }
+
+    def _find_error(self, name: str) -> float:
+        """Smallest numerical error of the members that a quantity stands behind."""
+        behind = [
+            member
+            for member in self.members
+            if name in (member, *name_sources(member, is_shared=self.is_shared))
+        ]
+        if name not in self.members and "guy" in name:
+            behind = [member for member in self.members if member.endswith("_guy")]
+        known = [self.errors[member] for member in behind if member in self.errors]
+        return max(known, default=0.0)
 
     def bound_members(self, maxima: Maxima) -> Maxima:
         """Bounds of the members from those of the signed forces behind them."""
