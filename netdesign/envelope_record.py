@@ -250,11 +250,11 @@ def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
         return kilonewton_from_newton(value) if math.isfinite(value) else None
 
     values = envelope.task.box.place(one.point)
-    members = envelope.members
+    names = envelope.quantities
     return AdditionRecord(
         round=one.round,
         reason=one.reason,
-        quantity=members[one.quantity] if members else "",
+        quantity=names[one.quantity] if names else "",
         case={PARAMETERS[k].key: show_parameter(k, v) for k, v in values.items()},
         predicted_kN=show(one.predicted),
         claimed_kN=show(one.claimed),

@@ -8,11 +8,16 @@ from test_check_site import ROWS, RUN, build_row, build_site, resist
 
 from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
+from netdesign.coupling.transient import TransientSettings
+from netdesign.envelope import confirm
+from netdesign.envelope.confirm import confirm_envelopes
 from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.run import CaseResult
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import ProcessPool
-from netdesign.outcome import Verdict
+from netdesign.envelope.workers import OwnProcess, ProcessPool
+from netdesign.outcome import Outcome, Verdict
+from netdesign.rowcheck.probe import Probe
 from netdesign.site_cases import count_cases, search_site
 from netdesign.study import read_document, write_document
 
@@ -137,3 +142,87 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
     finally:
         pool.close()
     assert write_document(judge(standard, found)) == expected
+
+
+def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):
+    """Forces no smaller than the steady ones; histories of governing cases only."""
+    seen = []
+
+    class Recording(OwnProcess):
+        def solve(self, jobs):
+            seen.extend(job.settings for job in jobs)
+            return super().solve(jobs)
+
+    site = build_site(ROWS[0], ranges=RANGES)
+    run = replace(RUN, method="transient")
+    (found,) = search_site(site, run, Runner(workers=Recording()))
+    histories = [one for one in seen if isinstance(one, TransientSettings)]
+    steady = envelopes[0]
+    governing = {id(steady.governing(member)) for member in loaded(steady)}
+    assert len(histories) == len(governing)
+    assert found.gap == ""
+    for member in loaded(steady):
+        assert found.force(member).value >= steady.force(member).value
+        assert found.bound(member).high >= steady.bound(member).high
+        assert found.upper_bound(member) > found.force(member).value
+    study = judge_site(site, [found.results], standard, run, envelopes=[found])
+    assert "history" in study.provenance.settings["method"]
+    record = study.rows[0].envelope.bounds[0]
+    assert record.max_kN == study.rows[0].extremes[0].max_kN
+
+
+def test_a_history_that_fails_leaves_its_searched_row_unproven(
+    standard, envelopes, monkeypatch
+):
+    def fail(tasks, **_):
+        return [
+            CaseResult(
+                case=task.case,
+                outcome=Outcome.PLATEAU_NOT_REACHED,
+                reason="spoilt",
+                member_forces={},
+            )
+            for task in tasks
+        ]
+
+    monkeypatch.setattr(confirm, "run_cases", fail)
+    found = confirm_envelopes(envelopes, TransientSettings())
+    study = judge(standard, found)
+    assert study.verdict is Verdict.NOT_PROVEN
+    assert all(row.verdict is Verdict.NOT_PROVEN for row in study.rows)
+    assert all("history of a governing case: spoilt" in one.gap for one in found)
+
+
+def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
+    """The snow density that is told passes with the bound, and a little more fails."""
+    band = envelopes[0].bound("foot_anchor")
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    factor = on_row(check) * check.action_factor * check.resistance_factor
+    row = build_row(
+        "R1", resistances=resist(foot_anchor__tendon=0.85 * band.value * factor)
+    )
+    site = build_site(row, ranges=RANGES)
+    probe = Probe(RUN.settings, RUN.creep_law)
+    results = [one.results for one in envelopes[:1]]
+    again = judge_site(site, results, standard, RUN, probe, envelopes=envelopes[:1])
+    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.verdict is Verdict.FAIL
+    changes = {change.quantity: change for change in check.changes}
+    bound = changes["snow density"].bound
+    assert 270.0 < bound < 400.0
+    assert changes["snow density"].solves > 0
+
+    def verdict(high):
+        ranges = replace(RANGES, density=Interval(low=270.0, high=high))
+        changed = build_site(row, ranges=ranges)
+        found = search_site(changed, RUN)
+        judged = judge(standard, found, changed).rows[0]
+        return next(c for c in judged.checks if c.id == "foot_anchor.tendon").verdict
+
+    assert verdict(bound) is Verdict.PASS
+    assert verdict(bound + 15.0) is not Verdict.PASS
+
+
+def loaded(envelope):
+    return [m for m in envelope.members if envelope.force(m).high > 0.0]

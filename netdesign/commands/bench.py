@@ -1,4 +1,4 @@
-"""``netdesign bench``: run time against error, stability, honesty of stated errors."""
+"""``netdesign bench``: run time against error, stability, honesty, envelopes."""
 
 from __future__ import annotations
 
@@ -31,6 +31,11 @@ _EXIT_FAIL = 1
     help="Compare N random scenes with finer meshes instead: are errors honest?",
 )
 @click.option(
+    "--envelope",
+    is_flag=True,
+    help="Measure envelopes instead: cases, time, store, workers; a thinned table.",
+)
+@click.option(
     "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
 )
 @click.option(
@@ -60,6 +65,7 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
+    envelope: bool,
     seed: int,
     accuracy: float,
     jobs: int,
@@ -75,15 +81,19 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
+    netdesign bench --envelope --json
     """
-    if stress is not None and errors is not None:
-        raise click.UsageError("give --stress or --errors, not both")
+    if sum((stress is not None, errors is not None, envelope)) > 1:
+        raise click.UsageError("give one of --stress, --errors and --envelope")
     random = stress or errors
-    if random and (scenes or quick or plot):
+    if (random or envelope) and (scenes or quick or plot):
         raise click.UsageError("--scenes, --quick and --plot are for named scenes only")
     if random:
         kind: Literal["stress", "errors"] = "stress" if stress else "errors"
         sys.exit(_run_random(kind, random, seed, accuracy, jobs, as_json=as_json))
+    if envelope:
+        _run_envelope(as_json=as_json)
+        return
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
     _run_named(names, plot, quick=quick, force=force, as_json=as_json)
 
@@ -119,6 +129,20 @@ def _run_random(
 
         (print_stress if kind == "stress" else print_errors)(document, Console())
     return 0 if document["pass"] else _EXIT_FAIL
+
+
+def _run_envelope(*, as_json: bool) -> None:
+    from netdesign.benchmark.envelope import run_envelope_bench
+
+    document = run_envelope_bench()
+    if as_json:
+        _print_json(document)
+        return
+    for row in document["rows"]:
+        click.echo(row.pop("what"))
+        for name, value in row.items():
+            for one in value if isinstance(value, list) else [value]:
+                click.echo(f"  {name:20} {one}")
 
 
 def _run_named(

@@ -9,7 +9,7 @@ Theory: envelope/THEORY.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -42,6 +42,8 @@ _WANTED = 200  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 1024.0
 _BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
+_MOST_SURPRISE = 2.0  # more would widen what is dense with cases by now
+_NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
 _MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
 _TEST_APART = 0.125  # least distance of a test from every known case
 _APART = 0.2  # least distance between the cases of one batch
@@ -62,7 +64,8 @@ class SearchSettings:
         places where it could be wrong most dearly, before the search ends.
     small_share : float
         Quantities below this share of the largest one are bounded to the same
-        absolute gap as at that share: nobody needs 0.5 % of nothing.
+        absolute gap as at that share. A small guy force is a difference of large
+        ones: its numerical error is a share of those, and so may be its gap.
     batch : int
         Cases per round; not the number of workers, so that results do not depend
         on that.
@@ -73,9 +76,9 @@ class SearchSettings:
     gap: float = 0.005
     certainty: float = 3.0
     tests: int = 2
-    small_share: float = 0.05
+    small_share: float = 0.2
     batch: int = 6
-    max_cases: int = 400
+    max_cases: int = 250
 
     def __post_init__(self) -> None:
         """Refuse settings that would certify anything."""
@@ -116,7 +119,8 @@ class Maxima:
         Their answers; None for a failed case.
     maximum, upper_bound : tuple of float
         Of each quantity: largest value found, and largest value that the model
-        allows anywhere in the box. Empty if no case succeeded.
+        allows anywhere in the box, 0 where all are negative; meaningless for a
+        quantity that was not watched. Empty if no case succeeded.
     governing : tuple of int
         Place of each maximum in ``points``; of equals the least point.
     is_closed : bool
@@ -152,13 +156,15 @@ class _Bounds:
     best: Floats
     tolerance: Floats  # shape (quantities,)
     upper: Floats
-    summits: tuple[Point, ...]  # where the best values were found
+    watched: tuple[int, ...]
+    summits: tuple[tuple[Point, int], ...]  # best values of the watched quantities
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
     def gap(self) -> float:
         """Largest gap over its tolerance."""
-        return float(np.max((self.upper - self.best) / self.tolerance))
+        gaps = (self.upper - self.best) / self.tolerance
+        return float(np.max(gaps[list(self.watched)]))
 
     @property
     def is_closed(self) -> bool:
@@ -169,6 +175,7 @@ def search_maxima(
     dimension: int,
     settings: SearchSettings,
     on_round: Callable[[float], None] = lambda _: None,
+    watch: Callable[[], Mapping[int, float]] | None = None,
 ) -> Search:
     """Ask for values until every maximum is bounded; ``send`` answers each question.
 
@@ -180,6 +187,11 @@ def search_maxima(
         When to stop.
     on_round : callable, optional
         Takes the largest gap left after each round, over its quantity [-].
+    watch : callable, optional
+        Which quantities have to be bounded, and the closest gap that is worth it for
+        each, in its unit: nobody bounds a force closer than its cases are accurate.
+        Asked once answers are there; other quantities are modelled along. All of them
+        unless told otherwise.
 
     Yields
     ------
@@ -216,9 +228,12 @@ def search_maxima(
         if len(solved) <= count_trend_terms(dimension):
             return _finish(points, values, log, None, None, is_closed=False)
         places = np.array([points[k] for k in solved])
-        model = fit_surrogate(places, np.array([values[k] for k in solved]))
         known = np.array([values[k] for k in solved])
-        bounds = _bound(model, known, lattice, settings, surprises)
+        everything = dict.fromkeys(range(known.shape[1]), 0.0)
+        watched = everything if watch is None else watch()
+        tolerance = _set_tolerance(known, settings, watched)
+        model = fit_surrogate(places, known, _NOISE * tolerance)
+        bounds = _bound(model, known, lattice, settings, surprises, tolerance, watched)
         on_round(bounds.gap * settings.gap)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
@@ -227,11 +242,12 @@ def search_maxima(
             return _finish(points, values, log, model, bounds, is_closed=is_closed)
         answers = yield tuple(point for point, _ in batch)
         held, claimed = _hold_out(model, batch, answers, log, bounds)
+        held[:, [q for q in range(held.shape[1]) if q not in watched]] = 0.0
         # the bound must have held for every case that was not yet known
         covered = np.maximum(settings.certainty * claimed, bounds.tolerance / 2.0)
         passed = passed + 1 if bounds.is_closed and np.all(held <= covered) else 0
         surprises += [
-            _Surprise(place=np.array(point), ratio=ratio)
+            _Surprise(place=np.array(point), ratio=np.minimum(ratio, _MOST_SURPRISE))
             for (point, _), ratio in zip(batch, held / covered, strict=True)
             if np.any(ratio > 1.0)
         ]
@@ -282,25 +298,27 @@ def _bound(
     lattice: Floats,
     settings: SearchSettings,
     surprises: Sequence[_Surprise],
+    tolerance: Floats,
+    watched: Mapping[int, float],
 ) -> _Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it."""
-    best = values.max(axis=0)
-    scale = np.maximum(np.abs(best), settings.small_share * np.abs(best).max())
-    tolerance = settings.gap * np.maximum(scale, np.finfo(float).tiny)
+    best = np.maximum(values.max(axis=0), 0.0)  # a negative force is none
     around = [model.places[np.argmax(column)] for column in values.T]
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
     def reach(at: Floats) -> Floats:
         mean, claim = model.predict(at)
         stretch = _stretch(at, surprises, len(best))
-        result: Floats = mean + settings.certainty * stretch * claim
+        result: Floats = (
+            mean + settings.certainty * stretch * claim + _NOISE * tolerance
+        )
         return result
 
     allowed = reach(looked_at)
     upper = np.maximum(best, allowed.max(axis=0))
     spacing = 1.0 / (_LATTICE[lattice.shape[1]] - 1)
     wanted: list[tuple[float, Point, int]] = []
-    for quantity in range(len(best)):
+    for quantity in watched:
         order = np.argsort(-allowed[:, quantity], kind="stable")
         starts = looked_at[order[:_STARTS]]
         tops, heights = _climb(starts, quantity, reach, spacing)
@@ -315,9 +333,24 @@ def _bound(
         best=best,
         tolerance=tolerance,
         upper=upper + _MARGIN * tolerance,
-        summits=tuple(_settle(place) for place in around),
+        watched=tuple(watched),
+        summits=tuple(
+            (_settle(around[q]), q) for q in watched if values[:, q].max() > 0.0
+        ),
         wanted=tuple(wanted),
     )
+
+
+def _set_tolerance(
+    values: Floats, settings: SearchSettings, watched: Mapping[int, float]
+) -> Floats:
+    """Gap that each quantity may keep, in its unit."""
+    best = np.maximum(values.max(axis=0), 0.0)
+    scale = np.maximum(best, settings.small_share * best.max())
+    worth = np.array([watched.get(q, 0.0) for q in range(values.shape[1])])
+    tolerance = np.maximum(settings.gap * scale, worth)
+    result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
+    return result
 
 
 def _stretch(at: Floats, surprises: Sequence[_Surprise], quantities: int) -> Floats:
@@ -396,7 +429,7 @@ def _pick(
 def _list_neighbours(bounds: _Bounds) -> list[tuple[Point, int]]:
     """Points just beside every maximum, along each axis: they tell if it is one."""
     found: dict[Point, int] = {}
-    for quantity, place in enumerate(bounds.summits):
+    for place, quantity in bounds.summits:
         for axis, side in product(range(len(place)), (-_BESIDE, _BESIDE)):
             value = place[axis] + side
             if 0.0 <= value <= 1.0:

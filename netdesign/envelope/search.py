@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
@@ -31,6 +31,7 @@ from netdesign.envelope.run import (
     run_cases,
 )
 from netdesign.envelope.runner import Runner
+from netdesign.envelope.signed import choose_watched, name_sources, read_signed
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import Job
 from netdesign.structure.layout import SupportLayout
@@ -38,6 +39,9 @@ from netdesign.structure.layout import SupportLayout
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.25
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
+
+# A gap closer than this share of the numerical error is not worth a case.
+_WORTH = 0.5
 
 Conversation = Generator[list[Job], list[CaseEnd], "RowEnvelope"]
 
@@ -101,7 +105,9 @@ class RowEnvelope:
     task : RowTask
         What was searched.
     members : tuple of str
-        The quantities, in the order of ``maxima``.
+        The quantities that are reported, in the order of ``maxima``.
+    quantities : tuple of str
+        All that were modelled: the members, and the signed forces behind them.
     results : tuple of CaseResult
         Every case, in the order of ``maxima.points``.
     maxima : Maxima
@@ -115,6 +121,7 @@ class RowEnvelope:
 
     task: RowTask
     members: tuple[str, ...]
+    quantities: tuple[str, ...]
     results: tuple[CaseResult, ...]
     maxima: Maxima
     confirmations: tuple[Confirmation, ...]
@@ -219,9 +226,10 @@ def search_row(
     -----------
     tests/envelope/test_search.py
     """
-    search = search_maxima(len(task.box.axes), task.search, on_gap)
     skip = FrictionSkip(task.box.axes)
     results: list[CaseResult] = []
+    reader = _Reader(layout=task.layout)
+    search = search_maxima(len(task.box.axes), task.search, on_gap, reader.watch)
     points = next(search)
     while True:
         tasks = [build_point_task(task, point) for point in points]
@@ -229,15 +237,16 @@ def search_row(
         answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
         results += answered
         try:
-            points = search.send([_read_values(result) for result in answered])
+            points = search.send(reader.read(answered))
         except StopIteration as end:
-            maxima: Maxima = end.value
+            maxima = reader.bound_members(end.value)
             break
-    members = next((tuple(r.member_forces) for r in results if r.is_converged), ())
+    members = reader.members
     confirmations = yield from _confirm(task, members, results, maxima)
     return RowEnvelope(
         task=task,
         members=members,
+        quantities=reader.quantities,
         results=tuple(results),
         maxima=maxima,
         confirmations=confirmations,
@@ -329,10 +338,84 @@ def _ask(
     return [ends[point] for point in points]
 
 
-def _read_values(result: CaseResult) -> Values | None:
-    if not result.is_converged:
-        return None
-    return tuple(band.value for band in result.member_forces.values())
+@dataclass(slots=True, kw_only=True)
+class _Reader:
+    """Turns results into the quantities of a search, and its bounds into members'."""
+
+    layout: SupportLayout | None
+    members: tuple[str, ...] = ()
+    signed: tuple[str, ...] = ()
+    is_shared: bool = False
+    errors: dict[str, float] = field(default_factory=dict)  # smallest of each member
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        return (*self.members, *self.signed)
+
+    def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
+        """Values of some cases; the first decide whether signed forces exist."""
+        behind = [self._find_signed(result) for result in results]
+        for result in results:
+            for member, band in result.member_forces.items():
+                if band.value > 0.0:
+                    error = band.high - band.value
+                    self.errors[member] = min(error, self.errors.get(member, error))
+        converged = [k for k, result in enumerate(results) if result.is_converged]
+        if converged and not self.members:
+            first = results[converged[0]]
+            self.members = tuple(first.member_forces)
+            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
+            if all(behind[k] is not None for k in converged):
+                self.signed = tuple(behind[converged[0]] or ())
+        return [
+            self._read_one(result, signed)
+            for result, signed in zip(results, behind, strict=True)
+        ]
+
+    def watch(self) -> dict[int, float]:
+        """Places of the quantities to be bounded, with half their numerical error."""
+        watched = choose_watched(self.members, self.signed, is_shared=self.is_shared)
+        return {
+            self.quantities.index(name): _WORTH * self._find_error(name)
+            for name in watched
+        }
+
+    def _find_error(self, name: str) -> float:
+        """Smallest numerical error of the members that a quantity stands behind."""
+        behind = [
+            member
+            for member in self.members
+            if name in (member, *name_sources(member, is_shared=self.is_shared))
+        ]
+        if name not in self.members and "guy" in name:
+            behind = [member for member in self.members if member.endswith("_guy")]
+        known = [self.errors[member] for member in behind if member in self.errors]
+        return max(known, default=0.0)
+
+    def bound_members(self, maxima: Maxima) -> Maxima:
+        """Bounds of the members from those of the signed forces behind them."""
+        if not self.signed or not maxima.upper_bound:
+            return maxima
+        upper = list(maxima.upper_bound)
+        for place, member in enumerate(self.members):
+            sources = name_sources(member, is_shared=self.is_shared)
+            allowed = [upper[self.quantities.index(name)] for name in sources]
+            if allowed:
+                upper[place] = max(maxima.maximum[place], 0.0, *allowed)
+        return replace(maxima, upper_bound=tuple(upper))
+
+    def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
+        return None if self.layout is None else read_signed(result, self.layout)
+
+    def _read_one(
+        self, result: CaseResult, signed: dict[str, float] | None
+    ) -> Values | None:
+        if not result.is_converged:
+            return None
+        forces = tuple(band.value for band in result.member_forces.values())
+        if not self.signed:
+            return forces
+        return None if signed is None else (*forces, *signed.values())
 
 
 def _confirm(

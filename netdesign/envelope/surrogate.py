@@ -81,7 +81,9 @@ class Surrogate:
         return np.stack(columns, axis=1)
 
 
-def fit_surrogate(places: Floats, values: Floats) -> Surrogate:
+def fit_surrogate(
+    places: Floats, values: Floats, noise: Floats | float = 0.0
+) -> Surrogate:
     """Model through solved cases; more cases than trend terms are needed.
 
     Parameters
@@ -90,6 +92,10 @@ def fit_surrogate(places: Floats, values: Floats) -> Surrogate:
         Distinct points of the unit cube [-].
     values : ndarray, shape (n, quantities)
         Responses there, each in a unit of its own.
+    noise : float or ndarray, shape (quantities,)
+        Held-out errors up to this size, in the unit of the quantity, are no evidence
+        of a feature: meshes change from case to case. Close cases would otherwise
+        take that for a steep one.
 
     Returns
     -------
@@ -113,7 +119,7 @@ def fit_surrogate(places: Floats, values: Floats) -> Surrogate:
     return Surrogate(
         places=places,
         held_out=weights / diagonal,
-        scores=np.abs(weights) / np.sqrt(diagonal),
+        scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,

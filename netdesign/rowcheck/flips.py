@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
+from netdesign.envelope.curvature import AXES
 from netdesign.envelope.grid import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.rowcheck.effects import RowEffects
@@ -27,6 +28,7 @@ _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
 _RIVAL = 0.9  # share of the governing force from which a case may take over
+_BESIDE = 0.13  # of every range: an eighth, and its rounding
 _NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
 
 
@@ -300,8 +302,33 @@ def _list_rivals(target: Target, build: Build, value: float) -> list[Case]:
         if result.is_converged
     }
     least = _RIVAL * max(forces.values())
-    scenes = {build(value, case)[1]: case for case in forces if forces[case] >= least}
+    rivals = [case for case in forces if forces[case] >= least]
+    if not target.ranges.is_grid:
+        rivals = _thin_out(sorted(rivals, key=lambda c: (-forces[c], c)), target.ranges)
+    scenes = {build(value, case)[1]: case for case in rivals}
     return list(scenes.values())
+
+
+def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
+    """Cases without those close beside an earlier one.
+
+    A search crowds its cases around the largest force; what lies between those that
+    are left is in the margin of the target.
+    """
+    spans = {axis: getattr(ranges, axis) for axis in AXES}
+    kept: list[Case] = []
+    for case in cases:
+        is_beside = any(
+            all(
+                abs(getattr(case, axis) - getattr(other, axis))
+                <= _BESIDE * (span.high - span.low)
+                for axis, span in spans.items()
+            )
+            for other in kept
+        )
+        if not is_beside:
+            kept.append(case)
+    return kept
 
 
 def _find_root(

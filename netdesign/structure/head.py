@@ -92,6 +92,38 @@ def compute_head_forces(
     return _carry_by_pair(pull, post, points)
 
 
+def resolve_signed(
+    pull: Point, head: Point, post_base: Point, anchor: Point
+) -> tuple[float, float] | None:
+    """Find what post and one guy would need to hold a pull, signs allowed.
+
+    The members' forces are ``max(0, tension)`` of each guy, and of the two pairs the
+    larger compression. Theory: structure/THEORY.md, eq. (S2).
+
+    Parameters
+    ----------
+    pull : tuple of float, shape (2,)
+        Force of the net on the head, (x, y) [N].
+    head, post_base, anchor : tuple of float, shape (2,)
+        Points of the support [m].
+
+    Returns
+    -------
+    tuple of float or None
+        Compression of the post, tension of the guy [N]; None where the guy lies
+        along the post.
+
+    Verified by
+    -----------
+    tests/envelope/test_signed.py
+    """
+    post, guy = _direction(head, post_base), _direction(head, anchor)
+    sine = _cross(post, guy)
+    if abs(sine) < math.sin(MIN_GUY_ANGLE):
+        return None
+    return _cross(pull, guy) / sine, _cross(pull, post) / sine
+
+
 def _carry_by_post_alone(pull: Point, post: Point) -> HeadForces | FailedSupport:
     """Eq. (S3): the pull has no part across the post, both guys are slack."""
     compression = pull[0] * post[0] + pull[1] * post[1]

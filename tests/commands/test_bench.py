@@ -1,11 +1,12 @@
 """``netdesign bench`` on the command line."""
 
 import json
+from copy import deepcopy
 
 import pytest
 from click.testing import CliRunner
 
-from netdesign.benchmark import precision, stress
+from netdesign.benchmark import envelope, precision, stress
 from netdesign.benchmark.precision import Effort
 from netdesign.benchmark.stress import Attempt
 from netdesign.commands.bench import bench
@@ -45,6 +46,24 @@ def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     assert result.exit_code == exit_code
     assert json.loads(result.stdout)["schema"] == "netdesign.stress/1"
     assert run("--stress", "1").exit_code == exit_code
+
+
+def test_envelope_prints_every_figure_of_its_document(monkeypatch):
+    document = {
+        "schema": envelope.SCHEMA,
+        "rows": [{"what": "one row", "wall_s": 1.5, "points": [{"rows": 2}, 7]}],
+    }
+    monkeypatch.setattr(envelope, "run_envelope_bench", lambda: deepcopy(document))
+    assert json.loads(run("--envelope", "--json").stdout) == document
+    shown = run("--envelope").stdout
+    assert [line.split() for line in shown.splitlines()] == [
+        ["one", "row"],
+        ["wall_s", "1.5"],
+        ["points", "{'rows':", "2}"],
+        ["points", "7"],
+    ]
+    assert run("--envelope", "--stress", "2").exit_code == 2
+    assert run("--envelope", "--quick").exit_code == 2
 
 
 def test_errors_of_one_scene():

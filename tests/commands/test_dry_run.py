@@ -14,6 +14,14 @@ def test_the_time_is_that_of_one_case_times_their_number(call, monkeypatch, jobs
     assert plan["predicted_s"] == pytest.approx(0.5 * 7 * 55 / jobs)
 
 
+def test_a_search_is_told_as_about_so_many_cases(call, monkeypatch):
+    monkeypatch.setattr(dry_run, "_measure_case", lambda _site, _run: 0.5)
+    ended = call("check", "--example", "--dry-run", "--jobs", 1)
+    assert "7 net rows, about 385 cases, about 192 s" in ended.out
+    ended = call("check", "--example", "--dry-run", "--json")
+    assert json.loads(ended.out)["is_searched"]
+
+
 def test_a_case_is_solved_to_know_its_time(call, tmp_path):
     ended = call("check", "--example", "--dry-run", "--json", "--accuracy", "0.1")
     assert json.loads(ended.out)["predicted_s"] > 0

@@ -240,8 +240,12 @@ def start(scene, store, out):
 
 
 def outputs(folder):
-    """All outputs; of the document without what tells of the run itself."""
-    found = {path.name: path.read_text() for path in folder.iterdir()}
+    """All outputs; of the document without what tells of the run itself.
+
+    A kill in the middle of writing leaves a hidden file under a temporary name.
+    """
+    paths = [path for path in folder.iterdir() if not path.name.startswith(".")]
+    found = {path.name: path.read_text() for path in paths}
     found["envelope.json"] = without_run(json.loads(found["envelope.json"]))
     return found
 

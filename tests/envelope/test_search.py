@@ -144,11 +144,19 @@ def test_a_failed_case_leaves_a_gap_by_name():
     assert all(found.governing(m).is_converged for m in found.members)
 
 
-def test_an_open_gap_is_told():
-    closest = SearchSettings(gap=1e-4, max_cases=14)
-    (found,) = search_rows([replace(TASK, search=closest)], Runner())
-    assert not found.maxima.is_closed
-    assert "could still exceed the largest one" in found.gap
+def test_an_open_gap_is_told(found):
+    opened = replace(found, maxima=replace(found.maxima, is_closed=False))
+    assert "could still exceed the largest one" in opened.gap
+
+
+def test_no_gap_is_closed_beyond_the_accuracy_of_the_cases():
+    """Asked for 0.01 % of cases that are good to some per cent: few are solved."""
+    closest = replace(TASK, search=SearchSettings(gap=1e-4))
+    (found,) = search_rows([closest], Runner())
+    assert found.maxima.is_closed
+    assert len(found.results) <= 60
+    foot = found.governing("foot_anchor").member_forces["foot_anchor"]
+    assert found.hidden("foot_anchor") <= 0.5 * (foot.high - foot.value) * (1 + 1e-9)
 
 
 def test_without_a_layout_the_nets_tensions_are_followed_per_metre():

@@ -206,3 +206,47 @@ def test_governing_case_is_of_the_grid():
     assert a_target(1.0).governing == Case(
         density=400.0, friction_angle=math.radians(15), inclination=math.radians(35)
     )
+
+
+def a_search(scale, force):
+    """The grid's cases, as a search begins, and those that it crowds at the largest."""
+    whole = a_target(scale, force)
+    spans = {
+        name: Interval(low=span.low, high=span.high)
+        for name, span in (
+            ("density", RANGES.density),
+            ("friction_angle", RANGES.friction_angle),
+            ("inclination", RANGES.inclination),
+        )
+    }
+    top = whole.governing
+    crowd = [
+        replace(top, density=top.density - step, inclination=top.inclination - angle)
+        for step in (0.0, 2.0, 4.0, 8.0)
+        for angle in (0.0, 0.002, 0.004)
+    ]
+    odd = replace(top, friction_angle=math.radians(33.0), density=270.0)
+    results = [MadeUpProbe(force).solve(ROW, case) for case in [*crowd[1:], odd]]
+    return replace(whole, ranges=Ranges(**spans), results=[*whole.results, *results])
+
+
+def test_a_search_needs_no_more_solves_than_its_grid():
+    """Cases beside the largest one are not confirmed again."""
+    solves = [
+        find_height_change(build(1.3, smooth), MadeUpProbe()).solves
+        for build in (a_target, a_search)
+    ]
+    assert solves[0] == solves[1]
+
+
+def test_an_angle_of_a_few_searched_cases_proves_nothing():
+    """At 33 degrees only the least density was solved, which passes anyhow."""
+
+    def by_friction(row, case):
+        at = 1.0 + (math.degrees(case.friction_angle) - 15.0) / 60.0
+        return at * case.density / 400.0
+
+    target = a_search(1 / 1.15, by_friction)
+    change = find_friction_change(target, MadeUpProbe(by_friction))
+    assert change.sense == "at most"
+    assert change.bound == pytest.approx(24.0, abs=0.11)

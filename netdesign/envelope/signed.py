@@ -1,0 +1,89 @@
+"""Smooth quantities behind member forces that have kinks.
+
+Where a guy goes slack its force and that of the post have a kink, which a model of
+the forces would pay for with many cases. The forces that post and one guy would need,
+signs allowed, have none: a guy carries the signed tension where that is positive, and
+the post the larger of its two signed compressions. So these are what is searched, and
+what the members can carry at most follows. Theory: structure/THEORY.md, eq. (S2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.envelope.run import CaseResult
+from netdesign.structure.head import resolve_signed
+from netdesign.structure.layout import SupportLayout, place_support
+
+_NET = "signed foot"
+_SHARED = "signed foot and uphill guy"
+_POST = ("signed post with uphill guy", "signed post with downhill guy")
+_BASE = ("signed post base with uphill guy", "signed post base with downhill guy")
+_UPHILL, _DOWNHILL = "signed uphill guy", "signed downhill guy"
+
+
+def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] | None:
+    """Signed forces of a converged case by name [N]; None where a guy holds nothing.
+
+    A guy along the post holds nothing sideways: there the members themselves have to
+    be searched.
+    """
+    solution, anchors = result.solution, result.anchors
+    if solution is None or anchors is None:
+        return None
+    points = place_support(layout, solution.head_point)
+    width = layout.post_spacing
+    pull = (solution.head.x * width, solution.head.y * width)
+    pairs = [
+        resolve_signed(pull, points.head, points.post_base, anchor)
+        for anchor in (points.uphill_anchor, points.downhill_anchor)
+    ]
+    if pairs[0] is None or pairs[1] is None:
+        return None
+    (post_up, uphill), (post_down, downhill) = pairs[0], pairs[1]
+    across = points.head[1] / _length(points.head, points.post_base)
+    foot = anchors.foot_anchor.size
+    return {
+        _NET: foot,
+        _SHARED: foot + uphill,
+        _UPHILL: uphill,
+        _DOWNHILL: downhill,
+        _POST[0]: post_up,
+        _POST[1]: post_down,
+        _BASE[0]: across * post_up,
+        _BASE[1]: across * post_down,
+    }
+
+
+def name_sources(member: str, *, is_shared: bool) -> tuple[str, ...]:
+    """Signed forces of which a member carries the largest, or 0; () if of none."""
+    sources = {
+        "foot_anchor": (_NET,),
+        "uphill_guy": (_UPHILL,),
+        "uphill_anchor": (_UPHILL,),
+        "downhill_guy": (_DOWNHILL,),
+        "downhill_anchor": (_DOWNHILL,),
+        "post": _POST,
+        "post_base": _BASE,
+    }
+    if is_shared and member in ("foot_anchor", "uphill_anchor"):
+        return (_NET, _SHARED)
+    return sources.get(member, ())
+
+
+def choose_watched(
+    members: Sequence[str], signed: Sequence[str], *, is_shared: bool
+) -> tuple[str, ...]:
+    """Quantities that a search has to bound, so that every member is bounded."""
+    if not signed:
+        return tuple(members)
+    watched: dict[str, None] = {}
+    for member in members:
+        sources = name_sources(member, is_shared=is_shared)
+        watched |= dict.fromkeys(sources or (member,))
+    return tuple(watched)
+
+
+def _length(one: tuple[float, float], other: tuple[float, float]) -> float:
+    x, y = one[0] - other[0], one[1] - other[1]
+    return float((x * x + y * y) ** 0.5)

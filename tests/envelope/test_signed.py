@@ -1,0 +1,76 @@
+"""Signed forces against the members that carry: any pull, any support."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.envelope.signed import choose_watched, name_sources
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.head import FailedSupport, resolve_signed
+from netdesign.structure.layout import SupportLayout, place_support
+
+HEAD = (1.5, 3.0)
+
+
+def draw(seed):
+    rng = random.Random(seed)
+    layout = SupportLayout(
+        post_spacing=1.0,
+        post_tilt=math.radians(rng.uniform(-10.0, 25.0)),
+        uphill_anchor_distance=rng.uniform(1.0, 5.0),
+        downhill_anchor_distance=rng.uniform(1.0, 5.0),
+    )
+    angle = rng.uniform(-math.pi, 0.0)  # the net pulls its head down
+    return layout, (math.cos(angle), math.sin(angle))
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_members_are_the_largest_of_the_signed_forces_behind_them(seed):
+    layout, pull = draw(seed)
+    points = place_support(layout, HEAD)
+    anchors = compute_anchor_forces(
+        points, foot_pull_per_m=(1.0, 1.0), head_pull_per_m=pull, post_spacing=1.0
+    )
+    pairs = [
+        resolve_signed(pull, HEAD, points.post_base, anchor)
+        for anchor in (points.uphill_anchor, points.downhill_anchor)
+    ]
+    if isinstance(anchors, FailedSupport) or None in pairs:
+        return
+    (post_up, uphill), (post_down, downhill) = pairs
+    forces = anchors.member_forces
+    assert forces["uphill_guy"] == pytest.approx(max(0.0, uphill), abs=1e-9)
+    assert forces["downhill_guy"] == pytest.approx(max(0.0, downhill), abs=1e-9)
+    assert forces["post"] == pytest.approx(max(post_up, post_down), abs=1e-9)
+
+
+def test_both_guys_are_seen_to_act():
+    """Otherwise the test above would pass on one of them."""
+    acting = set()
+    for seed in range(300):
+        layout, pull = draw(seed)
+        points = place_support(layout, HEAD)
+        pair = resolve_signed(pull, HEAD, points.post_base, points.uphill_anchor)
+        acting.add(pair is not None and pair[1] > 0.0)
+    assert acting == {True, False}
+
+
+def test_a_guy_along_the_post_gives_nothing():
+    assert resolve_signed((0.0, -1.0), (0.0, 3.0), (0.0, 0.0), (0.0, 0.0)) is None
+
+
+def test_every_member_is_watched_itself_or_through_its_sources():
+    members = ("foot_anchor", "uphill_guy", "downhill_guy", "post", "something_new")
+    signed = [s for m in members for s in name_sources(m, is_shared=True)]
+    watched = choose_watched(members, signed, is_shared=True)
+    for member in members:
+        sources = name_sources(member, is_shared=True)
+        assert set(sources or (member,)) <= set(watched)
+    assert choose_watched(members, (), is_shared=False) == members
+
+
+def test_a_shared_anchor_takes_the_guy_where_it_pulls():
+    alone = name_sources("foot_anchor", is_shared=False)
+    assert len(alone) == 1
+    assert set(alone) < set(name_sources("foot_anchor", is_shared=True))
