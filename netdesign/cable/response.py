@@ -8,6 +8,7 @@ to (C23).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from netdesign.cable.sliding import SlidingStep, solve_sliding
 from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_segment_lengths,
+    compute_tensions,
     compute_turning_angles,
 )
 from netdesign.errors import SolveError
@@ -53,7 +55,7 @@ class NetResponse:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Polygon:
+class Polygon:
     """Geometry of the net and its derivatives by the points, (.., 2, n + 2)."""
 
     lengths: Floats  # of arcs through the points
@@ -95,35 +97,56 @@ def respond(
     -----------
     tests/cable/test_response.py
     """
-    polygon = _measure(points)
+    polygon = measure_polygon(points)
     bounds = compute_ratio_bounds(polygon.angles, friction)
     sliding = solve_sliding(polygon.lengths, old_lengths, bounds, stiffness=stiffness)
     if sliding.outcome is not Outcome.CONVERGED:
         raise SolveError(sliding.outcome, "friction of the net on the snow")
     pulls = sliding.tensions * polygon.directions
     d_tensions = _differentiate_tensions(polygon, sliding, friction)
-    d_pulls = (
-        polygon.directions.T[:, :, None, None] * d_tensions[:, None]
-        + (sliding.tensions * polygon.normals).T[:, :, None, None]
-        * polygon.d_headings[:, None]
-    )
-    d_forces = np.diff(d_pulls, axis=0)[..., 1:-1]
-    n_nodes = points.shape[1] - 2
     return NetResponse(
         forces=np.diff(pulls),
-        stiffness=-d_forces.transpose(0, 1, 3, 2).reshape(2 * n_nodes, 2 * n_nodes),
+        stiffness=turn_pulls(polygon, sliding.tensions, d_tensions),
         foot_pull=pulls[:, 0],
         head_pull=-pulls[:, -1],
         sliding=sliding,
     )
 
 
+def hold_net(points, lengths, stiffness):
+    polygon = measure_polygon(points)
+    tensions = compute_tensions(polygon.lengths, lengths, stiffness)
+    pulls = tensions * polygon.directions
+    return NetForces(np.diff(pulls), pulls[:, 0], -pulls[:, -1], tensions)
+
+
+class NetForces(NamedTuple):
+    forces: Floats
+    foot_pull: Floats
+    head_pull: Floats
+    tensions: Floats
+
+
+def turn_pulls(polygon: Polygon, tensions: Floats, d_tensions: Floats) -> Floats:
+    """Minus the derivative of the nodal forces by the positions, (2 n, 2 n).
+
+    ``d_tensions`` are the derivatives of the tensions by the points, (n + 1, 2, n + 2).
+    """
+    d_pulls = (
+        polygon.directions.T[:, :, None, None] * d_tensions[:, None]
+        + (tensions * polygon.normals).T[:, :, None, None] * polygon.d_headings[:, None]
+    )
+    d_forces = np.diff(d_pulls, axis=0)[..., 1:-1]
+    size = 2 * d_forces.shape[0]
+    return np.asarray(-d_forces.transpose(0, 1, 3, 2).reshape(size, size))
+
+
 def measure_arcs(points: Floats) -> Floats:
     """Lengths of the arcs of a smooth curve through points (2, n + 2), eq. (C21)."""
-    return _measure(points).lengths
+    return measure_polygon(points).lengths
 
 
-def _measure(points: Floats) -> _Polygon:
+def measure_polygon(points: Floats) -> Polygon:
     chords = compute_segment_lengths(points)
     angles = compute_turning_angles(points)
     directions = np.diff(points) / chords
@@ -142,7 +165,7 @@ def _measure(points: Floats) -> _Polygon:
     d_curvature = _average_at_segments(d_angles * per_length[:, None, None])
     longer = (1.0 + bends**2 / 24.0)[:, None, None]
     d_bends = (chords**2 * bends / 12.0)[:, None, None] * d_curvature
-    return _Polygon(
+    return Polygon(
         lengths=chords * longer[:, 0, 0],
         angles=angles,
         directions=directions,
@@ -160,7 +183,7 @@ def _average_at_segments(at_nodes: Floats) -> Floats:
 
 
 def _differentiate_tensions(
-    polygon: _Polygon, sliding: SlidingStep, friction: float
+    polygon: Polygon, sliding: SlidingStep, friction: float
 ) -> Floats:
     """Derivatives of the tensions by the points, (n + 1, 2, n + 2), eq. (C23)."""
     half = np.maximum(polygon.angles, 0.0) / 2.0

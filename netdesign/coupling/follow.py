@@ -58,6 +58,7 @@ def follow(
         step=step,
         stress=instant.stress,
         base_shear=instant.base_shear,
+        glide=instant.response.sliding.glide,
     )
     return following, fallen
 

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.cable.response import NetResponse, respond
+from netdesign.cable.response import NetResponse, hold_net, respond
+from netdesign.cable.yielding import YieldingNodes, settle_net
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.body import SnowBody
@@ -54,6 +55,7 @@ from netdesign.snow.straight_mesh import (
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+Signs = NDArray[np.int8]
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
 # net below it.
@@ -111,6 +113,12 @@ class TransientState:
     step: float = 0.0
     stress: Floats | None = None
     base_shear: Floats | None = None
+    glide: Signs | None = None
+
+    def hold_net(self, problem):
+        nodes = self.body.vertices[:, self.carried]
+        points = np.column_stack([np.zeros(2), nodes, problem.head])
+        return hold_net(points, self.lengths, problem.stiffness)
 
     @property
     def carried(self) -> Ints:
@@ -218,12 +226,24 @@ class _Assembly:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Target:
-    """Result of a Newton iteration, and the net forces that it counts on."""
+    """Result of a Newton iteration."""
 
     unknowns: Floats
     stress: Floats
     base_shear: Floats | None
-    net_forces: Floats
+    response: NetResponse
+    place: Floats
+
+
+class _Linear(NamedTuple):
+    law: FlowLaw
+    tangent: object
+    base: object
+    blocks: list
+    force: Floats
+
+
+DEBUG = False
 
 
 def advance(
@@ -264,40 +284,36 @@ def advance(
         If the step does not converge; a shorter one may.
     """
     assembly = _assemble(problem, state, step)
-    unknowns = assembly.mesh.to_node_axes(state.velocity)
     stress, base_shear = state.stress, state.base_shear
-    response = assembly.net_at(unknowns, bulge)
-    last_change, part = np.inf, 1.0
+    unknowns = assembly.mesh.to_node_axes(state.velocity)
+    guess = assembly.points_at(unknowns, bulge)[:, 1:-1]
+    net = state.hold_net(problem)
+    forces, glide = net.forces, _match_glide(state)
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, unknowns, stress, base_shear, response, bulge)
+        target = _iterate(assembly, stress, base_shear, forces, guess, glide, balance_tolerance)
         change = _relative_change(assembly, stress, target.stress)
         if not np.isfinite(change):
             raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
-        # nodes that stick and slide in turn: go half the way
-        if iteration > _FREE_ITERATIONS and change > _SLOW * last_change:
-            part = max(part / 2.0, _LEAST_PART)
-        elif change < _FAST * last_change:
-            part = 1.0
-        last_change = change
-        if part < 1.0 and stress is not None:
-            unknowns = unknowns + part * (target.unknowns - unknowns)
-            stress = stress + part * (target.stress - stress)
-            if base_shear is not None and target.base_shear is not None:
-                base_shear = base_shear + part * (target.base_shear - base_shear)
-        else:
-            unknowns, stress = target.unknowns, target.stress
-            base_shear = target.base_shear
-        bulge = None
-        response = assembly.net_at(unknowns)
-        missing = response.forces.T.ravel() - target.net_forces
-        unbalanced = float(np.linalg.norm(missing)) / _weight_of(assembly)
-        if part == 1.0 and change < tolerance and unbalanced < balance_tolerance:
+        unknowns, stress = target.unknowns, target.stress
+        base_shear, response = target.base_shear, target.response
+        forces, guess, glide = response.forces, target.place, response.sliding.glide
+        if DEBUG: print("      ", iteration, f"{change:.2e}", "".join(".+-"[k] for k in glide))
+        if change < tolerance:
             instant = _finish(
                 assembly, state, unknowns, stress, base_shear, response, iteration
             )
             if instant.residual < _ROUNDING_SHARE * balance_tolerance:
                 return instant
     raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow and net")
+
+
+def _match_glide(state):
+    count = state.carried.size
+    glide = np.zeros(count, dtype=np.int8)
+    if state.glide is not None:
+        n = min(count, state.glide.size)
+        glide[:n] = state.glide[:n]
+    return glide
 
 
 def advance_under(
@@ -319,7 +335,10 @@ def advance_under(
     unknowns = assembly.mesh.to_node_axes(state.velocity)
     stress, base_shear = state.stress, state.base_shear
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, unknowns, stress, base_shear, response, None)
+        linear = _linearise(assembly, stress, base_shear)
+        linear.force[assembly.net_dofs] -= response.forces.T.ravel()
+        unknowns = _solve(assembly, linear.blocks, linear.force)
+        target = _follow_snow(assembly, linear, unknowns, response, None)
         change = _relative_change(assembly, stress, target.stress)
         unknowns, stress = target.unknowns, target.stress
         base_shear = target.base_shear
@@ -397,13 +416,60 @@ def _free_places(
 
 def _iterate(
     assembly: _Assembly,
-    unknowns: Floats,
     stress: Floats | None,
     base_shear: Floats | None,
-    response: NetResponse,
-    bulge: Floats | None,
+    forces: Floats,
+    guess: Floats,
+    glide: Signs,
+    balance_tolerance: float,
 ) -> _Target:
-    """Where a Newton iteration wants to go."""
+    """Newton iteration of the snow; the net is solved exactly on its linear answer."""
+    linear = _linearise(assembly, stress, base_shear)
+    dofs, rate = assembly.net_dofs, assembly.motion.rate
+    right = np.zeros((assembly.mesh.n_dofs, 1 + dofs.size))
+    right[:, 0] = linear.force
+    right[dofs, 0] -= forces.T.ravel()
+    right[dofs, 1 + np.arange(dofs.size)] = -1.0
+    answers = _solve(assembly, linear.blocks, right)
+    nodes = YieldingNodes(
+        positions=assembly.points[:, 1:-1]
+        + rate * answers[dofs, 0].reshape(-1, 2).T,
+        forces=forces,
+        compliance=rate * answers[dofs, 1:],
+    )
+    problem = assembly.problem
+    response, _ = settle_net(
+        nodes,
+        guess,
+        problem.head,
+        assembly.lengths,
+        friction=problem.law.friction,
+        stiffness=problem.stiffness,
+        glide=glide,
+        tolerance=balance_tolerance * _weight_of(assembly),
+    )
+    more = (response.forces - forces).T.ravel()
+    unknowns = answers[:, 0] + answers[:, 1:] @ more
+    return _follow_snow(assembly, linear, unknowns, response, nodes.place(response.forces))
+
+
+def _follow_snow(assembly, linear, unknowns, response, place):
+    mesh = assembly.mesh
+    base_shear = None
+    if linear.base is not None:
+        base_shear = linear.base.kept + linear.base.modulus * compute_base_velocity(mesh, unknowns)
+    elif assembly.problem.base_drag > 0.0:
+        base_shear = assembly.problem.base_drag * compute_base_velocity(mesh, unknowns)
+    return _Target(
+        unknowns=unknowns,
+        stress=advance_stress(linear.law, linear.tangent, compute_strain(mesh, unknowns)),
+        base_shear=base_shear,
+        response=response,
+        place=place,
+    )
+
+
+def _linearise(assembly, stress, base_shear):
     mesh, law = assembly.mesh, assembly.problem.law
     if stress is None:  # the first iterate is linear creep
         law = replace(law, exponent=1.0)
@@ -420,27 +486,7 @@ def _iterate(
     elif assembly.problem.base_drag > 0.0:
         drag = np.full_like(mesh.base.weights, assembly.problem.base_drag)
         blocks.append(build_base_stiffness(mesh, drag))
-    rate, dofs = assembly.motion.rate, assembly.net_dofs
-    displaced = rate * unknowns[dofs]
-    if bulge is not None:
-        displaced = displaced + bulge.T.ravel()
-    at_rest = response.forces.T.ravel() + response.stiffness @ displaced
-    force[dofs] -= at_rest
-    net = rate * response.stiffness[None]
-    blocks.append(Blocks(dofs[None], net, n_paired=dofs.size))
-    unknowns = _solve(assembly, blocks, force)
-    expected = at_rest - rate * (response.stiffness @ unknowns[dofs])
-    new_stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
-    if base is not None:
-        base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
-    elif assembly.problem.base_drag > 0.0:
-        base_shear = assembly.problem.base_drag * compute_base_velocity(mesh, unknowns)
-    return _Target(
-        unknowns=unknowns,
-        stress=new_stress,
-        base_shear=base_shear,
-        net_forces=expected,
-    )
+    return _Linear(law, tangent, base, blocks, force)
 
 
 def _solve(assembly: _Assembly, blocks: Sequence[Blocks], force: Floats) -> Floats:
@@ -450,13 +496,11 @@ def _solve(assembly: _Assembly, blocks: Sequence[Blocks], force: Floats) -> Floa
         # over the head the snow slips up, with friction against it (F6)
         friction = np.zeros(mesh.n_dofs)
         friction[2 * int(mesh.template.net[-1]) + 1] = -law.friction
-    ordering = build_ordering(
-        mesh.template, has_pressures=law.element == "mixed", couples_net=True
-    )
+    is_mixed = law.element == "mixed"
+    ordering = build_ordering(mesh.template, has_pressures=is_mixed, couples_net=False)
     try:
-        # the net's stiffness is not symmetric where it glides
         return solve_blocks(
-            ordering, blocks, force, assembly.free, friction, is_definite=False
+            ordering, blocks, force, assembly.free, friction, is_definite=not is_mixed
         )
     except SingularError:
         raise SolveError(
