@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import NetResponse, hold_net, respond
-from netdesign.cable.yielding import YieldingNodes, settle_net
+from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.body import SnowBody
@@ -232,7 +232,7 @@ class _Target:
     stress: Floats
     base_shear: Floats | None
     response: NetResponse
-    place: Floats
+    guess: NetGuess
 
 
 class _Linear(NamedTuple):
@@ -286,17 +286,18 @@ def advance(
     assembly = _assemble(problem, state, step)
     stress, base_shear = state.stress, state.base_shear
     unknowns = assembly.mesh.to_node_axes(state.velocity)
-    guess = assembly.points_at(unknowns, bulge)[:, 1:-1]
     net = state.hold_net(problem)
-    forces, glide = net.forces, _match_glide(state)
+    forces = net.forces
+    glide = _match_glide(state)
+    guess = NetGuess(place=assembly.points_at(unknowns, bulge)[:, 1:-1], slides=np.zeros(glide.size), glide=glide)
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, stress, base_shear, forces, guess, glide, balance_tolerance)
+        target = _iterate(assembly, stress, base_shear, forces, guess, balance_tolerance)
         change = _relative_change(assembly, stress, target.stress)
         if not np.isfinite(change):
             raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
         unknowns, stress = target.unknowns, target.stress
         base_shear, response = target.base_shear, target.response
-        forces, guess, glide = response.forces, target.place, response.sliding.glide
+        forces, guess, glide = response.forces, target.guess, target.guess.glide
         if DEBUG: print("      ", iteration, f"{change:.2e}", "".join(".+-"[k] for k in glide))
         if change < tolerance:
             instant = _finish(
@@ -419,8 +420,7 @@ def _iterate(
     stress: Floats | None,
     base_shear: Floats | None,
     forces: Floats,
-    guess: Floats,
-    glide: Signs,
+    guess: NetGuess,
     balance_tolerance: float,
 ) -> _Target:
     """Newton iteration of the snow; the net is solved exactly on its linear answer."""
@@ -438,22 +438,21 @@ def _iterate(
         compliance=rate * answers[dofs, 1:],
     )
     problem = assembly.problem
-    response, _ = settle_net(
+    response, guess = settle_net(
         nodes,
         guess,
         problem.head,
         assembly.lengths,
         friction=problem.law.friction,
         stiffness=problem.stiffness,
-        glide=glide,
         tolerance=balance_tolerance * _weight_of(assembly),
     )
     more = (response.forces - forces).T.ravel()
     unknowns = answers[:, 0] + answers[:, 1:] @ more
-    return _follow_snow(assembly, linear, unknowns, response, nodes.place(response.forces))
+    return _follow_snow(assembly, linear, unknowns, response, guess)
 
 
-def _follow_snow(assembly, linear, unknowns, response, place):
+def _follow_snow(assembly, linear, unknowns, response, guess):
     mesh = assembly.mesh
     base_shear = None
     if linear.base is not None:
@@ -465,7 +464,7 @@ def _follow_snow(assembly, linear, unknowns, response, place):
         stress=advance_stress(linear.law, linear.tangent, compute_strain(mesh, unknowns)),
         base_shear=base_shear,
         response=response,
-        place=place,
+        guess=guess,
     )
 
 
