@@ -130,7 +130,7 @@ def settle_net(
         place = place + way.reshape(-1, 2).T
         slides = slides_next
         net = _place_net(given, place, slides)
-        if moved <= 1e-9:
+        if moved <= tolerance:
             return _respond(given, net, slides, stiff), NetGuess(
                 place=place, slides=slides, glide=glide
             )

@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.cable.response import measure_arcs
 from netdesign.coupling.clock import Clock
 from netdesign.coupling.follow import follow
 from netdesign.coupling.history import (
@@ -50,13 +51,14 @@ TRANSIENT_LEVELS = (
     MeshSize(net_spacing=0.125, corner=0.01, sectors=2, upslope_spacing=0.5),
     MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25),
 )
-_FIRST_STEP = 1e-5  # creep time over that of the snow held at the net
+_FIRST_STEP = 1e-7  # creep time over that of the snow held at the net
 _SHORTEST_STEP, _SHORTEST_SHARE = 1e-12, 1e-4  # of creep time; of the time so far
 _LONGEST_GROWTH, _SHORTEST_GROWTH = 2.0, 0.25
 _SAFETY = 0.9
 _FAILED_CUT = 0.25
 # Displacement error of a step over the accuracy, in snow thicknesses.
 _STEP_SHARE = 0.3
+STEP_SHARE = 3.0
 _TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is repeated
 # Local error of a BDF2 step over its distance from the extrapolation.
 _ERROR_SHARE = 0.25
@@ -92,7 +94,7 @@ class TransientSettings:
     horizon: float = 30.0 * 86400.0
     densifies: bool = True
     stops_at_plateau: bool = False
-    stress_tolerance: float = 1e-6
+    stress_tolerance: float = 1e-4
     balance_tolerance: float = 1e-9
     max_steps: int = 1000
     max_iterations: int = 20
@@ -296,7 +298,18 @@ class _Walk:
         expected = step * last + step**2 * trend
         off = instant.displaced - self.state.body.vertices - expected
         distance = float(np.hypot(*off)[self.state.body.topology.net].max())
-        return _ERROR_SHARE * distance / (_STEP_SHARE * self.settings.accuracy)
+        allowed = self.settings.accuracy * STEP_SHARE * self._sensitive_way(instant)
+        return _ERROR_SHARE * distance / allowed
+
+    def _sensitive_way(self, instant: Instant) -> float:
+        """Way of the net's middle that would change its tension by its own size."""
+        head = self.problem.head
+        chord = float(np.hypot(*head))
+        x, y = instant.points
+        sag = float((head[1] * x - head[0] * y).max()) / chord
+        strain = float(measure_arcs(instant.points).sum()) / self.problem.length - 1.0
+        least = (8.0 / 3.0) * (sag / chord) ** 2 * 1e-2
+        return 3.0 / 16.0 * max(strain, least) * chord**2 / max(sag, 1e-9)
 
     def _record(
         self, instant: Instant, state: TransientState, fallen: float, step: float
