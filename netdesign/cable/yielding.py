@@ -22,7 +22,8 @@ from netdesign.cable.response import (
     measure_polygon,
     turn_pulls,
 )
-from netdesign.cable.sliding import NetState, SlidingStep
+from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
+from netdesign.cable.tension import compute_ratio_bounds
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 
@@ -37,7 +38,9 @@ _ROUNDING = float(np.finfo(float).eps)
 # time (Murty's rule).
 _FREE_ROUNDS = 12
 _MOST_ROUNDS = 400
+_LEAST_WAY, _BISECTIONS = -30.0, 30
 _SHORTEST_PART = 1e-3
+_LEAST_SHARE = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -118,6 +121,17 @@ def settle_net(
     given = _Given(head, old_lengths, friction, stiffness)
     place, slides, glide = guess.place, guess.slides, guess.glide
     net = _place_net(given, place, slides)
+    if not nodes.forces.any():
+        place, net = _take_up(given, nodes, place, slides)
+    if net.tensions.min() < 0.0:
+        loose = solve_sliding(
+            net.polygon.lengths,
+            old_lengths,
+            compute_ratio_bounds(net.polygon.angles, friction),
+            stiffness=stiffness,
+        )
+        slides, glide = loose.slides, loose.glide
+        net = _place_net(given, place, slides)
     trace = []
     for _ in range(max_iterations):
         missing = (nodes.place(net.forces) - place).T.ravel()
@@ -127,16 +141,50 @@ def settle_net(
         unbalanced = float(np.linalg.norm(stiff @ missing))
         moved = np.linalg.norm(way)
         trace.append((unbalanced, float(moved), "".join(".+-"[k] for k in glide), ""))
-        place = place + way.reshape(-1, 2).T
-        slides = slides_next
-        net = _place_net(given, place, slides)
-        if moved <= tolerance:
+        part = 1.0
+        while True:
+            following = _place_net(
+                given,
+                place + part * way.reshape(-1, 2).T,
+                slides + part * (slides_next - slides),
+            )
+            if part < _SHORTEST_PART or (
+                following.tensions >= _LEAST_SHARE * net.tensions
+            ).all():
+                break
+            part /= 2.0
+        place = place + part * way.reshape(-1, 2).T
+        slides = slides_next if part == 1.0 else slides + part * (slides_next - slides)
+        net = following
+        if moved <= tolerance and part == 1.0:
             return _respond(given, net, slides, stiff), NetGuess(
                 place=place, slides=slides, glide=glide
             )
     if LOG is not None:
         LOG.append(trace)
     raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+
+
+def _take_up(
+    given: _Given, nodes: YieldingNodes, start: Floats, slides: Floats
+) -> tuple[Floats, _Net]:
+    """Where a net without tension first holds the snow: part of the way it is pushed.
+
+    A straight net has no stiffness across itself, so Newton's method has no direction
+    there.
+    """
+    way = nodes.positions - start
+    low, high = _LEAST_WAY, 0.0
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2.0
+        place = start + np.exp(middle) * way
+        net = _place_net(given, place, slides)
+        pushed = nodes.place(net.forces) - place
+        if (pushed * way).sum() > 0.0:
+            low = middle
+        else:
+            high = middle
+    return place, net
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
@@ -239,7 +287,7 @@ def _choose(up, up_by, down, down_by, glide, net):
             glide = glide.copy()
             glide[changes[0]] = wanted[changes[0]]
     if LOG is not None:
-        LOG.append([(0,0,'choose','')])
+        LOG.append([(0,0,'choose','')]); import pickle; pickle.dump((up,up_by,down,down_by,net.share,net.tensions,net.polygon.angles),open('/tmp/hw/lcp%d.pkl'%len(LOG),'wb'))
     raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
 
 

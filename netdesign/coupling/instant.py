@@ -33,7 +33,9 @@ from netdesign.snow.kernel import (
 from netdesign.snow.law import (
     FlowLaw,
     Material,
+    Tangent,
     advance_stress,
+    hold_stress,
     linearise_creep,
     linearise_sliding,
     squared_size,
@@ -237,8 +239,10 @@ class _Target:
 
 class _Linear(NamedTuple):
     law: FlowLaw
-    tangent: object
-    base: object
+    tangent: Tangent
+    strain: Floats
+    base: Tangent | None
+    base_shear: Floats | None
     blocks: list
     force: Floats
 
@@ -291,7 +295,7 @@ def advance(
     glide = _match_glide(state)
     guess = NetGuess(place=assembly.points_at(unknowns, bulge)[:, 1:-1], slides=np.zeros(glide.size), glide=glide)
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, stress, base_shear, forces, guess, 1e-9)
+        target = _iterate(assembly, unknowns, stress, base_shear, forces, guess, 1e-9)
         change = _relative_change(assembly, stress, target.stress)
         if not np.isfinite(change):
             raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
@@ -336,10 +340,10 @@ def advance_under(
     unknowns = assembly.mesh.to_node_axes(state.velocity)
     stress, base_shear = state.stress, state.base_shear
     for iteration in range(1, max_iterations + 1):
-        linear = _linearise(assembly, stress, base_shear)
+        linear = _linearise(assembly, unknowns, stress, base_shear)
         linear.force[assembly.net_dofs] -= response.forces.T.ravel()
-        unknowns = _solve(assembly, linear.blocks, linear.force)
-        target = _follow_snow(assembly, linear, unknowns, response, None)
+        change_ = _solve(assembly, linear.blocks, linear.force)
+        target = _follow_snow(assembly, linear, unknowns, change_, response, None)
         change = _relative_change(assembly, stress, target.stress)
         unknowns, stress = target.unknowns, target.stress
         base_shear = target.base_shear
@@ -417,6 +421,7 @@ def _free_places(
 
 def _iterate(
     assembly: _Assembly,
+    unknowns: Floats,
     stress: Floats | None,
     base_shear: Floats | None,
     forces: Floats,
@@ -424,7 +429,7 @@ def _iterate(
     balance_tolerance: float,
 ) -> _Target:
     """Newton iteration of the snow; the net is solved exactly on its linear answer."""
-    linear = _linearise(assembly, stress, base_shear)
+    linear = _linearise(assembly, unknowns, stress, base_shear)
     dofs, rate = assembly.net_dofs, assembly.motion.rate
     right = np.zeros((assembly.mesh.n_dofs, 1 + dofs.size))
     right[:, 0] = linear.force
@@ -433,7 +438,7 @@ def _iterate(
     answers = _solve(assembly, linear.blocks, right)
     nodes = YieldingNodes(
         positions=assembly.points[:, 1:-1]
-        + rate * answers[dofs, 0].reshape(-1, 2).T,
+        + rate * (unknowns[dofs] + answers[dofs, 0]).reshape(-1, 2).T,
         forces=forces,
         compliance=rate * answers[dofs, 1:],
     )
@@ -448,44 +453,45 @@ def _iterate(
         tolerance=balance_tolerance,
     )
     more = (response.forces - forces).T.ravel()
-    unknowns = answers[:, 0] + answers[:, 1:] @ more
-    return _follow_snow(assembly, linear, unknowns, response, guess)
+    change = answers[:, 0] + answers[:, 1:] @ more
+    return _follow_snow(assembly, linear, unknowns, change, response, guess)
 
 
-def _follow_snow(assembly, linear, unknowns, response, guess):
+def _follow_snow(assembly, linear, unknowns, change, response, guess):
     mesh = assembly.mesh
     base_shear = None
     if linear.base is not None:
-        base_shear = linear.base.kept + linear.base.modulus * compute_base_velocity(mesh, unknowns)
-    elif assembly.problem.base_drag > 0.0:
-        base_shear = assembly.problem.base_drag * compute_base_velocity(mesh, unknowns)
+        base_shear = linear.base_shear + linear.base.modulus * compute_base_velocity(mesh, change)
     return _Target(
-        unknowns=unknowns,
-        stress=advance_stress(linear.law, linear.tangent, compute_strain(mesh, unknowns)),
+        unknowns=unknowns + change,
+        stress=advance_stress(linear.law, linear.tangent, linear.strain, compute_strain(mesh, change)),
         base_shear=base_shear,
         response=response,
         guess=guess,
     )
 
 
-def _linearise(assembly, stress, base_shear):
+def _linearise(assembly, unknowns, stress, base_shear):
     mesh, law = assembly.mesh, assembly.problem.law
     if stress is None:  # the first iterate is linear creep
         law = replace(law, exponent=1.0)
         stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
     tangent = linearise_creep(law, assembly.material, stress)
+    strain = compute_strain(mesh, unknowns)
     blocks = [build_stiffness(mesh, tangent.modulus)]
-    force = assemble_stress(mesh, tangent.kept) - assembly.weight
-    base = None
+    force = assemble_stress(mesh, hold_stress(tangent, strain)) - assembly.weight
+    base, shear = None, None
     if law.ground == "sliding":
         shear = np.zeros_like(mesh.base.weights) if base_shear is None else base_shear
         base = linearise_sliding(law, shear)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
-        force += assemble_base_force(mesh, base.kept)
     elif assembly.problem.base_drag > 0.0:
         drag = np.full_like(mesh.base.weights, assembly.problem.base_drag)
-        blocks.append(build_base_stiffness(mesh, drag))
-    return _Linear(law, tangent, base, blocks, force)
+        base = Tangent(modulus=drag, kept=np.zeros_like(drag))
+    if base is not None:
+        shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+        force += assemble_base_force(mesh, shear)
+    return _Linear(law, tangent, strain, base, shear, blocks, force)
 
 
 def _solve(assembly: _Assembly, blocks: Sequence[Blocks], force: Floats) -> Floats:

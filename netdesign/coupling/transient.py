@@ -276,8 +276,6 @@ class _Walk:
 
     def _advance(self, step: float) -> Instant:
         bulge = None
-        if self.state.step == 0.0 and self.settings.start == "straight":
-            bulge = guess_bulge(self.problem, self.state)
         return advance(
             self.problem,
             self.state,
