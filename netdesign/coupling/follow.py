@@ -80,16 +80,13 @@ def _move_top(
         return _Net(vertices, np.append(lengths[:-2], lengths[-2:].sum()), "held")
     vertices[:, -1] = head
     upward = last / reach
-    if state.top == "slipping":
-        rises = float(instant.velocity[:, state.body.topology.net[-1]] @ upward) > 0.0
-        return _Net(vertices, lengths, "slipping" if rises else "held")
+    if instant.top_slips:
+        return _Net(vertices, lengths, "slipping")
     normal = np.array([upward[1], -upward[0]])
     shear = float(instant.on_net[:, -1] @ upward)
     limit = problem.law.friction * max(float(instant.on_net[:, -1] @ normal), 0.0)
-    if abs(shear) <= limit:
+    if shear >= -limit:
         return _Net(vertices, lengths, "held")
-    if shear > 0.0:
-        return _Net(vertices, lengths, "slipping")
     if not instant.response.sliding.tensions[-1] > 0.0:
         return _Net(vertices, lengths, "held")
     share = HEAD_GAP * chord / reach

@@ -170,6 +170,7 @@ class Instant:
     creep_rate: float
     residual: float
     linear_solves: int
+    top_slips: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -208,6 +209,11 @@ class _Assembly:
     motion: _Motion
     points: Floats  # foot, net nodes moved by the offset, head
     lengths: Floats
+
+    def with_top(self, slips):
+        free = self.free.copy()
+        free[2 * int(self.mesh.template.net[-1]) + 1] = slips
+        return replace(self, free=free, top_slips=slips)
 
     def net_at(self, unknowns: Floats, bulge: Floats | None = None) -> NetResponse:
         """The net where the unknowns carry it."""
@@ -248,6 +254,7 @@ class _Linear(NamedTuple):
 
 
 DEBUG = False
+MOST_TOP = 3
 
 
 def advance(
@@ -289,11 +296,12 @@ def advance(
     """
     assembly = _assemble(problem, state, step)
     stress, base_shear = state.stress, state.base_shear
-    unknowns = assembly.mesh.to_node_axes(state.velocity)
+    unknowns = np.where(assembly.free, assembly.mesh.to_node_axes(state.velocity), 0.0)
     net = state.hold_net(problem)
     forces = net.forces
     glide = _match_glide(state)
     guess = NetGuess(place=assembly.points_at(unknowns, bulge)[:, 1:-1], slides=np.zeros(glide.size), glide=glide)
+    changes = 0
     for iteration in range(1, max_iterations + 1):
         target = _iterate(assembly, unknowns, stress, base_shear, forces, guess, 1e-9)
         change = _relative_change(assembly, stress, target.stress)
@@ -302,6 +310,12 @@ def advance(
         unknowns, stress = target.unknowns, target.stress
         base_shear, response = target.base_shear, target.response
         forces, guess, glide = response.forces, target.guess, target.guess.glide
+        top_slips = _top_slips(assembly, target)
+        if top_slips != assembly.top_slips and changes < MOST_TOP:
+            changes += 1
+            assembly = assembly.with_top(top_slips)
+            unknowns = np.where(assembly.free, unknowns, 0.0)
+            continue
         if DEBUG: print("      ", iteration, f"{change:.2e}", "".join(".+-"[k] for k in glide))
         if 10.0 * change**2 < tolerance:
             instant = _finish(
@@ -310,6 +324,18 @@ def advance(
             if instant.residual < _ROUNDING_SHARE * balance_tolerance:
                 return instant
     raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow and net")
+
+
+def _top_slips(assembly, target):
+    """Whether the snow slips up over the net's head."""
+    top = 2 * int(assembly.mesh.template.net[-1])
+    if assembly.free[top]:
+        return False
+    if assembly.top_slips:
+        return bool(target.unknowns[top + 1] > 0.0)
+    law = assembly.problem.law
+    support = assembly.weight - assemble_stress(assembly.mesh, total_stress(law, target.stress))
+    return bool(support[top + 1] > law.friction * max(support[top], 0.0))
 
 
 def _match_glide(state):
@@ -337,7 +363,7 @@ def advance_under(
     where the snow glides freely.
     """
     assembly = _assemble(problem, replace(state, step=0.0), step)
-    unknowns = assembly.mesh.to_node_axes(state.velocity)
+    unknowns = np.where(assembly.free, assembly.mesh.to_node_axes(state.velocity), 0.0)
     stress, base_shear = state.stress, state.base_shear
     for iteration in range(1, max_iterations + 1):
         linear = _linearise(assembly, unknowns, stress, base_shear)
@@ -577,6 +603,7 @@ def _finish(
         creep_rate=_mean_creep_rate(assembly, stress),
         residual=float(np.linalg.norm(residual[free])) / weight,
         linear_solves=iterations,
+        top_slips=assembly.top_slips,
     )
 
 
