@@ -1,16 +1,17 @@
-"""The net on snow that yields to it: forces and friction found together.
+"""The net on snow that yields to it: forces, friction and positions found together.
 
 The snow's nodes go where its own flow and the net's forces carry them, linearly in
 the forces; the net slides through the nodes as far as friction lets it. Each Newton
-step linearises everything but the choice between sticking and gliding, which is made
-exactly for the linear problem: decided for nodes at rest instead, as in ``response``,
-it changes from one iteration to the next wherever the snow is softer than the net.
-Theory: cable/THEORY.md, eqs (C24) to (C27).
+step linearises all but the choice between sticking and gliding, which is made exactly
+for the linear problem. Made for nodes at rest instead, as in ``response``, that choice
+changes from one iteration to the next wherever the snow is softer than the net.
+Theory: cable/THEORY.md, eqs (C22) to (C26).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -18,29 +19,30 @@ from numpy.typing import NDArray
 
 from netdesign.cable.response import (
     NetResponse,
-    Polygon,
-    measure_polygon,
-    turn_pulls,
+    average_at_segments,
+    bend_segments,
+    pull_nodes,
+    respond,
 )
-from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
-from netdesign.cable.tension import compute_ratio_bounds
+from netdesign.cable.sliding import NetState, SlidingStep
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 Signs = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 
-LOG = None
-_ROUNDING = float(np.finfo(float).eps)
+_MOST_ITERATIONS = 40
+# Over the chord: Newton's method is quadratic, the next step would be its square.
+_LAST_WAY = 1e-9
+_LEAST_SHARE = 0.1  # of a tension, that one step must leave
+_SHORTEST_PART = 1e-3
 # Rounds in which every node may change between sticking and gliding; then one at a
 # time (Murty's rule).
-_FREE_ROUNDS = 12
-_MOST_ROUNDS = 400
-_LEAST_WAY, _BISECTIONS = -30.0, 30
-_SHORTEST_PART = 1e-3
-_LEAST_SHARE = 0.1
+_FREE_ROUNDS, _MOST_ROUNDS = 12, 400
+_BREACH = 1e-9  # of a tension, that counts as none
+_BACKWARD = 1e-14  # slide against its direction that is rounding
+_LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,7 +56,7 @@ class YieldingNodes:
     forces : ndarray, shape (2, n)
         Of the net on the nodes [N/m, or any unit of force per width].
     compliance : ndarray, shape (2 n, 2 n)
-        Displacement per force, both ordered x0, y0, x1, y1 ..
+        Displacement per force, both ordered x0, x1, .. y0, y1 ..
     """
 
     positions: Floats
@@ -63,20 +65,20 @@ class YieldingNodes:
 
     def place(self, forces: Floats) -> Floats:
         """Positions (2, n) under other forces (2, n)."""
-        more = (forces - self.forces).T.ravel()
-        return np.asarray(self.positions + (self.compliance @ more).reshape(-1, 2).T)
+        more = self.compliance @ (forces - self.forces).ravel()
+        return np.asarray(self.positions + more.reshape(2, -1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class NetGuess:
-    """Where the iteration starts.
+    """State of the net where an iteration starts or ends.
 
     Attributes
     ----------
     place : ndarray, shape (2, n)
         Nodes.
     slides : ndarray, shape (n,)
-        S_i - S_old_i.
+        Net that has slid through each node since the step's start, S_i - S_i_old.
     glide : ndarray of int, shape (n,)
         1 where the net glides to the foot, -1 to the head, 0 where it sticks.
     """
@@ -85,10 +87,16 @@ class NetGuess:
     slides: Floats
     glide: Signs
 
+    @classmethod
+    def at_rest(cls, place: Floats, glide: Signs) -> NetGuess:
+        """Nothing has slid yet."""
+        return cls(place=place, slides=np.zeros(glide.size), glide=glide)
+
 
 class _Given(NamedTuple):
     """What stays the same in one solve."""
 
+    nodes: YieldingNodes
     head: Floats
     old_lengths: Floats
     friction: float
@@ -99,12 +107,31 @@ class _Given(NamedTuple):
 class _Net:
     """The net on given nodes after given slides."""
 
-    polygon: Polygon
+    points: Floats
+    chords: Floats
+    directions: Floats
+    arcs: Floats
+    bends: Floats
+    angles: Floats
     lengths: Floats
     tensions: Floats
-    forces: Floats
-    share: Floats  # exp(-kappa), least ratio of tensions
-    d_share: Floats  # by the turning angle
+    share: Floats  # exp(-kappa): least ratio of neighbouring tensions
+
+    @property
+    def place(self) -> Floats:
+        return self.points[:, 1:-1]
+
+    @property
+    def forces(self) -> Floats:
+        return np.diff(self.tensions * self.directions)
+
+
+class _Linear(NamedTuple):
+    """The linearised net, its nodes' way included: functions of the slides."""
+
+    way: Floats  # (2 n, 1 + n): without more sliding, and per slide
+    spare: Floats  # (2, n): tension above what lets the net glide to foot, to head
+    per_slide: Floats  # (2, n, n)
 
 
 def settle_net(
@@ -115,198 +142,244 @@ def settle_net(
     *,
     friction: float,
     stiffness: float,
-    tolerance: float,
-    max_iterations: int = 40,
 ) -> tuple[NetResponse, NetGuess]:
-    given = _Given(head, old_lengths, friction, stiffness)
-    place, slides, glide = guess.place, guess.slides, guess.glide
-    net = _place_net(given, place, slides)
-    if not nodes.forces.any():
-        place, net = _take_up(given, nodes, place, slides)
-    if net.tensions.min() < 0.0:
-        loose = solve_sliding(
-            net.polygon.lengths,
-            old_lengths,
-            compute_ratio_bounds(net.polygon.angles, friction),
-            stiffness=stiffness,
-        )
-        slides, glide = loose.slides, loose.glide
-        net = _place_net(given, place, slides)
-    trace = []
-    for _ in range(max_iterations):
-        missing = (nodes.place(net.forces) - place).T.ravel()
-        way, slides_next, glide, stiff = _solve_linear(
-            given, nodes, net, slides, missing, glide
-        )
-        unbalanced = float(np.linalg.norm(stiff @ missing))
-        moved = np.linalg.norm(way)
-        trace.append((unbalanced, float(moved), "".join(".+-"[k] for k in glide), ""))
-        part = 1.0
-        while True:
-            following = _place_net(
-                given,
-                place + part * way.reshape(-1, 2).T,
-                slides + part * (slides_next - slides),
-            )
-            if part < _SHORTEST_PART or (
-                following.tensions >= _LEAST_SHARE * net.tensions
-            ).all():
-                break
-            part /= 2.0
-        place = place + part * way.reshape(-1, 2).T
-        slides = slides_next if part == 1.0 else slides + part * (slides_next - slides)
-        net = following
-        if moved <= tolerance and part == 1.0:
-            return _respond(given, net, slides, stiff), NetGuess(
-                place=place, slides=slides, glide=glide
-            )
-    if LOG is not None:
-        LOG.append(trace)
-    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+    """Net and nodes in equilibrium.
 
+    Parameters
+    ----------
+    nodes : YieldingNodes
+        The snow's side.
+    guess : NetGuess
+        Where to start.
+    head : ndarray, shape (2,)
+        End of the net; its foot is the origin.
+    old_lengths : ndarray, shape (n + 1,)
+        Unstressed lengths before the step.
+    friction : float
+        Tan phi [-].
+    stiffness : float
+        ES.
 
-def _take_up(
-    given: _Given, nodes: YieldingNodes, start: Floats, slides: Floats
-) -> tuple[Floats, _Net]:
-    """Where a net without tension first holds the snow: part of the way it is pushed.
+    Returns
+    -------
+    NetResponse, NetGuess
+        The net, and its state to start the next solve from.
 
-    A straight net has no stiffness across itself, so Newton's method has no direction
-    there.
+    Raises
+    ------
+    SolveError
+        If there is no convergence.
+
+    Verified by
+    -----------
+    tests/cable/test_yielding.py
     """
-    way = nodes.positions - start
-    low, high = _LEAST_WAY, 0.0
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2.0
-        place = start + np.exp(middle) * way
-        net = _place_net(given, place, slides)
-        pushed = nodes.place(net.forces) - place
-        if (pushed * way).sum() > 0.0:
-            low = middle
+    given = _Given(nodes, head, old_lengths, friction, stiffness)
+    slides, glide = guess.slides, guess.glide
+    net = _place_net(given, guess.place, slides)
+    if not nodes.forces.any():
+        net = _take_up(given, net, slides)
+    if net.tensions.min() < 0.0:
+        loose = respond(net.points, old_lengths, friction=friction, stiffness=stiffness)
+        slides, glide = loose.sliding.slides, loose.sliding.glide
+        net = _place_net(given, net.place, slides)
+    chord = float(np.hypot(*head))
+    for iteration in range(1, _MOST_ITERATIONS + 1):
+        linear = _linearise(given, net)
+        wanted, glide = _choose(net, linear, slides, glide)
+        way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
+        part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
+        if part == 1.0:
+            slides = wanted
+            if np.linalg.norm(way) <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
+                sliding = _finish(net, slides, iteration)
+                end = NetGuess(place=net.place, slides=slides, glide=glide)
+                return pull_nodes(net.points, sliding), end
         else:
-            high = middle
-    return place, net
+            slides = slides + part * (wanted - slides)
+    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
     points = np.zeros((2, place.shape[1] + 2))
     points[:, 1:-1], points[:, -1] = place, given.head
-    polygon = measure_polygon(points)
-    lengths = given.old_lengths + np.diff(slides, prepend=0.0, append=0.0)
-    hold = given.friction * np.tan(np.maximum(polygon.angles, 0.0) / 2.0)
+    steps = np.diff(points)
+    chords = np.hypot(*steps)
+    if not chords.min() > 0.0:
+        raise SolveError(Outcome.NONFINITE, "two nodes of the net at one place")
+    directions = steps / chords
+    (ax, ay), (bx, by) = directions[:, :-1], directions[:, 1:]
+    angles = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
+    bends = bend_segments(chords, angles)
+    arcs = chords * (1.0 + bends / 24.0)
+    lengths = given.old_lengths + _difference(slides.size) @ slides
+    hold = given.friction * np.tan(np.maximum(angles, 0.0) / 2.0)
     share = np.maximum(1.0 - hold, 0.0) / (1.0 + hold)
-    tensions = given.stiffness * (polygon.lengths - lengths) / lengths
-    tensions[_find_slack(polygon.lengths - lengths, share)] = 0.0
-    half = np.cos(polygon.angles / 2.0)
-    d_share = np.where(
-        (polygon.angles > 0.0) & (hold < 1.0),
-        -given.friction / (half * (1.0 + hold)) ** 2,
-        0.0,
-    )
+    tensions = given.stiffness * (arcs - lengths) / lengths
+    tensions[_find_slack(arcs - lengths, share)] = 0.0
     return _Net(
-        polygon=polygon,
+        points=points,
+        chords=chords,
+        directions=directions,
+        arcs=arcs,
+        bends=bends,
+        angles=angles,
         lengths=lengths,
         tensions=tensions,
-        forces=np.diff(tensions * polygon.directions),
         share=share,
-        d_share=d_share,
     )
+
+
+@lru_cache(maxsize=64)
+def _difference(count: int) -> Floats:
+    """Differences (count + 1, count) over segments of what foot and head do not do."""
+    matrix = np.eye(count + 1, count) - np.eye(count + 1, count, -1)
+    matrix.setflags(write=False)
+    return matrix
 
 
 def _find_slack(stretch: Floats, share: Floats) -> Mask:
-    """Segments of the parts, between nodes where nothing can slide, that are loose."""
+    """Segments of parts, between nodes where nothing can slide, that are too long."""
     parts = np.append(0, np.cumsum(share == 0.0))
     return np.asarray((np.bincount(parts, stretch) <= 0.0)[parts])
 
 
-def _solve_linear(given, nodes, net, slides, missing, glide):
-    polygon, count = net.polygon, slides.size
+def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
+    """Where a net without tension first holds the snow: part of the way it is pushed.
+
+    A straight net has no stiffness across itself, so Newton's method has no direction
+    there.
+    """
+    way = given.nodes.positions - net.place
+    low, high = _LEAST_WAY, 0.0
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2.0
+        there = _place_net(given, net.place + np.exp(middle) * way, slides)
+        onward = given.nodes.place(there.forces) - there.place
+        if (onward * way).sum() > 0.0:
+            low = middle
+        else:
+            high = middle
+    return there
+
+
+def _linearise(given: _Given, net: _Net) -> _Linear:
+    """Equations (C24) and (C25) about the net as it is, the nodes' way eliminated."""
+    count = net.angles.size
+    (tx, ty), difference = net.directions[:, :, None], _difference(count)
+    d_headings = np.hstack([-ty * difference, tx * difference]) / net.chords[:, None]
+    d_angles = np.diff(d_headings, axis=0)
+    curvature = d_angles * (2.0 / (net.chords[:-1] + net.chords[1:]))[:, None]
+    signed = np.sqrt(net.bends) * np.sign(average_at_segments(net.angles))
+    d_arcs = (1.0 + net.bends / 24.0)[:, None] * np.hstack(
+        [tx * difference, ty * difference]
+    ) + (net.chords**2 * signed / 12.0)[:, None] * average_at_segments(curvature)
     per_length = np.where(net.tensions != 0.0, given.stiffness / net.lengths, 0.0)
-    per_slide = -per_length * polygon.lengths / net.lengths
-    d_tensions = per_length[:, None, None] * polygon.d_lengths
-    stiff = turn_pulls(polygon, net.tensions, d_tensions)
-    # segment i loses length where its lower node slides up: d lo_i = ds_{i+1} - ds_i
-    by_slides = np.zeros((count + 1, count))
-    rows = np.arange(count)
-    by_slides[rows, rows] = per_slide[:-1]
-    by_slides[rows + 1, rows] = -per_slide[1:]
-    pulls = polygon.directions[:, :, None] * by_slides
-    force_by_slides = np.diff(pulls, axis=1).transpose(1, 0, 2).reshape(2 * count, count)
-    jacobian = nodes.compliance @ stiff
-    jacobian[np.diag_indices_from(jacobian)] += 1.0
-    right = np.column_stack([missing, nodes.compliance @ force_by_slides])
-    ways = np.linalg.solve(jacobian, right)
-    inner = d_tensions[..., 1:-1].transpose(0, 2, 1).reshape(count + 1, 2 * count)
-    tensions = by_slides + inner @ ways[:, 1:]
-    start = net.tensions + inner @ ways[:, 0]
-    turns = polygon.d_angles[..., 1:-1].transpose(0, 2, 1).reshape(count, 2 * count)
-    shares = net.d_share[:, None] * (turns @ ways)
-    below, above = net.tensions[:-1], net.tensions[1:]
-    share = net.share
-    up = start[1:] - share * start[:-1] - below * shares[:, 0]
-    down = start[:-1] - share * start[1:] - above * shares[:, 0]
-    up_by = tensions[1:] - share[:, None] * tensions[:-1] - below[:, None] * shares[:, 1:]
-    down_by = tensions[:-1] - share[:, None] * tensions[1:] - above[:, None] * shares[:, 1:]
-    new, glide = _choose(
-        up - up_by @ slides, up_by, down - down_by @ slides, down_by, glide, net
+    d_tensions = per_length[:, None] * d_arcs
+    by_slides = -(per_length * net.arcs / net.lengths)[:, None] * difference
+    turn = net.tensions[:, None] * d_headings
+    jacobian = -given.nodes.compliance @ np.vstack(
+        [
+            np.diff(tx * d_tensions - ty * turn, axis=0),
+            np.diff(ty * d_tensions + tx * turn, axis=0),
+        ]
     )
-    return ways[:, 0] + ways[:, 1:] @ (new - slides), new, glide, stiff
+    jacobian[np.diag_indices(2 * count)] += 1.0
+    missing = (given.nodes.place(net.forces) - net.place).ravel()
+    pushes = np.vstack(
+        [np.diff(tx * by_slides, axis=0), np.diff(ty * by_slides, axis=0)]
+    )
+    right = np.column_stack([missing, given.nodes.compliance @ pushes])
+    way = _solve(jacobian, right)
+    tensions = d_tensions @ way
+    tensions[:, 0] += net.tensions
+    tensions[:, 1:] += by_slides
+    shares = _differentiate_share(given.friction, net)[:, None] * (d_angles @ way)
+    below, above = tensions[:-1], tensions[1:]
+    share = net.share[:, None]
+    to_foot = above - share * below - net.tensions[:-1, None] * shares
+    to_head = below - share * above - net.tensions[1:, None] * shares
+    spare = np.array([to_foot[:, 0], to_head[:, 0]])
+    return _Linear(way, spare, np.array([to_foot[:, 1:], to_head[:, 1:]]))
 
 
-def _choose(up, up_by, down, down_by, glide, net):
-    """Slides of the linear problem."""
-    count = up.size
-    loose = net.share == 1.0
+def _differentiate_share(friction: float, net: _Net) -> Floats:
+    """Derivative of exp(-kappa) by the turning angle."""
+    half = net.angles / 2.0
+    turned = np.cos(half) + friction * np.sin(half)
+    holds = (net.angles > 0.0) & (net.share > 0.0)
+    return np.where(holds, -friction / turned**2, 0.0)
+
+
+def _solve(matrix: Floats, right: Floats) -> Floats:
+    try:
+        return np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
+
+
+def _choose(
+    net: _Net, linear: _Linear, slides: Floats, glide: Signs
+) -> tuple[Floats, Signs]:
+    """Slides, and which nodes glide, of the linear complementarity problem (C26)."""
+    per_slide = linear.per_slide
+    spare = linear.spare - per_slide @ slides
     idle = net.tensions == 0.0
     fixed = (net.share == 0.0) | (idle[:-1] & idle[1:])
-    loose &= ~fixed
-    glide = np.where(loose, np.int8(1), np.where(fixed, np.int8(0), glide))
-    slack = 1e-9 * max(float(net.tensions.max()), 1e-30)
-    for round_ in range(_MOST_ROUNDS):
-        slides = np.zeros(count)
+    loose = (net.share == 1.0) & ~fixed  # no friction: never sticks
+    glide = np.where(fixed, 0, np.where(loose, 1, glide)).astype(np.int8)
+    least = -_BREACH * float(np.abs(net.tensions).max())
+    for number in range(_MOST_ROUNDS):
+        found = np.zeros(glide.size)
         active = np.flatnonzero(glide)
         if active.size:
-            plus = glide[active] > 0
-            rows = np.where(plus[:, None], up_by[active], down_by[active])
-            load = np.where(plus, up[active], down[active])
-            try:
-                slides[active] = np.linalg.solve(rows[:, active], -load)
-            except np.linalg.LinAlgError:
-                raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
-        held = glide == 0
-        to_foot = up + up_by @ slides < -slack
-        to_head = down + down_by @ slides < -slack
-        wanted = np.where(held, np.where(to_foot, 1, np.where(to_head, -1, 0)), glide)
-        wanted = np.where(~held & (glide * slides < -1e-14) & ~loose, 0, wanted)
-        wanted = np.where(fixed, 0, wanted).astype(np.int8)
-        changes = np.flatnonzero(wanted != glide)
+            side = np.where(glide[active] > 0, 0, 1)
+            found[active] = _solve(
+                per_slide[side[:, None], active[:, None], active], -spare[side, active]
+            )
+        to_foot, to_head = spare + per_slide @ found < least
+        released = np.where(to_foot, 1, np.where(to_head, -1, 0))
+        backward = (glide * found < -_BACKWARD) & ~loose
+        wanted = np.where(glide == 0, released, np.where(backward, 0, glide))
+        changes = np.flatnonzero((wanted != glide) & ~fixed)
         if changes.size == 0:
-            return slides, glide
-        if round_ < _FREE_ROUNDS:
-            glide = wanted
-        else:
-            glide = glide.copy()
-            glide[changes[0]] = wanted[changes[0]]
-    if LOG is not None:
-        LOG.append([(0,0,'choose','')]); import pickle; pickle.dump((up,up_by,down,down_by,net.share,net.tensions,net.polygon.angles),open('/tmp/hw/lcp%d.pkl'%len(LOG),'wb'))
+            return found, glide
+        if number >= _FREE_ROUNDS:
+            changes = changes[:1]
+        glide[changes] = wanted[changes]
     raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
 
 
-def _respond(given: _Given, net: _Net, slides: Floats, stiff: Floats) -> NetResponse:
-    pulls = net.tensions * net.polygon.directions
+def _go(
+    given: _Given, net: _Net, way: Floats, slides: Floats, wanted: Floats
+) -> tuple[float, _Net]:
+    """The largest part of a step that leaves every segment its tension."""
+    part = 1.0
+    while True:
+        there = _place_net(
+            given, net.place + part * way, slides + part * (wanted - slides)
+        )
+        left = there.tensions >= _LEAST_SHARE * net.tensions
+        if left.all() or part < _SHORTEST_PART:
+            return part, there
+        part /= 2.0
+
+
+def _finish(net: _Net, slides: Floats, iterations: int) -> SlidingStep:
     slack = net.tensions == 0.0
     some = NetState.PARTLY_SLACK if slack.any() else NetState.TIGHT
-    return NetResponse(
-        forces=net.forces,
-        stiffness=stiff,
-        foot_pull=pulls[:, 0],
-        head_pull=-pulls[:, -1],
-        sliding=SlidingStep(
-            outcome=Outcome.CONVERGED,
-            state=NetState.SLACK if slack.all() else some,
-            lengths=net.lengths,
-            tensions=net.tensions,
-            slides=slides,
-            residual=0.0,
-            iterations=0,
-        ),
+    below, above = net.tensions[:-1], net.tensions[1:]
+    spare = np.array([above - net.share * below, below - net.share * above])
+    side = np.where(slides < 0.0, 1, 0)
+    held = np.maximum(-spare.min(axis=0), 0.0)
+    gliding = np.abs(np.take_along_axis(spare, side[None], axis=0)[0])
+    breach = np.where(slides != 0.0, gliding, held)
+    return SlidingStep(
+        outcome=Outcome.CONVERGED,
+        state=NetState.SLACK if slack.all() else some,
+        lengths=net.lengths,
+        tensions=net.tensions,
+        slides=slides,
+        residual=float((breach / np.maximum(np.maximum(below, above), 1e-300)).max()),
+        iterations=iterations,
     )

@@ -8,12 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.instant import (
-    Instant,
-    Top,
-    TransientProblem,
-    TransientState,
-)
+from netdesign.coupling.instant import Instant
+from netdesign.coupling.moving import Top, TransientProblem, TransientState
 from netdesign.coupling.net_start import HEAD_GAP
 from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
@@ -21,6 +17,7 @@ from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
 
 Floats = NDArray[np.float64]
+Signs = NDArray[np.int8]
 
 
 class _Net(NamedTuple):
@@ -58,9 +55,14 @@ def follow(
         step=step,
         stress=instant.stress,
         base_shear=instant.base_shear,
-        glide=instant.response.sliding.glide,
+        glide=_match_glide(instant.response.sliding.glide, net.lengths.size - 1),
     )
     return following, fallen
+
+
+def _match_glide(glide: Signs, count: int) -> Signs:
+    """The upper corner may have become a node of the net, or none any more."""
+    return np.append(glide, np.zeros(1, dtype=np.int8))[:count]
 
 
 def _move_top(
@@ -72,7 +74,7 @@ def _move_top(
     head, chord = problem.head, float(np.hypot(*problem.head))
     last = head - vertices[:, -2]
     reach = float(np.hypot(*last))
-    if state.top == "on-net":
+    if instant.top == "on-net":
         below = float((head - vertices[:, -1]) @ last) / reach
         if below > HEAD_GAP * chord / 4.0:
             return _Net(vertices, lengths, "on-net")
@@ -80,7 +82,7 @@ def _move_top(
         return _Net(vertices, np.append(lengths[:-2], lengths[-2:].sum()), "held")
     vertices[:, -1] = head
     upward = last / reach
-    if instant.top_slips:
+    if instant.top == "slipping":
         return _Net(vertices, lengths, "slipping")
     normal = np.array([upward[1], -upward[0]])
     shear = float(instant.on_net[:, -1] @ upward)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.instant import TransientProblem, TransientState
+from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.start import guess_pressure
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshTemplate
@@ -19,7 +19,6 @@ Start = Literal["straight", "sagged"]
 # Length of net that comes free above the snow's upper corner, over the chord, when
 # the corner begins to slip down.
 HEAD_GAP = 2e-3
-_FIRST_SHARE = 0.3  # of the final bulge that the first step is guessed to make
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord
 
@@ -64,20 +63,11 @@ def build_start(
         time=0.0,
         body=body,
         lengths=arcs * (problem.length / arcs.sum()),
+        glide=np.zeros(arcs.size - 1, dtype=np.int8),
         top="on-net" if has_freeboard else "held",
         velocity=np.zeros((2, template.nodes.shape[1])),
         moved=np.zeros_like(body.vertices),
     )
-
-
-def guess_bulge(problem: TransientProblem, state: TransientState) -> Floats:
-    """How far the first step may push the nodes (2, n) of a net without tension."""
-    aspect = state.body.topology.template.aspect
-    loaded = _find_sag(problem, guess_pressure(problem.law, aspect))
-    nodes = state.body.vertices[:, state.carried]
-    part = (problem.head @ nodes) / (problem.head @ problem.head)
-    sag = _FIRST_SHARE * max(0.0, loaded - _find_sag(problem, 0.0))
-    return _parabola(problem.head, sag, part) - np.outer(problem.head, part)
 
 
 def _find_sag(problem: TransientProblem, pressure: float) -> float:

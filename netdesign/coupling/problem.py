@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from netdesign.cable.net import Net
-from netdesign.coupling.instant import TransientProblem
+from netdesign.coupling.moving import TransientProblem
 from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
 from netdesign.snow.settling import Settling

@@ -21,13 +21,9 @@ from netdesign.coupling.history import (
     Plateau,
     find_plateau,
 )
-from netdesign.coupling.instant import (
-    Instant,
-    TransientProblem,
-    TransientState,
-    advance,
-)
-from netdesign.coupling.net_start import Start, build_start, guess_bulge
+from netdesign.coupling.instant import Instant, advance
+from netdesign.coupling.moving import TransientProblem, TransientState
+from netdesign.coupling.net_start import Start, build_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import ERROR_FLOOR, estimate_error, refine
 from netdesign.coupling.run import (
@@ -275,7 +271,6 @@ class _Walk:
         )
 
     def _advance(self, step: float) -> Instant:
-        bulge = None
         return advance(
             self.problem,
             self.state,
@@ -283,7 +278,6 @@ class _Walk:
             tolerance=self.settings.stress_tolerance,
             balance_tolerance=self.settings.balance_tolerance,
             max_iterations=self.settings.max_iterations,
-            bulge=bulge,
         )
 
     def _estimate_error(self, instant: Instant, step: float) -> float:
