@@ -42,10 +42,13 @@ from netdesign.snow.mesh import MeshSize, build_template
 
 Floats = NDArray[np.float64]
 
+# Meshes from the fewest triangles upwards; as for the steady state, sectors around the
+# net's ends are worth more than triangles along its middle. Corners much smaller than
+# the way that the snow makes past them would be swept away.
 TRANSIENT_LEVELS = (
-    MeshSize(net_spacing=0.25, corner=0.03, sectors=2, upslope_spacing=1.0),
-    MeshSize(net_spacing=0.125, corner=0.01, sectors=2, upslope_spacing=0.5),
-    MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25),
+    MeshSize(net_spacing=0.34, corner=0.05, sectors=3, upslope_spacing=1.5),
+    MeshSize(net_spacing=0.18, corner=0.03, sectors=4, upslope_spacing=0.7),
+    MeshSize(net_spacing=0.09, corner=0.015, sectors=5, upslope_spacing=0.35),
 )
 _FIRST_STEP = 1e-7  # creep time over that of the snow held at the net
 _SHORTEST_STEP, _SHORTEST_SHARE = 1e-12, 1e-4  # of creep time; of the time so far
