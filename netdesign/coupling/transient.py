@@ -6,7 +6,7 @@ keeps its mass and may densify. Theory: coupling/THEORY.md, section 6.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -28,7 +28,6 @@ from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import ERROR_FLOOR, estimate_error, refine
 from netdesign.coupling.run import (
     Run,
-    measure_plateau,
     measure_run,
     record_moment,
 )
@@ -50,9 +49,10 @@ TRANSIENT_LEVELS = (
     MeshSize(net_spacing=0.18, corner=0.03, sectors=4, upslope_spacing=0.7),
     MeshSize(net_spacing=0.09, corner=0.015, sectors=5, upslope_spacing=0.35),
 )
-# Of creep time. A straight net takes up its load from the corners inward; one that sags
-# has most of it from the start.
-_FIRST_STEP: Mapping[Start, float] = {"straight": 1e-7, "sagged": 1e-5}
+# First step, in creep time. A straight net takes up its load from the corners inward,
+# within a time that goes with the square of their size; one that sags has most of its
+# load from the start.
+_FIRST_STRAIGHT, _FIRST_SAGGED = 1e-4, 1e-5
 _SHORTEST_STEP, _SHORTEST_SHARE = 1e-12, 1e-4  # of creep time; of the time so far
 _LONGEST_GROWTH, _SHORTEST_GROWTH = 2.0, 0.25
 _SAFETY = 0.9
@@ -194,11 +194,14 @@ def run_history(
         size,
         scene.layer_tops,
     )
+    first = _FIRST_SAGGED
+    if settings.start == "straight":
+        first = _FIRST_STRAIGHT * size.corner**2
     walk = _Walk(
         problem=problem,
         settings=settings,
         state=build_start(problem, template, settings.start),
-        step=_FIRST_STEP[settings.start],
+        step=first,
         step_share=step_share,
         horizon=horizon,
     )
@@ -346,17 +349,32 @@ def _grow(error: float) -> float:
     return min(_LONGEST_GROWTH, max(_SHORTEST_GROWTH, wanted))
 
 
+def _list_pulls(run: Run, time: float) -> list[Floats]:
+    """Largest pulls, and those at one time."""
+    times = np.log([moment.time for moment in run.moments])
+    ends = [[getattr(m, end) for m in run.moments] for end in ("foot", "head")]
+    at_time = [
+        np.array([np.interp(np.log(time), times, axis) for axis in np.array(end).T])
+        for end in ends
+    ]
+    return [*measure_run(run), *at_time]
+
+
 def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution:
     horizon = clock.to_creep_time(settings.horizon) / scene.time_scale
 
+    rests: list[float] = []
+
     def run(size: MeshSize, _: Run | None) -> Run:
         share = _LEVEL_RATIO ** (1 - settings.levels.index(size))
-        return run_history(scene, size, settings, horizon, step_share=share)
+        history = run_history(scene, size, settings, horizon, step_share=share)
+        rests.append(history.plateau.time or history.moments[-1].time)
+        return history
 
     runs, _ = refine(
         settings.levels,
         run,
-        measure_plateau,
+        lambda run: _list_pulls(run, rests[0]),
         settings.accuracy,
     )
     foot, head = (
