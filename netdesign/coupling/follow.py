@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.instant import Instant
 from netdesign.coupling.moving import Top, TransientProblem, TransientState
-from netdesign.coupling.net_start import HEAD_GAP
+from netdesign.coupling.net_start import HEAD_GAP, TOUCHES_GROUND
 from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome
@@ -40,10 +40,7 @@ def follow(
     """
     net = _spread_nodes(problem, state, _move_top(problem, state, instant))
     if not net.vertices[1, 1:].min() > 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            "the net touches the ground: less slack or less inclination is needed",
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
     following = TransientState(
         time=state.time + step,

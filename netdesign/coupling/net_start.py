@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.start import guess_pressure
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshTemplate
 
@@ -19,6 +21,7 @@ Start = Literal["straight", "sagged"]
 # Length of net that comes free above the snow's upper corner, over the chord, when
 # the corner begins to slip down.
 HEAD_GAP = 2e-3
+TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord
 
@@ -43,6 +46,11 @@ def build_start(
     -------
     TransientState
         At rest.
+
+    Raises
+    ------
+    SolveError
+        If the sagged net would lie on the ground.
     """
     head = problem.head
     fractions = template.net_fractions / head[1]
@@ -54,6 +62,8 @@ def build_start(
         pressure = guess_pressure(problem.law, template.aspect)
     sag = _find_sag(problem, pressure)
     curve = _parabola(head, sag, fractions)
+    if not curve[1, 1:].min() > 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
     body = build_body(problem.law, template, curve)
     points = curve[:, ::2]
     if has_freeboard:

@@ -28,6 +28,7 @@ def build_problem(
             creep_law=scene.creep_law,
             mean_density=scene.snowpack.relative_density,
             densifies=densifies,
+            least_density=min(layer.density for layer in scene.flow_law.layers),
         ),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
