@@ -156,3 +156,17 @@ def test_largest_density_of_a_body(a_flow_law):
 def test_largest_density_is_that_of_ice_at_most(a_flow_law):
     body = settled(a_body(a_flow_law()), 0.3)
     assert largest_density(settling(), body) == DENSEST_SNOW
+
+
+def test_stretched_snow_is_no_looser_than_the_loosest_layer(a_flow_law):
+    """Twice the area: the law still sees the density of the start."""
+    law = a_flow_law()
+    body = a_body(law)
+    start, stretched = (
+        build_material(settling(), law, part) for part in (body, settled(body, 2.0))
+    )
+    np.testing.assert_allclose(stretched.fluidity, start.fluidity, rtol=1e-12)
+    np.testing.assert_allclose(stretched.bulk_ratio, start.bulk_ratio, rtol=1e-12)
+    looser = settling(least_density=0.25)
+    softer = build_material(looser, law, settled(body, 2.0))
+    assert (softer.fluidity > 10.0 * start.fluidity).all()
