@@ -152,13 +152,13 @@ def settle_net(
     guess : NetGuess
         Where to start.
     head : ndarray, shape (2,)
-        End of the net; its foot is the origin.
+        End of the net; its foot is the origin [m, or any unit].
     old_lengths : ndarray, shape (n + 1,)
-        Unstressed lengths before the step.
+        Unstressed lengths before the step [same unit].
     friction : float
         Tan phi [-].
     stiffness : float
-        ES.
+        ES [N/m, or the unit of the forces].
 
     Returns
     -------
@@ -189,9 +189,10 @@ def settle_net(
         wanted, glide = _choose(net, linear, slides, glide)
         way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
         part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
+        moved = max(np.linalg.norm(way), np.linalg.norm(wanted - slides))
         if part == 1.0:
             slides = wanted
-            if np.linalg.norm(way) <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
+            if moved <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
                 sliding = _finish(net, slides, iteration)
                 end = NetGuess(place=net.place, slides=slides, glide=glide)
                 return pull_nodes(net.points, sliding), end
@@ -313,7 +314,7 @@ def _differentiate_share(friction: float, net: _Net) -> Floats:
 
 def _solve(matrix: Floats, right: Floats) -> Floats:
     try:
-        return np.linalg.solve(matrix, right)
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
 

