@@ -90,12 +90,6 @@ def measure_run(run: Run) -> list[Floats]:
     ]
 
 
-def measure_plateau(run: Run) -> list[Floats]:
-    """Pulls on foot and head where the plateau begins, or else at the end."""
-    place = -1 if run.plateau.index is None else run.plateau.index
-    return [run.moments[place].foot, run.moments[place].head]
-
-
 def _net_normals(points: Floats) -> Floats:
     """Unit normals of a polygon at its points (2, n)."""
     along = np.gradient(points, axis=1)

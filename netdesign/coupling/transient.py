@@ -25,7 +25,7 @@ from netdesign.coupling.instant import Instant, advance
 from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.net_start import Start, build_start
 from netdesign.coupling.problem import build_problem
-from netdesign.coupling.refine import ERROR_FLOOR, estimate_error, refine
+from netdesign.coupling.refine import estimate_error, refine
 from netdesign.coupling.run import (
     Run,
     measure_run,
@@ -66,6 +66,8 @@ _LEVEL_RATIO = 4.0
 _TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is repeated
 # Local error of a BDF2 step over its distance from the extrapolation.
 _ERROR_SHARE = 0.25
+# Smallest relative error that is ever claimed of a history.
+_ERROR_FLOOR = 5e-3
 _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 
 
@@ -379,7 +381,7 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
     )
     foot, head = (
         EndPull.of_estimate(
-            estimate_error(fine, coarse, ERROR_FLOOR), scene.force_scale
+            estimate_error(fine, coarse, _ERROR_FLOOR), scene.force_scale
         )
         for coarse, fine in zip(*(measure_run(run) for run in runs[-2:]), strict=True)
     )
