@@ -8,19 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.instant import (
-    Instant,
-    Top,
-    TransientProblem,
-    TransientState,
-)
-from netdesign.coupling.net_start import HEAD_GAP
+from netdesign.coupling.instant import Instant
+from netdesign.coupling.moving import Top, TransientProblem, TransientState
+from netdesign.coupling.net_start import HEAD_GAP, TOUCHES_GROUND
 from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
 
 Floats = NDArray[np.float64]
+Signs = NDArray[np.int8]
 
 
 class _Net(NamedTuple):
@@ -43,10 +40,7 @@ def follow(
     """
     net = _spread_nodes(problem, state, _move_top(problem, state, instant))
     if not net.vertices[1, 1:].min() > 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            "the net touches the ground: less slack or less inclination is needed",
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
     following = TransientState(
         time=state.time + step,
@@ -58,8 +52,14 @@ def follow(
         step=step,
         stress=instant.stress,
         base_shear=instant.base_shear,
+        glide=_match_glide(instant.response.sliding.glide, net.lengths.size - 1),
     )
     return following, fallen
+
+
+def _match_glide(glide: Signs, count: int) -> Signs:
+    """The upper corner may have become a node of the net, or none any more."""
+    return np.append(glide, np.zeros(1, dtype=np.int8))[:count]
 
 
 def _move_top(
@@ -71,7 +71,7 @@ def _move_top(
     head, chord = problem.head, float(np.hypot(*problem.head))
     last = head - vertices[:, -2]
     reach = float(np.hypot(*last))
-    if state.top == "on-net":
+    if instant.top == "on-net":
         below = float((head - vertices[:, -1]) @ last) / reach
         if below > HEAD_GAP * chord / 4.0:
             return _Net(vertices, lengths, "on-net")
@@ -79,16 +79,13 @@ def _move_top(
         return _Net(vertices, np.append(lengths[:-2], lengths[-2:].sum()), "held")
     vertices[:, -1] = head
     upward = last / reach
-    if state.top == "slipping":
-        rises = float(instant.velocity[:, state.body.topology.net[-1]] @ upward) > 0.0
-        return _Net(vertices, lengths, "slipping" if rises else "held")
+    if instant.top == "slipping":
+        return _Net(vertices, lengths, "slipping")
     normal = np.array([upward[1], -upward[0]])
     shear = float(instant.on_net[:, -1] @ upward)
     limit = problem.law.friction * max(float(instant.on_net[:, -1] @ normal), 0.0)
-    if abs(shear) <= limit:
+    if shear >= -limit:
         return _Net(vertices, lengths, "held")
-    if shear > 0.0:
-        return _Net(vertices, lengths, "slipping")
     if not instant.response.sliding.tensions[-1] > 0.0:
         return _Net(vertices, lengths, "held")
     share = HEAD_GAP * chord / reach

@@ -1,122 +1,44 @@
 """One step of snow that pushes the net along: equilibrium at the step's end.
 
 The net's forces are taken where the step ends, so the step may be as long as
-accuracy allows. Theory: coupling/THEORY.md, section 6. Dimensionless as in
-``steady``; times in d over the velocity scale.
+accuracy allows. Theory: coupling/THEORY.md, section 6.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.cable.response import NetResponse, respond
+from netdesign.cable.response import NetResponse, hold_net
+from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
+from netdesign.coupling.moving import (
+    Top,
+    TransientProblem,
+    TransientState,
+    list_net_points,
+)
+from netdesign.coupling.step import (
+    SnowIterate,
+    StepEquations,
+    advance_iterate,
+    assemble_step,
+    compute_imbalance,
+    measure_change,
+    solve_linear,
+)
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
-from netdesign.snow.body import SnowBody
-from netdesign.snow.kernel import (
-    PlacedMesh,
-    assemble_base_force,
-    assemble_stress,
-    build_base_stiffness,
-    build_stiffness,
-    compute_base_velocity,
-    compute_strain,
-    gather,
-    reference_element,
-)
-from netdesign.snow.law import (
-    FlowLaw,
-    Material,
-    advance_stress,
-    linearise_creep,
-    linearise_sliding,
-    squared_size,
-    total_stress,
-)
-from netdesign.snow.linear import (
-    Blocks,
-    SingularError,
-    build_ordering,
-    solve_blocks,
-)
-from netdesign.snow.settling import Settling, build_material
-from netdesign.snow.straight_mesh import (
-    build_straight_mesh,
-    fold_load,
-    unfold_velocity,
-)
+from netdesign.snow.law import squared_size
+from netdesign.snow.straight_mesh import unfold_velocity
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
-# The snow's upper corner: held at the net's head, slipping over it, or a node of the
-# net below it.
-Top = Literal["held", "slipping", "on-net"]
-
-_SLOW = 0.9  # an iteration that changes this much of the last change is damped
-_FAST = 0.2  # less than this ends the damping
-_LEAST_PART = 0.1
-_ROUNDING_SHARE = 5.0  # residual with rounding over what is asked of the net's forces
-_FREE_ITERATIONS = 4
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TransientProblem:
-    """What stays the same while the snow moves, dimensionless."""
-
-    law: FlowLaw
-    settling: Settling
-    head: Floats
-    length: float  # unstressed, of the whole net
-    stiffness: float
-    base_drag: float = 0.0  # shear stress on the ground over its velocity
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TransientState:
-    """Snow and net at one time.
-
-    Attributes
-    ----------
-    time : float
-        Creep time since the start.
-    body : SnowBody
-        The snow.
-    lengths : ndarray, shape (n_segments,)
-        Unstressed lengths of the net between its nodes.
-    top : str
-        What the snow's upper corner does.
-    velocity : ndarray, shape (2, n_nodes)
-        Of the last step.
-    moved : ndarray, shape (2, n_vertices)
-        Displacement in the last step.
-    step : float
-        Its duration; 0 before the first.
-    stress, base_shear : ndarray or None
-        Of the last step; None before the first.
-    """
-
-    time: float
-    body: SnowBody
-    lengths: Floats
-    top: Top
-    velocity: Floats
-    moved: Floats
-    step: float = 0.0
-    stress: Floats | None = None
-    base_shear: Floats | None = None
-
-    @property
-    def carried(self) -> Ints:
-        """Vertices that are nodes of the net, foot and a held top left out."""
-        net = self.body.topology.net
-        return net[1:] if self.top == "on-net" else net[1:-1]
+# Error that a Newton iteration leaves, over the square of its change (measured: less).
+_LEFT_SHARE = 10.0
+_ROUNDING_SHARE = 5.0  # residual with rounding over what is asked
+_TOP_CHANGES = 3  # of the upper corner, between held and slipping, in one step
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -127,7 +49,7 @@ class Instant:
     ----------
     displaced : ndarray, shape (2, n_vertices)
         Where the vertices end.
-    velocity, stress, base_shear
+    velocity, stress, base_shear, top
         As in ``TransientState``.
     points : ndarray, shape (2, n + 2)
         Foot, net nodes and head.
@@ -151,6 +73,7 @@ class Instant:
     velocity: Floats
     stress: Floats
     base_shear: Floats | None
+    top: Top
     points: Floats
     response: NetResponse
     foot_pull: Floats
@@ -162,70 +85,6 @@ class Instant:
     linear_solves: int
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Motion:
-    """Displacement of a step as a function of its end velocity: offset + rate v."""
-
-    offset: Floats  # (2, n_vertices)
-    rate: float
-    guess: Floats  # (2, n_vertices), where equilibrium is assembled
-
-    @classmethod
-    def of_step(cls, state: TransientState, step: float) -> _Motion:
-        """Second order from two steps (BDF2), first order for the first one."""
-        if state.step == 0.0:
-            still = np.zeros_like(state.moved)
-            return cls(offset=still, rate=step, guess=still)
-        growth = step / state.step
-        return cls(
-            offset=growth**2 / (1.0 + 2.0 * growth) * state.moved,
-            rate=(1.0 + growth) / (1.0 + 2.0 * growth) * step,
-            guess=growth * state.moved,
-        )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Assembly:
-    """The step's equations, but for stress and net."""
-
-    problem: TransientProblem
-    mesh: PlacedMesh
-    material: Material
-    weight: Floats  # nodal forces (n_dofs,)
-    free: Mask
-    net_dofs: Ints
-    top_slips: bool
-    motion: _Motion
-    points: Floats  # foot, net nodes moved by the offset, head
-    lengths: Floats
-
-    def net_at(self, unknowns: Floats, bulge: Floats | None = None) -> NetResponse:
-        """The net where the unknowns carry it."""
-        return respond(
-            self.points_at(unknowns, bulge),
-            self.lengths,
-            friction=self.problem.law.friction,
-            stiffness=self.problem.stiffness,
-        )
-
-    def points_at(self, unknowns: Floats, bulge: Floats | None = None) -> Floats:
-        points = self.points.copy()
-        points[:, 1:-1] += self.motion.rate * unknowns[self.net_dofs].reshape(-1, 2).T
-        if bulge is not None:
-            points[:, 1:-1] += bulge
-        return points
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Target:
-    """Result of a Newton iteration, and the net forces that it counts on."""
-
-    unknowns: Floats
-    stress: Floats
-    base_shear: Floats | None
-    net_forces: Floats
-
-
 def advance(
     problem: TransientProblem,
     state: TransientState,
@@ -234,7 +93,6 @@ def advance(
     tolerance: float,
     balance_tolerance: float,
     max_iterations: int,
-    bulge: Floats | None = None,
 ) -> Instant:
     """Solve one step.
 
@@ -245,14 +103,11 @@ def advance(
     step : float
         Duration [time scale].
     tolerance : float
-        Largest relative change of the stress in the last iteration [-].
+        Relative error that the last iteration may leave in the stress [-].
     balance_tolerance : float
         Largest missing force over the weight [-].
     max_iterations : int
         Newton iterations allowed.
-    bulge : ndarray, shape (2, n), optional
-        Added to the net's nodes in the first iteration only: gives a straight net
-        the stiffness across itself that it has once it is loaded.
 
     Returns
     -------
@@ -263,38 +118,28 @@ def advance(
     SolveError
         If the step does not converge; a shorter one may.
     """
-    assembly = _assemble(problem, state, step)
-    unknowns = assembly.mesh.to_node_axes(state.velocity)
-    stress, base_shear = state.stress, state.base_shear
-    response = assembly.net_at(unknowns, bulge)
-    last_change, part = np.inf, 1.0
+    equations = assemble_step(problem, state, step)
+    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
+    iterate = SnowIterate(unknowns, state.stress, state.base_shear)
+    points = list_net_points(problem, state.body.vertices[:, state.carried])
+    forces = hold_net(points, state.lengths, stiffness=problem.stiffness).forces
+    guess = NetGuess.at_rest(equations.place_net(unknowns), state.glide)
+    top_changes = 0
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, unknowns, stress, base_shear, response, bulge)
-        change = _relative_change(assembly, stress, target.stress)
-        if not np.isfinite(change):
-            raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
-        # nodes that stick and slide in turn: go half the way
-        if iteration > _FREE_ITERATIONS and change > _SLOW * last_change:
-            part = max(part / 2.0, _LEAST_PART)
-        elif change < _FAST * last_change:
-            part = 1.0
-        last_change = change
-        if part < 1.0 and stress is not None:
-            unknowns = unknowns + part * (target.unknowns - unknowns)
-            stress = stress + part * (target.stress - stress)
-            if base_shear is not None and target.base_shear is not None:
-                base_shear = base_shear + part * (target.base_shear - base_shear)
-        else:
-            unknowns, stress = target.unknowns, target.stress
-            base_shear = target.base_shear
-        bulge = None
-        response = assembly.net_at(unknowns)
-        missing = response.forces.T.ravel() - target.net_forces
-        unbalanced = float(np.linalg.norm(missing)) / _weight_of(assembly)
-        if part == 1.0 and change < tolerance and unbalanced < balance_tolerance:
-            instant = _finish(
-                assembly, state, unknowns, stress, base_shear, response, iteration
-            )
+        last = iterate.stress
+        iterate, response, guess = _iterate(
+            equations, iterate, state.lengths, forces, guess
+        )
+        forces = response.forces
+        slips = _slips_over(equations, iterate)
+        if slips != equations.top_slips and top_changes < _TOP_CHANGES:
+            top_changes += 1
+            equations = equations.with_top(slips=slips)
+            iterate = iterate._replace(unknowns=equations.hold(iterate.unknowns))
+            continue
+        change = _require_finite(measure_change(equations, last, iterate.stress))
+        if _LEFT_SHARE * change**2 < tolerance:
+            instant = _finish(equations, state, iterate, response, iteration)
             if instant.residual < _ROUNDING_SHARE * balance_tolerance:
                 return instant
     raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow and net")
@@ -311,244 +156,138 @@ def advance_under(
 ) -> Instant:
     """Solve one step of snow under net forces that do not change in it.
 
-    ``response`` is the net at the step's start, its stiffness zero; the rest is as in
-    ``advance``. Only a base drag keeps such a step from being singular on a ground
-    where the snow glides freely.
+    ``response`` is the net at the step's start; the rest is as in ``advance``. Only a
+    base drag keeps such a step from being singular on a ground where the snow glides
+    freely.
     """
-    assembly = _assemble(problem, replace(state, step=0.0), step)
-    unknowns = assembly.mesh.to_node_axes(state.velocity)
-    stress, base_shear = state.stress, state.base_shear
+    equations = assemble_step(problem, replace(state, step=0.0), step)
+    unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
+    iterate = SnowIterate(unknowns, state.stress, state.base_shear)
     for iteration in range(1, max_iterations + 1):
-        target = _iterate(assembly, unknowns, stress, base_shear, response, None)
-        change = _relative_change(assembly, stress, target.stress)
-        unknowns, stress = target.unknowns, target.stress
-        base_shear = target.base_shear
-        if not np.isfinite(change):
-            raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
+        last = iterate.stress
+        answer = solve_linear(equations, iterate, response.forces, per_force=False)
+        iterate = advance_iterate(equations, iterate, answer.linear, answer.change)
+        change = _require_finite(measure_change(equations, last, iterate.stress))
         if change < tolerance:
-            return _finish(
-                assembly, state, unknowns, stress, base_shear, response, iteration
-            )
+            return _finish(equations, state, iterate, response, iteration)
     raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow under the net's forces")
 
 
-def _assemble(
-    problem: TransientProblem, state: TransientState, step: float
-) -> _Assembly:
-    body, law = state.body, problem.law
-    motion = _Motion.of_step(state, step)
-    vertices = body.vertices + motion.guess
-    template = body.topology.template
-    top_axis = None
-    if state.top != "on-net":
-        last = problem.head - vertices[:, body.topology.net[-2]]
-        top_axis = np.array([last[1], -last[0]]) / np.hypot(*last)
-    mesh = build_straight_mesh(template, vertices, law.element, top_axis)
-    if not mesh.is_valid:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, "the snow's mesh folds over")
-    moved = replace(body, vertices=vertices)
-    points = np.zeros((2, state.carried.size + 2))
-    points[:, 1:-1] = (body.vertices + motion.offset)[:, state.carried]
-    points[:, -1] = problem.head
-    return _Assembly(
-        problem=problem,
-        mesh=mesh,
-        material=build_material(problem.settling, law, moved),
-        weight=_nodal_weight(problem, mesh, body),
-        free=_free_places(problem, mesh, state),
-        net_dofs=np.stack([2 * state.carried, 2 * state.carried + 1], axis=1).ravel(),
-        top_slips=state.top == "slipping",
-        motion=motion,
-        points=points,
-        lengths=state.lengths,
-    )
-
-
-def _nodal_weight(
-    problem: TransientProblem, mesh: PlacedMesh, body: SnowBody
-) -> Floats:
-    """Weight of the mass that each triangle has kept."""
-    shape, _, point_weights = reference_element()
-    shares = 2.0 * point_weights @ shape
-    template = mesh.template
-    nodal = gather(
-        template.triangles.T, np.outer(body.mass, shares), mesh.nodes.shape[1]
-    )
-    loads = np.outer(problem.law.gravity, fold_load(template, nodal))
-    return mesh.to_node_axes(loads)
-
-
-def _free_places(
-    problem: TransientProblem, mesh: PlacedMesh, state: TransientState
-) -> Mask:
-    template = mesh.template
-    free = np.ones(mesh.n_dofs, dtype=bool)
-    midpoints, ground = template.net[1::2], template.ground
-    free[2 * midpoints] = free[2 * midpoints + 1] = False
-    free[2 * ground + 1] = False
-    free[2 * ground[0]] = False
-    if problem.law.ground == "no-slip":
-        free[2 * ground] = False
-    if state.top != "on-net":
-        free[2 * template.net[-1]] = False
-        free[2 * template.net[-1] + 1] = state.top == "slipping"
-    return free
-
-
 def _iterate(
-    assembly: _Assembly,
-    unknowns: Floats,
-    stress: Floats | None,
-    base_shear: Floats | None,
-    response: NetResponse,
-    bulge: Floats | None,
-) -> _Target:
-    """Where a Newton iteration wants to go."""
-    mesh, law = assembly.mesh, assembly.problem.law
-    if stress is None:  # the first iterate is linear creep
-        law = replace(law, exponent=1.0)
-        stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
-    tangent = linearise_creep(law, assembly.material, stress)
-    blocks = [build_stiffness(mesh, tangent.modulus)]
-    force = assemble_stress(mesh, tangent.kept) - assembly.weight
-    base = None
-    if law.ground == "sliding":
-        shear = np.zeros_like(mesh.base.weights) if base_shear is None else base_shear
-        base = linearise_sliding(law, shear)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
-        force += assemble_base_force(mesh, base.kept)
-    elif assembly.problem.base_drag > 0.0:
-        drag = np.full_like(mesh.base.weights, assembly.problem.base_drag)
-        blocks.append(build_base_stiffness(mesh, drag))
-    rate, dofs = assembly.motion.rate, assembly.net_dofs
-    displaced = rate * unknowns[dofs]
-    if bulge is not None:
-        displaced = displaced + bulge.T.ravel()
-    at_rest = response.forces.T.ravel() + response.stiffness @ displaced
-    force[dofs] -= at_rest
-    net = rate * response.stiffness[None]
-    blocks.append(Blocks(dofs[None], net, n_paired=dofs.size))
-    unknowns = _solve(assembly, blocks, force)
-    expected = at_rest - rate * (response.stiffness @ unknowns[dofs])
-    new_stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
-    if base is not None:
-        base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
-    elif assembly.problem.base_drag > 0.0:
-        base_shear = assembly.problem.base_drag * compute_base_velocity(mesh, unknowns)
-    return _Target(
-        unknowns=unknowns,
-        stress=new_stress,
-        base_shear=base_shear,
-        net_forces=expected,
+    equations: StepEquations,
+    iterate: SnowIterate,
+    lengths: Floats,
+    forces: Floats,
+    guess: NetGuess,
+) -> tuple[SnowIterate, NetResponse, NetGuess]:
+    """Newton iteration of the snow; the net is solved exactly on its linear answer."""
+    answer = solve_linear(equations, iterate, forces, per_force=True)
+    dofs, rate = equations.net_dofs, equations.motion.rate
+    nodes = YieldingNodes(
+        positions=equations.place_net(iterate.unknowns + answer.change),
+        forces=forces,
+        compliance=rate * answer.per_force[dofs],
     )
-
-
-def _solve(assembly: _Assembly, blocks: Sequence[Blocks], force: Floats) -> Floats:
-    mesh, law = assembly.mesh, assembly.problem.law
-    friction = None
-    if assembly.top_slips and law.friction > 0.0:
-        # over the head the snow slips up, with friction against it (F6)
-        friction = np.zeros(mesh.n_dofs)
-        friction[2 * int(mesh.template.net[-1]) + 1] = -law.friction
-    ordering = build_ordering(
-        mesh.template, has_pressures=law.element == "mixed", couples_net=True
+    problem = equations.problem
+    response, guess = settle_net(
+        nodes,
+        guess,
+        problem.head,
+        lengths,
+        friction=problem.law.friction,
+        stiffness=problem.stiffness,
     )
-    try:
-        # the net's stiffness is not symmetric where it glides
-        return solve_blocks(
-            ordering, blocks, force, assembly.free, friction, is_definite=False
-        )
-    except SingularError:
-        raise SolveError(
-            Outcome.NONFINITE, "nothing holds the snow: a singular step"
-        ) from None
+    more = (response.forces - forces).ravel()
+    change = answer.change + answer.per_force @ more
+    iterate = advance_iterate(equations, iterate, answer.linear, change)
+    return iterate, response, guess
 
 
-def _relative_change(assembly: _Assembly, old: Floats | None, new: Floats) -> float:
-    if old is None:
-        return 1.0
-    law, material, weights = (
-        assembly.problem.law,
-        assembly.material,
-        assembly.mesh.weights,
-    )
-    change = (weights * squared_size(law, material, new - old)).sum()
-    return float(np.sqrt(change / (weights * squared_size(law, material, new)).sum()))
+def _slips_over(equations: StepEquations, iterate: SnowIterate) -> bool:
+    """Whether the snow's upper corner slips up over the head, against friction (F6)."""
+    top = equations.top
+    if equations.free[top]:
+        return False
+    if equations.top_slips:
+        return bool(iterate.unknowns[top + 1] > 0.0)
+    pressure, shear = -compute_imbalance(equations, iterate)[top : top + 2]
+    return bool(shear > equations.problem.law.friction * max(pressure, 0.0))
 
 
-def _weight_of(assembly: _Assembly) -> float:
-    return float(np.hypot(*assembly.mesh.to_slope_axes(assembly.weight).sum(axis=1)))
+def _require_finite(change: float) -> float:
+    if not np.isfinite(change):
+        raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
+    return change
 
 
 def _finish(
-    assembly: _Assembly,
+    equations: StepEquations,
     state: TransientState,
-    unknowns: Floats,
-    stress: Floats,
-    base_shear: Floats | None,
+    iterate: SnowIterate,
     response: NetResponse,
     iterations: int,
 ) -> Instant:
-    mesh, topology = assembly.mesh, state.body.topology
-    residual = assemble_stress(mesh, total_stress(assembly.problem.law, stress))
-    residual -= assembly.weight
-    if base_shear is not None:
-        residual += assemble_base_force(mesh, base_shear)
-    residual[assembly.net_dofs] -= response.forces.T.ravel()
+    assert iterate.stress is not None
+    mesh, topology = equations.mesh, state.body.topology
+    residual = compute_imbalance(equations, iterate)
+    residual[equations.net_dofs] -= response.forces.ravel()
     supports = -mesh.to_slope_axes(residual)
-    corner = _share_corner(assembly, supports[:, topology.ground[0]], response)
-    head_pull = response.head_pull.copy()
-    on_net = -response.forces
-    if state.top != "on-net":
+    corner = supports[:, topology.ground[0]]
+    head_pull, on_net, top = response.head_pull, -response.forces, state.top
+    if top != "on-net":
         held = supports[:, topology.net[-1]]
-        head_pull += held
+        head_pull = head_pull + held
         on_net = np.column_stack([on_net, held])
-    foot_pull = response.foot_pull + corner
-    velocity = unfold_velocity(mesh.template, mesh.to_slope_axes(unknowns))
+        top = "slipping" if equations.top_slips else "held"
+    velocity = unfold_velocity(mesh.template, mesh.to_slope_axes(iterate.unknowns))
     moved = (
-        assembly.motion.offset
-        + assembly.motion.rate * (velocity[:, : mesh.template.n_vertices])
+        equations.motion.offset
+        + equations.motion.rate * (velocity[:, : mesh.template.n_vertices])
     )
-    free = assembly.free.copy()
+    free = equations.free.copy()
     free[mesh.n_velocities :] = False
-    if assembly.top_slips:
-        free[2 * int(mesh.template.net[-1]) + 1] = False
-    weight = _weight_of(assembly)
+    if equations.top_slips:
+        free[equations.top + 1] = False
     return Instant(
         displaced=state.body.vertices + moved,
         velocity=velocity,
-        stress=stress,
-        base_shear=base_shear,
-        points=assembly.points_at(unknowns),
+        stress=iterate.stress,
+        base_shear=iterate.base_shear,
+        top=top,
+        points=list_net_points(
+            equations.problem, equations.place_net(iterate.unknowns)
+        ),
         response=response,
-        foot_pull=foot_pull,
+        foot_pull=response.foot_pull + _share_corner(equations, corner, response),
         head_pull=head_pull,
         on_net=on_net,
         ground_normal=-supports[1, mesh.template.ground[1:]],
-        creep_rate=_mean_creep_rate(assembly, stress),
-        residual=float(np.linalg.norm(residual[free])) / weight,
+        creep_rate=_mean_creep_rate(equations, iterate.stress),
+        residual=float(np.linalg.norm(residual[free])) / equations.weight_size,
         linear_solves=iterations,
     )
 
 
-def _mean_creep_rate(assembly: _Assembly, stress: Floats) -> float:
-    law, material = assembly.problem.law, assembly.material
-    weights = assembly.mesh.weights
+def _mean_creep_rate(equations: StepEquations, stress: Floats) -> float:
+    law, material = equations.problem.law, equations.material
+    weights = equations.mesh.weights
     rate = material.fluidity * squared_size(law, material, stress) ** (
         law.exponent / 2.0
     )
     return float((weights * rate).sum() / weights.sum())
 
 
-def _share_corner(assembly: _Assembly, corner: Floats, response: NetResponse) -> Floats:
+def _share_corner(
+    equations: StepEquations, corner: Floats, response: NetResponse
+) -> Floats:
     """The net's part of the force on the corner that net and ground hold together.
 
     As in ``interface``: along a ground without reactions at nodes all of its X-force
     is the net's; the rest follows from the node above, as under a uniform traction.
     """
-    points = assembly.points
-    first, second = np.hypot(*np.diff(points[:, :3]))
+    below, above = equations.nodes[:, 0], equations.nodes[:, 1]
+    first, second = np.hypot(*below), np.hypot(*(above - below))
     share = -response.forces[:, 0] * first / (first + second)
-    if assembly.problem.law.ground != "no-slip":
+    if equations.problem.law.ground != "no-slip":
         share[0] = corner[0]
     return np.asarray(share)

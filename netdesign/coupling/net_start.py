@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
-from netdesign.coupling.instant import TransientProblem, TransientState
+from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.start import guess_pressure
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshTemplate
 
@@ -19,7 +21,7 @@ Start = Literal["straight", "sagged"]
 # Length of net that comes free above the snow's upper corner, over the chord, when
 # the corner begins to slip down.
 HEAD_GAP = 2e-3
-_FIRST_SHARE = 0.3  # of the final bulge that the first step is guessed to make
+TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord
 
@@ -44,6 +46,11 @@ def build_start(
     -------
     TransientState
         At rest.
+
+    Raises
+    ------
+    SolveError
+        If the sagged net would lie on the ground.
     """
     head = problem.head
     fractions = template.net_fractions / head[1]
@@ -55,6 +62,8 @@ def build_start(
         pressure = guess_pressure(problem.law, template.aspect)
     sag = _find_sag(problem, pressure)
     curve = _parabola(head, sag, fractions)
+    if not curve[1, 1:].min() > 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
     body = build_body(problem.law, template, curve)
     points = curve[:, ::2]
     if has_freeboard:
@@ -64,20 +73,11 @@ def build_start(
         time=0.0,
         body=body,
         lengths=arcs * (problem.length / arcs.sum()),
+        glide=np.zeros(arcs.size - 1, dtype=np.int8),
         top="on-net" if has_freeboard else "held",
         velocity=np.zeros((2, template.nodes.shape[1])),
         moved=np.zeros_like(body.vertices),
     )
-
-
-def guess_bulge(problem: TransientProblem, state: TransientState) -> Floats:
-    """How far the first step may push the nodes (2, n) of a net without tension."""
-    aspect = state.body.topology.template.aspect
-    loaded = _find_sag(problem, guess_pressure(problem.law, aspect))
-    nodes = state.body.vertices[:, state.carried]
-    part = (problem.head @ nodes) / (problem.head @ problem.head)
-    sag = _FIRST_SHARE * max(0.0, loaded - _find_sag(problem, 0.0))
-    return _parabola(problem.head, sag, part) - np.outer(problem.head, part)
 
 
 def _find_sag(problem: TransientProblem, pressure: float) -> float:

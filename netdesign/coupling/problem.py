@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from netdesign.cable.net import Net
-from netdesign.coupling.instant import TransientProblem
+from netdesign.coupling.moving import TransientProblem
 from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
 from netdesign.snow.settling import Settling
@@ -28,6 +28,7 @@ def build_problem(
             creep_law=scene.creep_law,
             mean_density=scene.snowpack.relative_density,
             densifies=densifies,
+            least_density=min(layer.density for layer in scene.flow_law.layers),
         ),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.coupling.history import Moment, Plateau, largest_pull
-from netdesign.coupling.instant import Instant, TransientProblem, TransientState
+from netdesign.coupling.instant import Instant
+from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.snow.settling import largest_density
 
 Floats = NDArray[np.float64]

@@ -19,17 +19,17 @@ from netdesign.cable.incremental import (
     advance_increment,
     build_cable_state,
 )
-from netdesign.cable.response import NetResponse, measure_arcs
-from netdesign.cable.sliding import NetState, SlidingStep
-from netdesign.cable.tension import compute_node_forces, compute_turning_angles
+from netdesign.cable.response import (
+    NetResponse,
+    keep_lengths,
+    measure_arcs,
+    pull_nodes,
+)
+from netdesign.cable.tension import compute_turning_angles
 from netdesign.coupling.clock import Clock
 from netdesign.coupling.history import Moment, find_plateau
-from netdesign.coupling.instant import (
-    Instant,
-    TransientProblem,
-    TransientState,
-    advance_under,
-)
+from netdesign.coupling.instant import Instant, advance_under
+from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.net_start import Start, build_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import estimate_error
@@ -212,23 +212,7 @@ def _respond(
 ) -> NetResponse:
     """The net as it is, its forces taken as they are."""
     points = _net_points(problem, state)
-    forces = compute_node_forces(points, cable.tensions)
-    count = 2 * forces.vector.shape[1]
-    return NetResponse(
-        forces=forces.vector,
-        stiffness=np.zeros((count, count)),
-        foot_pull=forces.foot_pull,
-        head_pull=forces.head_pull,
-        sliding=SlidingStep(
-            outcome=Outcome.CONVERGED,
-            state=NetState.TIGHT,
-            lengths=cable.unstressed_lengths,
-            tensions=cable.tensions,
-            slides=np.zeros(forces.vector.shape[1]),
-            residual=0.0,
-            iterations=0,
-        ),
-    )
+    return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
 
 
 def _follow(

@@ -167,14 +167,28 @@ def linearise_sliding(law: FlowLaw, shear: Floats) -> Tangent:
     )
 
 
-def advance_stress(law: FlowLaw, tangent: Tangent, strain: Floats) -> Floats:
-    """Stress, in the form that ``linearise_creep`` takes, after a step."""
-    stress = tangent.kept + (tangent.modulus @ strain[..., None])[..., 0]
+def advance_stress(
+    law: FlowLaw, tangent: Tangent, strain: Floats, more: Floats | None = None
+) -> Floats:
+    """Stress, in the form that ``linearise_creep`` takes, after a step.
+
+    ``more`` is strain on top, added last: large velocities that deform little would
+    otherwise leave their rounding in the balance of forces.
+    """
+    stress = hold_stress(tangent, strain)
+    pressure = strain[..., 3:]
+    if more is not None:
+        stress += (tangent.modulus @ more[..., None])[..., 0]
+        pressure = pressure + more[..., 3:]
     if law.element == "mixed":
-        pressure = strain[..., 3]
-        stress[..., :3] += pressure[..., None] * _UNIT
-        stress[..., 3] = pressure
+        stress[..., :3] += pressure * _UNIT
+        stress[..., 3:] = pressure
     return stress
+
+
+def hold_stress(tangent: Tangent, strain: Floats) -> Floats:
+    """Generalised stress of the linearised law at a strain."""
+    return np.asarray(tangent.kept + (tangent.modulus @ strain[..., None])[..., 0])
 
 
 def total_stress(law: FlowLaw, stress: Floats) -> Floats:

@@ -23,11 +23,16 @@ class Settling:
         Relative density D that counts as 1 in the body.
     densifies : bool
         False keeps a and b as they were at the start; mass is kept in any case.
+    least_density : float
+        Of the loosest layer at the start, over the mean. Snow that is stretched counts
+        as no looser (assumed): the law is a fit of snow that settles, and snow that
+        softened as it is stretched would part in a single triangle, whatever its size.
     """
 
     creep_law: CreepLaw
     mean_density: float
     densifies: bool = True
+    least_density: float = 1.0
 
 
 def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material:
@@ -37,7 +42,7 @@ def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material
     """
     if not settling.densifies:
         return sample_material(law, body.topology.template)
-    density = body.density
+    density = np.maximum(body.density, settling.least_density)
     shear, bulk = compute_factors(settling.creep_law, settling.mean_density * density)
     start = np.array([settling.mean_density])
     reference, _ = compute_factors(settling.creep_law, start)
@@ -45,7 +50,7 @@ def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material
     return Material(
         bulk_ratio=(shear / bulk)[:, None],
         fluidity=(body.warmth * (shear / reference) ** power)[:, None],
-        density=density[:, None],
+        density=body.density[:, None],
     )
 
 

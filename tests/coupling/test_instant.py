@@ -7,11 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from netdesign.cable.response import respond
+from netdesign.cable.response import hold_net, respond
 from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling import instant as instant_module
 from netdesign.coupling.instant import advance, advance_under
-from netdesign.coupling.net_start import build_start, guess_bulge
+from netdesign.coupling.net_start import build_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.transient import (
     TRANSIENT_LEVELS,
@@ -27,9 +27,9 @@ CUT = 0.25  # of a step that does not converge, as in a history
 TIGHT = {"tolerance": 1e-8, "balance_tolerance": 1e-10, "max_iterations": 30}
 
 
-def begin(scene, start="sagged", **given):
+def begin(scene, start="sagged", level=0, **given):
     problem = build_problem(scene, densifies=True, **given)
-    template = build_template(5.0, TRANSIENT_LEVELS[0], scene.layer_tops)
+    template = build_template(5.0, TRANSIENT_LEVELS[level], scene.layer_tops)
     return problem, build_start(problem, template, start)
 
 
@@ -40,6 +40,8 @@ def pass_on(state, instant, step):
         time=state.time + step,
         body=replace(state.body, vertices=instant.displaced),
         lengths=instant.response.sliding.lengths,
+        glide=instant.response.sliding.glide,
+        top=instant.top,
         velocity=instant.velocity,
         moved=instant.displaced - state.body.vertices,
         step=step,
@@ -112,7 +114,7 @@ def test_net_forces_are_those_at_the_steps_end(a_scene, friction):
         friction=problem.law.friction,
         stiffness=problem.stiffness,
     )
-    np.testing.assert_allclose(again.forces, instant.response.forces, rtol=1e-9)
+    np.testing.assert_allclose(again.forces, instant.response.forces, atol=2e-9)
     forces = compute_node_forces(instant.points, again.sliding.tensions)
     limit = problem.law.friction * np.maximum(forces.normal, 0.0)
     assert (np.abs(forces.tangential) - limit).max() < 1e-9
@@ -184,7 +186,7 @@ def test_stepping_is_of_second_order(a_scene, friction, parts):
     problem, state = rested(friction, a_scene)
     pulls = [
         pulls_after(problem, state, np.resize(parts, count) * (SPAN / count))
-        for count in (4, 8, 16, 32)
+        for count in (8, 16, 32, 64)
     ]
     differences = np.hypot(*np.diff(pulls, axis=0).T.reshape(2, -1)).reshape(2, -1)
     sizes = np.hypot(*differences)
@@ -196,16 +198,13 @@ def test_stepping_is_of_second_order(a_scene, friction, parts):
 # --- starts and failures -----------------------------------------------------
 
 
-def test_straight_net_is_loaded_in_one_step(a_scene):
-    """It has no stiffness across itself before; the guess gives it some."""
-    problem, state = begin(a_scene(), "straight")
-    bulge = guess_bulge(problem, state)
-    instant, step = advance_cut(problem, state, 1e-5, bulge=bulge)
+@pytest.mark.parametrize("level", [0, 1, 2])
+def test_straight_net_is_loaded_in_one_step(a_scene, level):
+    """It has no stiffness across itself before: the load is taken up on the way."""
+    problem, state = begin(a_scene(), "straight", level)
+    instant = advance(problem, state, 1e-7, **TIGHT)
     assert instant.residual < 1e-9
     assert instant.response.sliding.tensions.min() > 0.0
-    # the guess steers the iteration and leaves the answer alone
-    other = advance(problem, state, step, bulge=1.3 * bulge, **TIGHT)
-    np.testing.assert_allclose(other.foot_pull, instant.foot_pull, rtol=1e-5)
 
 
 def test_too_few_iterations_are_an_error(a_scene):
@@ -240,13 +239,7 @@ def held(problem, state):
     """The net at the step's start, its forces as they are."""
     nodes = state.body.vertices[:, state.carried]
     points = np.column_stack([np.zeros(2), nodes, problem.head])
-    net = respond(
-        points,
-        state.lengths,
-        friction=problem.law.friction,
-        stiffness=problem.stiffness,
-    )
-    return replace(net, stiffness=np.zeros_like(net.stiffness))
+    return hold_net(points, state.lengths, stiffness=problem.stiffness)
 
 
 EXCHANGE = {"tolerance": 1e-10, "max_iterations": 40}

@@ -6,18 +6,24 @@ import numpy as np
 import pytest
 
 from netdesign.cable.response import measure_arcs, respond
-from netdesign.coupling.net_start import build_start, guess_bulge
+from netdesign.coupling.net_start import build_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.start import guess_pressure
 from netdesign.coupling.transient import TRANSIENT_LEVELS
-from netdesign.snow.mesh import build_template
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.mesh import MeshSize, build_template
 
 SLACKS = [0.0, 0.02, 0.15]
 
 
-def begin(scene, start, level=1):
+# Fine enough for sags and lengths that are read off the nodes.
+FINE = MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25)
+
+
+def begin(scene, start, size=TRANSIENT_LEVELS[1]):
     problem = build_problem(scene, densifies=True)
-    template = build_template(5.0, TRANSIENT_LEVELS[level], scene.layer_tops)
+    template = build_template(5.0, size, scene.layer_tops)
     return problem, build_start(problem, template, start)
 
 
@@ -56,7 +62,7 @@ def test_straight_net_is_a_line_without_tension(a_scene, inclination):
 def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
     """A parabola as long as the net: c (1 + slack)."""
     problem, state = begin(
-        a_scene(slack=slack, inclination_deg=inclination), "straight", level=2
+        a_scene(slack=slack, inclination_deg=inclination), "straight", size=FINE
     )
     points = points_of(problem, state)
     assert parabola_length(largest_sag(problem, points)) == pytest.approx(
@@ -71,7 +77,7 @@ def test_straight_start_takes_up_its_slack(a_scene, slack, inclination):
 @pytest.mark.parametrize("ground", ["free", "no-slip"])
 def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
     """Parabola of the guideline: H = p c / (8 f), V = p / 2, T = ES strain."""
-    problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", level=2)
+    problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", size=FINE)
     points = points_of(problem, state)
     sag = largest_sag(problem, points)
     pressure = guess_pressure(problem.law, 5.0)
@@ -88,7 +94,7 @@ def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
 @pytest.mark.parametrize("start", ["straight", "sagged"])
 def test_snow_fills_the_bulge(a_scene, start):
     """L d and two thirds of chord times sag, on chords between vertices."""
-    problem, state = begin(a_scene(slack=0.05), start, level=2)
+    problem, state = begin(a_scene(slack=0.05), start, size=FINE)
     sag = largest_sag(problem, points_of(problem, state))
     expected = 5.0 + 2.0 / 3.0 * sag
     assert state.body.mass.sum() == pytest.approx(expected, rel=1e-3)
@@ -116,27 +122,25 @@ def test_head_in_the_surface_holds_the_corner(a_scene):
     )
 
 
-# --- first bulge -------------------------------------------------------------
+# --- refused -----------------------------------------------------------------
 
 
-def test_first_bulge_lies_downslope_and_ends_on_the_chord(a_scene):
-    problem, state = begin(a_scene(inclination_deg=30.0), "straight")
-    bulge = guess_bulge(problem, state)
-    assert bulge.shape == (2, state.carried.size)
-    along = problem.head / np.hypot(*problem.head)
-    np.testing.assert_allclose(along @ bulge, 0.0, atol=1e-12)
-    across = along[1] * bulge[0] - along[0] * bulge[1]
-    assert (across > 0.0).all()
-    assert across.max() == pytest.approx(across[across.size // 2], rel=0.1)
-    assert across.max() < 0.1
+@pytest.mark.parametrize(("stiffness", "clear"), [(2e3, False), (2e4, True)])
+def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
+    """Its sag over the chord, against that at which a parabola's end is level.
 
-
-def test_stiff_net_is_guessed_to_bulge_less(a_scene):
-    sizes = []
-    for stiffness in (2e3, 2e4, 1e5):
-        problem, state = begin(a_scene(stiffness_kN_per_m=stiffness), "straight")
-        sizes.append(np.hypot(*guess_bulge(problem, state)).max())
-    assert sizes[0] > sizes[1] > sizes[2] > 0.0
+    At its foot the parabola leaves the chord, 90 - 40 degrees above the ground, by
+    atan(4 sag): 0.298 would be level.
+    """
+    scene = a_scene(inclination_deg=40.0, slack=0.15, stiffness_kN_per_m=stiffness)
+    if clear:
+        problem, state = begin(scene, "sagged")
+        sag = largest_sag(problem, points_of(problem, state))
+        assert 0.23 < sag < math.tan(math.radians(50.0)) / 4.0
+        return
+    with pytest.raises(SolveError, match="the net touches the ground") as failure:
+        begin(scene, "sagged")
+    assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
 
 
 # --- mean pressure -----------------------------------------------------------

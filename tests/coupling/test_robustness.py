@@ -19,7 +19,7 @@ from netdesign.coupling.transient import (
     TransientSettings,
     run_history,
 )
-from netdesign.errors import ModelError
+from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize
 
 FRICTIONS = [float(phi) for phi in range(46)]
@@ -103,14 +103,24 @@ def history_faults(a_scene, grid, start, level=0):
         except ModelError:
             continue
         settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
-        run = run_history(
-            scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale
-        )
         key = (friction, inclination, slack, stiffness)
+        try:
+            run = run_history(
+                scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale
+            )
+        except SolveError as failure:  # a sagged net may lie on the ground
+            if "touches the ground" not in failure.reason:
+                wrong[key] = failure.reason
+            continue
         if not max(moment.residual for moment in run.moments) < 1e-8:
             wrong[key] = "balance"
-        elif run.ended and run.plateau.reached is False and len(run.moments) < 3:
+        elif run.ended and len(run.moments) < 3:
             wrong[key] = run.ended
+        elif friction >= 15.0 and inclination <= 30.0 and not run.plateau.reached:
+            # smoother or steeper, the snow may slide past the head for good
+            wrong[key] = f"no plateau, {run.ended or 'not ended'}"
+        elif len(run.moments) + run.rejected > 400:
+            wrong[key] = f"{len(run.moments)} steps, {run.rejected} rejected"
         elif not all(math.isfinite(m.tension_max) for m in run.moments):
             wrong[key] = "not finite"
     return wrong
@@ -120,7 +130,7 @@ def history_faults(a_scene, grid, start, level=0):
 def test_histories_thinned(a_scene, start):
     grid = list_scenes(FRICTIONS)
     rng = np.random.default_rng(5)
-    chosen = [grid[place] for place in rng.choice(len(grid), 8, replace=False)]
+    chosen = [grid[place] for place in rng.choice(len(grid), 16, replace=False)]
     assert history_faults(a_scene, chosen, start) == {}
 
 

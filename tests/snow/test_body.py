@@ -16,9 +16,11 @@ from netdesign.snow.body import (
     move_body,
 )
 from netdesign.snow.law import FlowLayer
-from netdesign.snow.mesh import build_template
+from netdesign.snow.mesh import MeshSize, build_template
 
 ASPECT = 5.0
+# Fine enough for a heap that is read off the surface's vertices.
+FINE = MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25)
 ROUNDING = 1e-13  # of the mass, after sums over some hundred triangles
 HEAP_WIDTH = 0.3
 STRAIGHT = [0.0, 0.6]  # x of the head, at height 1
@@ -30,8 +32,8 @@ def net_curve(template, head_x=0.0, sag=0.0, height=1.0):
     return np.array([head_x * part + bulge, height * part - bulge * head_x])
 
 
-def a_body(law, *, head_x=0.0, sag=0.0, level=1, tops=()):
-    template = build_template(ASPECT, TRANSIENT_LEVELS[level], tops)
+def a_body(law, *, head_x=0.0, sag=0.0, size=TRANSIENT_LEVELS[1], tops=()):
+    template = build_template(ASPECT, size, tops)
     return build_body(law, template, net_curve(template, head_x, sag))
 
 
@@ -74,7 +76,7 @@ def uneven(body, seed=6):
 
 @pytest.mark.parametrize("level", [0, 1])
 def test_edges_lie_between_their_triangles(a_flow_law, level):
-    body = a_body(a_flow_law(), level=level)
+    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[level])
     topology = body.topology
     # Euler's formula for a disc, the outside left out
     count = topology.template.n_vertices
@@ -146,7 +148,7 @@ def test_start_that_folds_over_is_refused(a_flow_law):
 @pytest.mark.parametrize("head_x", STRAIGHT)
 @pytest.mark.parametrize("level", [0, 1])
 def test_snow_that_rests_keeps_its_mesh(a_flow_law, head_x, level):
-    body = uneven(a_body(a_flow_law(), head_x=head_x, level=level))
+    body = uneven(a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
     head = on_net(body)[:, -1]
     moved, fallen = move_body(body, body.vertices, on_net(body), head)
     np.testing.assert_allclose(moved.vertices, body.vertices, atol=1e-14)
@@ -186,7 +188,7 @@ def test_rigid_shift_along_the_slope(a_flow_law, tops):
 @pytest.mark.parametrize("level", [0, 1])
 def test_mass_is_kept_to_rounding(a_flow_law, head_x, level):
     """The four sides are straight, so that mending them cuts nothing off."""
-    body = uneven(a_body(a_flow_law(), head_x=head_x, level=level))
+    body = uneven(a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
     displaced = creep(body)
     assert np.abs(displaced - body.vertices).max() > 0.02
     moved, fallen = move_body(body, displaced, on_net(body), on_net(body)[:, -1])
@@ -211,7 +213,7 @@ def test_heat_is_kept_with_the_mass(a_flow_law, head_x):
 @pytest.mark.parametrize("level", [0, 1])
 def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_law, head_x, level):
     """What edges sweep is what areas gain: no density arises from moving vertices."""
-    body = a_body(a_flow_law(), head_x=head_x, level=level)
+    body = a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level])
     displaced = creep(body)
     even = replace(body, mass=compute_areas(body.topology, displaced))
     moved, fallen = move_body(even, displaced, on_net(body), on_net(body)[:, -1])
@@ -270,7 +272,7 @@ def heap(body, slope):
 @pytest.mark.parametrize("head_x", [0.0, 0.3])
 def test_snow_that_leans_over_the_head_falls(a_flow_law, head_x):
     """What lies beyond 135 degrees from the net goes, with the mass that it has."""
-    body = a_body(a_flow_law(), head_x=head_x, level=2)
+    body = a_body(a_flow_law(), head_x=head_x, size=FINE)
     slope = 3.0
     displaced = heap(body, slope)
     even = replace(body, mass=compute_areas(body.topology, displaced))
@@ -302,7 +304,7 @@ def steepness(vertices, body, head):
 
 
 def test_a_low_heap_stays(a_flow_law):
-    body = a_body(a_flow_law(), level=1)
+    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[1])
     displaced = heap(body, 0.2)
     even = replace(body, mass=compute_areas(body.topology, displaced))
     net = on_net(body)
@@ -312,7 +314,7 @@ def test_a_low_heap_stays(a_flow_law):
 
 
 def test_snow_that_flows_over_the_head_is_refused(a_flow_law):
-    body = a_body(a_flow_law(), level=0)
+    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[0])
     displaced = body.vertices.copy()
     displaced[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : displaced.shape[1]]
     net = on_net(body)

@@ -93,7 +93,8 @@ def test_undeformed_snow_has_the_material_of_the_scene(a_flow_law):
 def test_density_is_that_of_the_start_over_the_jacobian(a_flow_law, jacobian):
     """a and b are taken there; the fluidity goes with a^((n + 1) / 2), n = 3."""
     law = a_flow_law()
-    found = build_material(settling(), law, settled(a_body(law), jacobian))
+    stretches = settling(least_density=0.5)
+    found = build_material(stretches, law, settled(a_body(law), jacobian))
     density = DENSITY / jacobian
     shear, bulk = (f(LAW, density) for f in (compute_shear_factor, compute_bulk_factor))
     np.testing.assert_allclose(found.density, 1.0 / jacobian, rtol=1e-12)
@@ -156,3 +157,17 @@ def test_largest_density_of_a_body(a_flow_law):
 def test_largest_density_is_that_of_ice_at_most(a_flow_law):
     body = settled(a_body(a_flow_law()), 0.3)
     assert largest_density(settling(), body) == DENSEST_SNOW
+
+
+def test_stretched_snow_is_no_looser_than_the_loosest_layer(a_flow_law):
+    """Twice the area: the law still sees the density of the start."""
+    law = a_flow_law()
+    body = a_body(law)
+    start, stretched = (
+        build_material(settling(), law, part) for part in (body, settled(body, 2.0))
+    )
+    np.testing.assert_allclose(stretched.fluidity, start.fluidity, rtol=1e-12)
+    np.testing.assert_allclose(stretched.bulk_ratio, start.bulk_ratio, rtol=1e-12)
+    looser = settling(least_density=0.25)
+    softer = build_material(looser, law, settled(body, 2.0))
+    assert (softer.fluidity > 10.0 * start.fluidity).all()

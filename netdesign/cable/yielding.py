@@ -1,0 +1,386 @@
+"""The net on snow that yields to it: forces, friction and positions found together.
+
+The snow's nodes go where its own flow and the net's forces carry them, linearly in
+the forces; the net slides through the nodes as far as friction lets it. Each Newton
+step linearises all but the choice between sticking and gliding, which is made exactly
+for the linear problem. Made for nodes at rest instead, as in ``response``, that choice
+changes from one iteration to the next wherever the snow is softer than the net.
+Theory: cable/THEORY.md, eqs (C22) to (C26).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.response import (
+    NetResponse,
+    average_at_segments,
+    bend_segments,
+    pull_nodes,
+    respond,
+)
+from netdesign.cable.sliding import NetState, SlidingStep
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+
+Floats = NDArray[np.float64]
+Signs = NDArray[np.int8]
+Mask = NDArray[np.bool_]
+
+_MOST_ITERATIONS = 40
+# Over the chord: Newton's method is quadratic, the next step would be its square.
+_LAST_WAY = 1e-9
+_LEAST_SHARE = 0.1  # of a tension, that one step must leave
+_SHORTEST_PART = 1e-3
+# Rounds in which every node may change between sticking and gliding; then one at a
+# time (Murty's rule).
+_FREE_ROUNDS, _MOST_ROUNDS = 12, 400
+_BREACH = 1e-9  # of a tension, that counts as none
+_BACKWARD = 1e-14  # slide against its direction that is rounding
+_LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class YieldingNodes:
+    """Where the snow's nodes go under the net's forces.
+
+    Attributes
+    ----------
+    positions : ndarray, shape (2, n)
+        Under the forces below [m, or any unit].
+    forces : ndarray, shape (2, n)
+        Of the net on the nodes [N/m, or any unit of force per width].
+    compliance : ndarray, shape (2 n, 2 n)
+        Displacement per force, both ordered x0, x1, .. y0, y1 ..
+    """
+
+    positions: Floats
+    forces: Floats
+    compliance: Floats
+
+    def place(self, forces: Floats) -> Floats:
+        """Positions (2, n) under other forces (2, n)."""
+        more = self.compliance @ (forces - self.forces).ravel()
+        return np.asarray(self.positions + more.reshape(2, -1))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NetGuess:
+    """State of the net where an iteration starts or ends.
+
+    Attributes
+    ----------
+    place : ndarray, shape (2, n)
+        Nodes.
+    slides : ndarray, shape (n,)
+        Net that has slid through each node since the step's start, S_i - S_i_old.
+    glide : ndarray of int, shape (n,)
+        1 where the net glides to the foot, -1 to the head, 0 where it sticks.
+    """
+
+    place: Floats
+    slides: Floats
+    glide: Signs
+
+    @classmethod
+    def at_rest(cls, place: Floats, glide: Signs) -> NetGuess:
+        """Nothing has slid yet."""
+        return cls(place=place, slides=np.zeros(glide.size), glide=glide)
+
+
+class _Given(NamedTuple):
+    """What stays the same in one solve."""
+
+    nodes: YieldingNodes
+    head: Floats
+    old_lengths: Floats
+    friction: float
+    stiffness: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Net:
+    """The net on given nodes after given slides."""
+
+    points: Floats
+    chords: Floats
+    directions: Floats
+    arcs: Floats
+    bends: Floats
+    angles: Floats
+    lengths: Floats
+    tensions: Floats
+    share: Floats  # exp(-kappa): least ratio of neighbouring tensions
+
+    @property
+    def place(self) -> Floats:
+        return self.points[:, 1:-1]
+
+    @property
+    def forces(self) -> Floats:
+        return np.diff(self.tensions * self.directions)
+
+
+class _Linear(NamedTuple):
+    """The linearised net, its nodes' way included: functions of the slides."""
+
+    way: Floats  # (2 n, 1 + n): without more sliding, and per slide
+    spare: Floats  # (2, n): tension above what lets the net glide to foot, to head
+    per_slide: Floats  # (2, n, n)
+
+
+def settle_net(
+    nodes: YieldingNodes,
+    guess: NetGuess,
+    head: Floats,
+    old_lengths: Floats,
+    *,
+    friction: float,
+    stiffness: float,
+) -> tuple[NetResponse, NetGuess]:
+    """Net and nodes in equilibrium.
+
+    Parameters
+    ----------
+    nodes : YieldingNodes
+        The snow's side.
+    guess : NetGuess
+        Where to start.
+    head : ndarray, shape (2,)
+        End of the net; its foot is the origin [m, or any unit].
+    old_lengths : ndarray, shape (n + 1,)
+        Unstressed lengths before the step [same unit].
+    friction : float
+        Tan phi [-].
+    stiffness : float
+        ES [N/m, or the unit of the forces].
+
+    Returns
+    -------
+    NetResponse, NetGuess
+        The net, and its state to start the next solve from.
+
+    Raises
+    ------
+    SolveError
+        If there is no convergence.
+
+    Verified by
+    -----------
+    tests/cable/test_yielding.py
+    """
+    given = _Given(nodes, head, old_lengths, friction, stiffness)
+    slides, glide = guess.slides, guess.glide
+    net = _place_net(given, guess.place, slides)
+    if not nodes.forces.any():
+        net = _take_up(given, net, slides)
+    if net.tensions.min() < 0.0:
+        loose = respond(net.points, old_lengths, friction=friction, stiffness=stiffness)
+        slides, glide = loose.sliding.slides, loose.sliding.glide
+        net = _place_net(given, net.place, slides)
+    chord = float(np.hypot(*head))
+    for iteration in range(1, _MOST_ITERATIONS + 1):
+        linear = _linearise(given, net)
+        wanted, glide = _choose(net, linear, slides, glide)
+        way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
+        part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
+        moved = max(np.linalg.norm(way), np.linalg.norm(wanted - slides))
+        if part == 1.0:
+            slides = wanted
+            if moved <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
+                sliding = _finish(net, slides, iteration)
+                end = NetGuess(place=net.place, slides=slides, glide=glide)
+                return pull_nodes(net.points, sliding), end
+        else:
+            slides = slides + part * (wanted - slides)
+    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+
+
+def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
+    points = np.zeros((2, place.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = place, given.head
+    steps = np.diff(points)
+    chords = np.hypot(*steps)
+    if not chords.min() > 0.0:
+        raise SolveError(Outcome.NONFINITE, "two nodes of the net at one place")
+    directions = steps / chords
+    (ax, ay), (bx, by) = directions[:, :-1], directions[:, 1:]
+    angles = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
+    bends = bend_segments(chords, angles)
+    arcs = chords * (1.0 + bends / 24.0)
+    lengths = given.old_lengths + _difference(slides.size) @ slides
+    hold = given.friction * np.tan(np.maximum(angles, 0.0) / 2.0)
+    share = np.maximum(1.0 - hold, 0.0) / (1.0 + hold)
+    tensions = given.stiffness * (arcs - lengths) / lengths
+    tensions[_find_slack(arcs - lengths, share)] = 0.0
+    return _Net(
+        points=points,
+        chords=chords,
+        directions=directions,
+        arcs=arcs,
+        bends=bends,
+        angles=angles,
+        lengths=lengths,
+        tensions=tensions,
+        share=share,
+    )
+
+
+@lru_cache(maxsize=64)
+def _difference(count: int) -> Floats:
+    """Differences (count + 1, count) over segments of what foot and head do not do."""
+    matrix = np.eye(count + 1, count) - np.eye(count + 1, count, -1)
+    matrix.setflags(write=False)
+    return matrix
+
+
+def _find_slack(stretch: Floats, share: Floats) -> Mask:
+    """Segments of parts, between nodes where nothing can slide, that are too long."""
+    parts = np.append(0, np.cumsum(share == 0.0))
+    return np.asarray((np.bincount(parts, stretch) <= 0.0)[parts])
+
+
+def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
+    """Where a net without tension first holds the snow: part of the way it is pushed.
+
+    A straight net has no stiffness across itself, so Newton's method has no direction
+    there.
+    """
+    way = given.nodes.positions - net.place
+    low, high = _LEAST_WAY, 0.0
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2.0
+        there = _place_net(given, net.place + np.exp(middle) * way, slides)
+        onward = given.nodes.place(there.forces) - there.place
+        if (onward * way).sum() > 0.0:
+            low = middle
+        else:
+            high = middle
+    return there
+
+
+def _linearise(given: _Given, net: _Net) -> _Linear:
+    """Equations (C24) and (C25) about the net as it is, the nodes' way eliminated."""
+    count = net.angles.size
+    (tx, ty), difference = net.directions[:, :, None], _difference(count)
+    d_headings = np.hstack([-ty * difference, tx * difference]) / net.chords[:, None]
+    d_angles = np.diff(d_headings, axis=0)
+    curvature = d_angles * (2.0 / (net.chords[:-1] + net.chords[1:]))[:, None]
+    signed = np.sqrt(net.bends) * np.sign(average_at_segments(net.angles))
+    d_arcs = (1.0 + net.bends / 24.0)[:, None] * np.hstack(
+        [tx * difference, ty * difference]
+    ) + (net.chords**2 * signed / 12.0)[:, None] * average_at_segments(curvature)
+    per_length = np.where(net.tensions != 0.0, given.stiffness / net.lengths, 0.0)
+    d_tensions = per_length[:, None] * d_arcs
+    by_slides = -(per_length * net.arcs / net.lengths)[:, None] * difference
+    turn = net.tensions[:, None] * d_headings
+    jacobian = -given.nodes.compliance @ np.vstack(
+        [
+            np.diff(tx * d_tensions - ty * turn, axis=0),
+            np.diff(ty * d_tensions + tx * turn, axis=0),
+        ]
+    )
+    jacobian[np.diag_indices(2 * count)] += 1.0
+    missing = (given.nodes.place(net.forces) - net.place).ravel()
+    pushes = np.vstack(
+        [np.diff(tx * by_slides, axis=0), np.diff(ty * by_slides, axis=0)]
+    )
+    right = np.column_stack([missing, given.nodes.compliance @ pushes])
+    way = _solve(jacobian, right)
+    tensions = d_tensions @ way
+    tensions[:, 0] += net.tensions
+    tensions[:, 1:] += by_slides
+    shares = _differentiate_share(given.friction, net)[:, None] * (d_angles @ way)
+    below, above = tensions[:-1], tensions[1:]
+    share = net.share[:, None]
+    to_foot = above - share * below - net.tensions[:-1, None] * shares
+    to_head = below - share * above - net.tensions[1:, None] * shares
+    spare = np.array([to_foot[:, 0], to_head[:, 0]])
+    return _Linear(way, spare, np.array([to_foot[:, 1:], to_head[:, 1:]]))
+
+
+def _differentiate_share(friction: float, net: _Net) -> Floats:
+    """Derivative of exp(-kappa) by the turning angle."""
+    half = net.angles / 2.0
+    turned = np.cos(half) + friction * np.sin(half)
+    holds = (net.angles > 0.0) & (net.share > 0.0)
+    return np.where(holds, -friction / turned**2, 0.0)
+
+
+def _solve(matrix: Floats, right: Floats) -> Floats:
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
+
+
+def _choose(
+    net: _Net, linear: _Linear, slides: Floats, glide: Signs
+) -> tuple[Floats, Signs]:
+    """Slides, and which nodes glide, of the linear complementarity problem (C26)."""
+    per_slide = linear.per_slide
+    spare = linear.spare - per_slide @ slides
+    idle = net.tensions == 0.0
+    fixed = (net.share == 0.0) | (idle[:-1] & idle[1:])
+    loose = (net.share == 1.0) & ~fixed  # no friction: never sticks
+    glide = np.where(fixed, 0, np.where(loose, 1, glide)).astype(np.int8)
+    least = -_BREACH * float(np.abs(net.tensions).max())
+    for number in range(_MOST_ROUNDS):
+        found = np.zeros(glide.size)
+        active = np.flatnonzero(glide)
+        if active.size:
+            side = np.where(glide[active] > 0, 0, 1)
+            found[active] = _solve(
+                per_slide[side[:, None], active[:, None], active], -spare[side, active]
+            )
+        to_foot, to_head = spare + per_slide @ found < least
+        released = np.where(to_foot, 1, np.where(to_head, -1, 0))
+        backward = (glide * found < -_BACKWARD) & ~loose
+        wanted = np.where(glide == 0, released, np.where(backward, 0, glide))
+        changes = np.flatnonzero((wanted != glide) & ~fixed)
+        if changes.size == 0:
+            return found, glide
+        if number >= _FREE_ROUNDS:
+            changes = changes[:1]
+        glide[changes] = wanted[changes]
+    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+
+
+def _go(
+    given: _Given, net: _Net, way: Floats, slides: Floats, wanted: Floats
+) -> tuple[float, _Net]:
+    """The largest part of a step that leaves every segment its tension."""
+    part = 1.0
+    while True:
+        there = _place_net(
+            given, net.place + part * way, slides + part * (wanted - slides)
+        )
+        left = there.tensions >= _LEAST_SHARE * net.tensions
+        if left.all() or part < _SHORTEST_PART:
+            return part, there
+        part /= 2.0
+
+
+def _finish(net: _Net, slides: Floats, iterations: int) -> SlidingStep:
+    slack = net.tensions == 0.0
+    some = NetState.PARTLY_SLACK if slack.any() else NetState.TIGHT
+    below, above = net.tensions[:-1], net.tensions[1:]
+    spare = np.array([above - net.share * below, below - net.share * above])
+    side = np.where(slides < 0.0, 1, 0)
+    held = np.maximum(-spare.min(axis=0), 0.0)
+    gliding = np.abs(np.take_along_axis(spare, side[None], axis=0)[0])
+    breach = np.where(slides != 0.0, gliding, held)
+    return SlidingStep(
+        outcome=Outcome.CONVERGED,
+        state=NetState.SLACK if slack.all() else some,
+        lengths=net.lengths,
+        tensions=net.tensions,
+        slides=slides,
+        residual=float((breach / np.maximum(np.maximum(below, above), 1e-300)).max()),
+        iterations=iterations,
+    )

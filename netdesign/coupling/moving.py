@@ -1,0 +1,87 @@
+"""Snow and net that move: what stays the same, and their state at one time.
+
+Dimensionless as in ``steady``; times in d over the velocity scale.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.snow.body import SnowBody
+from netdesign.snow.law import FlowLaw
+from netdesign.snow.settling import Settling
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Signs = NDArray[np.int8]
+
+# The snow's upper corner: held at the net's head, slipping over it, or a node of the
+# net below it.
+Top = Literal["held", "slipping", "on-net"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TransientProblem:
+    """What stays the same while the snow moves, dimensionless."""
+
+    law: FlowLaw
+    settling: Settling
+    head: Floats
+    length: float  # unstressed, of the whole net
+    stiffness: float
+    base_drag: float = 0.0  # shear stress on the ground over its velocity
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TransientState:
+    """Snow and net at one time.
+
+    Attributes
+    ----------
+    time : float
+        Creep time since the start.
+    body : SnowBody
+        The snow.
+    lengths : ndarray, shape (n_segments,)
+        Unstressed lengths of the net between its nodes.
+    glide : ndarray of int, shape (n_segments - 1,)
+        How the net slid through its nodes in the last step, as in ``NetGuess``.
+    top : str
+        What the snow's upper corner does.
+    velocity : ndarray, shape (2, n_nodes)
+        Of the last step.
+    moved : ndarray, shape (2, n_vertices)
+        Displacement in the last step.
+    step : float
+        Its duration; 0 before the first.
+    stress, base_shear : ndarray or None
+        Of the last step; None before the first.
+    """
+
+    time: float
+    body: SnowBody
+    lengths: Floats
+    glide: Signs
+    top: Top
+    velocity: Floats
+    moved: Floats
+    step: float = 0.0
+    stress: Floats | None = None
+    base_shear: Floats | None = None
+
+    @property
+    def carried(self) -> Ints:
+        """Vertices that are nodes of the net, foot and a held top left out."""
+        net = self.body.topology.net
+        return net[1:] if self.top == "on-net" else net[1:-1]
+
+
+def list_net_points(problem: TransientProblem, nodes: Floats) -> Floats:
+    """Foot, nodes (2, n) and head of the net."""
+    points = np.zeros((2, nodes.shape[1] + 2))
+    points[:, 1:-1], points[:, -1] = nodes, problem.head
+    return points
