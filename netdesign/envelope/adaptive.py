@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import product, repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,7 @@ RESOLVED_SHARE = 0.6
 _GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.
 _LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
-_WANTED = 200  # highest lattice points per quantity that may be asked for
+_WANTED = 100  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 1024.0
 _BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
@@ -334,18 +334,17 @@ def _bound(
 
     allowed = reach(looked_at)
     upper = allowed.max(axis=0)
-    spacing = 1.0 / (_LATTICE[lattice.shape[1]] - 1)
+    order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in watched}
+    starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
+    climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
     wanted: list[tuple[float, Point, int]] = []
-    for quantity in watched:
-        order = np.argsort(-allowed[:, quantity], kind="stable")
-        starts = looked_at[order[:_STARTS]]
-        tops, heights = _climb(starts, quantity, reach, spacing)
+    for quantity, (tops, heights) in climbed.items():
         upper[quantity] = max(upper[quantity], heights.max())
-        places = [*tops, *looked_at[order[:_WANTED]]]
-        reached = [*heights, *allowed[order[:_WANTED], quantity]]
-        for place, height in zip(places, reached, strict=True):
-            excess = (height - best[quantity]) / tolerance[quantity] - 1.0
-            wanted.append((float(excess), _settle(place), quantity))
+        places = np.concatenate([tops, looked_at[order[quantity]]])
+        reached = np.concatenate([heights, allowed[order[quantity], quantity]])
+        excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
+        points = map(tuple, (np.round(places / _GRAIN) * _GRAIN).tolist())
+        wanted += zip(excess.tolist(), points, repeat(quantity), strict=False)
     margin = _MARGIN * tolerance
     wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
     return _Bounds(
@@ -400,24 +399,30 @@ def _surround(place: Floats) -> Floats:
 
 
 def _climb(
-    starts: Floats, quantity: int, reach: Callable[[Floats], Floats], step: float
-) -> tuple[Floats, Floats]:
-    """Follow the bound uphill from some places, by halving steps along the axes."""
-    count, dimension = starts.shape
+    starts: Mapping[int, Floats], reach: Callable[[Floats], Floats], step: float
+) -> dict[int, tuple[Floats, Floats]]:
+    """Follow each quantity's bound uphill, by halving steps along the axes.
+
+    All quantities go together, since one large question costs less than many small.
+    """
+    places = np.concatenate(list(starts.values()))
+    owners = np.repeat(list(starts), [len(own) for own in starts.values()])
+    count, dimension = places.shape
+    here = np.arange(count)
     moves = np.concatenate(
         [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
     )
-    places = starts
     while True:
         step /= 2.0
         for _ in range(dimension):  # one move an axis
             tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-            heights = reach(tried.reshape(-1, dimension))[:, quantity]
-            heights = heights.reshape(len(moves), count)
+            reached = reach(tried.reshape(-1, dimension))
+            heights = reached.reshape(len(moves), count, -1)[:, here, owners]
             chosen = heights.argmax(axis=0)
-            places = tried[chosen, np.arange(count)]
+            places = tried[chosen, here]
         if step <= _FINEST_STEP:
-            return places, heights.max(axis=0)
+            tops = heights.max(axis=0)
+            return {q: (places[owners == q], tops[owners == q]) for q in starts}
 
 
 def _settle(place: Floats) -> Point:
