@@ -39,7 +39,7 @@ def _count_quarters(total: int, what: str) -> Callable[[object], None]:
     def on_done(_: object) -> None:
         nonlocal done
         done += 1
-        if done * 4 // total > (done - 1) * 4 // total:
+        if done <= total and done * 4 // total > (done - 1) * 4 // total:
             sys.stderr.write(f"{done} of {total} {what}\n")
 
     return on_done

@@ -8,7 +8,7 @@ import openpyxl
 import pytest
 from test_cli import SHEETS
 
-from netdesign import check_site, cli
+from netdesign import cli, site_cases
 from netdesign.outcome import Outcome
 
 
@@ -36,7 +36,7 @@ def check(monkeypatch, capsys, site_file, *options):
 
 
 def test_a_history_without_plateau_is_not_proven(monkeypatch, capsys, site_file):
-    def fail_last(_, results, settings, **__):
+    def fail_last(_, results, settings, *__):
         assert settings.accuracy == 0.1
         lost = replace(
             results[0][-1],
@@ -47,7 +47,7 @@ def test_a_history_without_plateau_is_not_proven(monkeypatch, capsys, site_file)
         )
         return [[*results[0][:-1], lost]]
 
-    monkeypatch.setattr(check_site, "confirm_rows", fail_last)
+    monkeypatch.setattr(site_cases, "confirm_rows", fail_last)
     code, study = check(monkeypatch, capsys, site_file, "--method", "transient")
     assert code == 4
     assert study["verdict"] == "not_proven"
@@ -77,7 +77,7 @@ def test_larger_forces_of_histories_are_the_demands(monkeypatch, capsys, site_fi
 
     _, steady = check(monkeypatch, capsys, site_file)
     assert steady["provenance"]["settings"]["method"] == "steady"
-    monkeypatch.setattr(check_site, "confirm_rows", double)
+    monkeypatch.setattr(site_cases, "confirm_rows", double)
     _, doubled = check(monkeypatch, capsys, site_file, "--method", "transient")
     for before, after in zip(
         steady["rows"][0]["extremes"], doubled["rows"][0]["extremes"], strict=True

@@ -178,13 +178,9 @@ def _measure_one_row(_: BenchSize) -> dict[str, Any]:
     start = time.perf_counter()
     (found,) = search_rows([task], runner)
     elapsed = time.perf_counter() - start
-    scale = task.search.small_share * max(found.maxima.maximum)
-    gap = max(
-        (upper - most) / max(most, scale)
-        for upper, most in zip(
-            found.maxima.upper_bound, found.maxima.maximum, strict=True
-        )
-    )
+    members = {name: found.force(name).value for name in found.members}
+    scale = task.search.small_share * max(members.values())
+    gap = max(found.hidden(name) / max(most, scale) for name, most in members.items())
     error = max(
         pull.error / pull.size
         for result in found.results

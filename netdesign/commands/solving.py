@@ -55,23 +55,29 @@ def open_rows(
     """Search or sample the rows of a site; workers and store stay open within."""
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
-    from netdesign.progress import show_search
-    from netdesign.site_cases import search_site, solve_site
+    from netdesign.progress import show_progress, show_search
+    from netdesign.site_cases import count_cases, search_site, solve_site
 
-    with (
-        show_search(len(site.rows), quiet=quiet) as progress,
-        open_runner(
-            executor=executor,
-            processes=run.jobs,
-            store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
-            on_done=progress.count_case,
-        ) as runner,
-    ):
+    with open_runner(
+        executor=executor,
+        processes=run.jobs,
+        store=find_store() if cache else None,
+        say=lambda text: click.echo(text, err=True),
+        on_done=_ignore,
+    ) as runner:
+        envelopes: list[RowEnvelope] | None = None
         if site.ranges.is_grid:
-            results = solve_site(site, run, runner)
-            yield SolvedRows(results=results, envelopes=None, runner=runner)
-            return
-        found = search_site(site, run, runner, progress.tell_wave)
-        results = [list(one.results) for one in found]
-        yield SolvedRows(results=results, envelopes=found, runner=runner)
+            with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
+                runner.on_done = on_done or _ignore
+                results = solve_site(site, run, runner)
+        else:
+            with show_search(len(site.rows), quiet=quiet) as progress:
+                runner.on_done = progress.count_case
+                envelopes = search_site(site, run, runner, progress.tell_wave)
+            results = [list(one.results) for one in envelopes]
+        runner.on_done = _ignore
+        yield SolvedRows(results=results, envelopes=envelopes, runner=runner)
+
+
+def _ignore(_: object) -> None:
+    """Show no progress."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import product, repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,7 @@ RESOLVED_SHARE = 0.6
 _GRAIN = 1.0 / 64.0
 # Points per axis at which the bound is looked at before it is followed uphill.
 _LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
-_WANTED = 200  # highest lattice points per quantity that may be asked for
+_WANTED = 100  # highest lattice points per quantity that may be asked for
 _STARTS = 6  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 1024.0
 _BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
@@ -87,6 +87,19 @@ class SearchSettings:
         require_within("small share", self.small_share, 0.0, 1.0)
         for name in ("tests", "batch", "max_cases"):
             require_count(name.replace("_", " "), getattr(self, name))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Watched:
+    """What is asked of the bound of one quantity, in its unit.
+
+    ``worth`` is the closest gap that is worth a case: nobody bounds a force closer
+    than its cases are accurate. Below ``floor`` the quantity does not matter, since
+    another one of the same member is as large already.
+    """
+
+    worth: float = 0.0
+    floor: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,6 +174,12 @@ class _Bounds:
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
+    def open(self) -> tuple[int, ...]:
+        """Watched quantities whose gap is larger than its tolerance."""
+        gaps = (self.upper - self.best) / self.tolerance
+        return tuple(q for q in self.watched if gaps[q] > 1.0 + 1e-9)
+
+    @property
     def gap(self) -> float:
         """Largest gap over its tolerance."""
         gaps = (self.upper - self.best) / self.tolerance
@@ -168,14 +187,14 @@ class _Bounds:
 
     @property
     def is_closed(self) -> bool:
-        return self.gap <= 1.0 + 1e-9
+        return not self.open
 
 
 def search_maxima(
     dimension: int,
     settings: SearchSettings,
     on_round: Callable[[float], None] = lambda _: None,
-    watch: Callable[[], Mapping[int, float]] | None = None,
+    watch: Callable[[], Mapping[int, Watched]] | None = None,
 ) -> Search:
     """Ask for values until every maximum is bounded; ``send`` answers each question.
 
@@ -188,9 +207,8 @@ def search_maxima(
     on_round : callable, optional
         Takes the largest gap left after each round, over its quantity [-].
     watch : callable, optional
-        Which quantities have to be bounded, and the closest gap that is worth it for
-        each, in its unit: nobody bounds a force closer than its cases are accurate.
-        Asked once answers are there; other quantities are modelled along. All of them
+        Which quantities have to be bounded, by their place, and how closely. Asked
+        once answers are there; other quantities are modelled along. All of them
         unless told otherwise.
 
     Yields
@@ -229,7 +247,7 @@ def search_maxima(
             return _finish(points, values, log, None, None, is_closed=False)
         places = np.array([points[k] for k in solved])
         known = np.array([values[k] for k in solved])
-        everything = dict.fromkeys(range(known.shape[1]), 0.0)
+        everything = dict.fromkeys(range(known.shape[1]), Watched())
         watched = everything if watch is None else watch()
         tolerance = _set_tolerance(known, settings, watched)
         model = fit_surrogate(places, known, _NOISE * tolerance)
@@ -299,10 +317,10 @@ def _bound(
     settings: SearchSettings,
     surprises: Sequence[_Surprise],
     tolerance: Floats,
-    watched: Mapping[int, float],
+    watched: Mapping[int, Watched],
 ) -> _Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it."""
-    best = np.maximum(values.max(axis=0), 0.0)  # a negative force is none
+    best = _find_best(values, watched)
     around = [model.places[np.argmax(column)] for column in values.T]
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
@@ -315,39 +333,49 @@ def _bound(
         return result
 
     allowed = reach(looked_at)
-    upper = np.maximum(best, allowed.max(axis=0))
-    spacing = 1.0 / (_LATTICE[lattice.shape[1]] - 1)
+    upper = allowed.max(axis=0)
+    order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in watched}
+    starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
+    climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
     wanted: list[tuple[float, Point, int]] = []
-    for quantity in watched:
-        order = np.argsort(-allowed[:, quantity], kind="stable")
-        starts = looked_at[order[:_STARTS]]
-        tops, heights = _climb(starts, quantity, reach, spacing)
+    for quantity, (tops, heights) in climbed.items():
         upper[quantity] = max(upper[quantity], heights.max())
-        places = [*tops, *looked_at[order[:_WANTED]]]
-        reached = [*heights, *allowed[order[:_WANTED], quantity]]
-        for place, height in zip(places, reached, strict=True):
-            excess = (height - best[quantity]) / tolerance[quantity] - 1.0
-            wanted.append((float(excess), _settle(place), quantity))
+        places = np.concatenate([tops, looked_at[order[quantity]]])
+        reached = np.concatenate([heights, allowed[order[quantity], quantity]])
+        excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
+        points = map(tuple, (np.round(places / _GRAIN) * _GRAIN).tolist())
+        wanted += zip(excess.tolist(), points, repeat(quantity), strict=False)
+    margin = _MARGIN * tolerance
     wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
     return _Bounds(
         best=best,
         tolerance=tolerance,
-        upper=upper + _MARGIN * tolerance,
+        # what is negative everywhere is no force at all: a guy that stays slack
+        upper=np.where(
+            (upper > 0.0) | (best > 0.0), np.maximum(upper, best) + margin, 0.0
+        ),
         watched=tuple(watched),
         summits=tuple(
-            (_settle(around[q]), q) for q in watched if values[:, q].max() > 0.0
+            (_settle(around[q]), q) for q in watched if values[:, q].max() >= best[q]
         ),
         wanted=tuple(wanted),
     )
 
 
+def _find_best(values: Floats, watched: Mapping[int, Watched]) -> Floats:
+    """What a quantity has to exceed to matter; a negative force is none."""
+    floors = [watched.get(q, Watched()).floor for q in range(values.shape[1])]
+    result: Floats = np.maximum(values.max(axis=0), np.maximum(floors, 0.0))
+    return result
+
+
 def _set_tolerance(
-    values: Floats, settings: SearchSettings, watched: Mapping[int, float]
+    values: Floats, settings: SearchSettings, watched: Mapping[int, Watched]
 ) -> Floats:
     """Gap that each quantity may keep, in its unit."""
-    best = np.maximum(values.max(axis=0), 0.0)
+    best = _find_best(values, watched)
     scale = np.maximum(best, settings.small_share * best.max())
-    worth = np.array([watched.get(q, 0.0) for q in range(values.shape[1])])
+    worth = [watched.get(q, Watched()).worth for q in range(values.shape[1])]
     tolerance = np.maximum(settings.gap * scale, worth)
     result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
     return result
@@ -371,24 +399,30 @@ def _surround(place: Floats) -> Floats:
 
 
 def _climb(
-    starts: Floats, quantity: int, reach: Callable[[Floats], Floats], step: float
-) -> tuple[Floats, Floats]:
-    """Follow the bound uphill from some places, by halving steps along the axes."""
-    count, dimension = starts.shape
+    starts: Mapping[int, Floats], reach: Callable[[Floats], Floats], step: float
+) -> dict[int, tuple[Floats, Floats]]:
+    """Follow each quantity's bound uphill, by halving steps along the axes.
+
+    All quantities go together, since one large question costs less than many small.
+    """
+    places = np.concatenate(list(starts.values()))
+    owners = np.repeat(list(starts), [len(own) for own in starts.values()])
+    count, dimension = places.shape
+    here = np.arange(count)
     moves = np.concatenate(
         [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
     )
-    places = starts
     while True:
         step /= 2.0
         for _ in range(dimension):  # one move an axis
             tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-            heights = reach(tried.reshape(-1, dimension))[:, quantity]
-            heights = heights.reshape(len(moves), count)
+            reached = reach(tried.reshape(-1, dimension))
+            heights = reached.reshape(len(moves), count, -1)[:, here, owners]
             chosen = heights.argmax(axis=0)
-            places = tried[chosen, np.arange(count)]
+            places = tried[chosen, here]
         if step <= _FINEST_STEP:
-            return places, heights.max(axis=0)
+            tops = heights.max(axis=0)
+            return {q: (places[owners == q], tops[owners == q]) for q in starts}
 
 
 def _settle(place: Floats) -> Point:
@@ -407,17 +441,27 @@ def _choose(
         if beside:
             return beside[:room]
     most = min(settings.batch, room)
-    chosen = [] if bounds.is_closed else _pick(bounds, points, most, 0.0, _GRAIN)
-    # where none exceeds, or all that do lie on known cases: what could be wrong most
-    return chosen or _pick(bounds, points, most, -math.inf, _TEST_APART)
+    if bounds.is_closed:
+        return _pick(bounds, bounds.watched, points, most, -math.inf, _TEST_APART)
+    # all that could exceed may lie on known cases: then the like of them elsewhere
+    return _pick(bounds, bounds.watched, points, most, 0.0, _GRAIN) or _pick(
+        bounds, bounds.open, points, most, -math.inf, _BESIDE
+    )
 
 
 def _pick(
-    bounds: _Bounds, points: Sequence[Point], most: int, least: float, apart: float
+    bounds: _Bounds,
+    quantities: Sequence[int],
+    points: Sequence[Point],
+    most: int,
+    least: float,
+    apart: float,
 ) -> list[tuple[Point, int]]:
     """Wanted cases above an excess, well apart from each other and from known ones."""
     chosen: list[tuple[Point, int]] = []
     for excess, point, quantity in bounds.wanted:
+        if quantity not in quantities:
+            continue
         if excess <= least or len(chosen) >= most:
             break
         is_apart = all(math.dist(point, other) > _APART for other, _ in chosen)

@@ -32,7 +32,7 @@ class Runner:
     store : CaseStore or None
         Where finished ones are kept; None keeps nothing beyond a call.
     on_done : callable
-        Called after each case that was new.
+        Called after each distinct case of a call, from the store or new.
     say : callable
         Takes what the user should know.
     counts : Counts
@@ -51,6 +51,8 @@ class Runner:
         distinct = dict(zip(names, jobs, strict=True))
         ends = self._look_up(list(distinct))
         self.counts.reused += len(ends) + len(names) - len(distinct)
+        for end in ends.values():
+            self.on_done(end)
         missing = [name for name in distinct if name not in ends]
         for place, end in self.workers.solve([distinct[name] for name in missing]):
             ends[missing[place]] = end

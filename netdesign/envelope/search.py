@@ -16,6 +16,7 @@ from netdesign.envelope.adaptive import (
     Point,
     SearchSettings,
     Values,
+    Watched,
     search_maxima,
 )
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
@@ -347,6 +348,7 @@ class _Reader:
     signed: tuple[str, ...] = ()
     is_shared: bool = False
     errors: dict[str, float] = field(default_factory=dict)  # smallest of each member
+    largest: dict[str, float] = field(default_factory=dict)  # force of each member
 
     @property
     def quantities(self) -> tuple[str, ...]:
@@ -357,6 +359,8 @@ class _Reader:
         behind = [self._find_signed(result) for result in results]
         for result in results:
             for member, band in result.member_forces.items():
+                known = self.largest.get(member, 0.0)
+                self.largest[member] = max(known, band.value)
                 if band.value > 0.0:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
@@ -372,25 +376,23 @@ class _Reader:
             for result, signed in zip(results, behind, strict=True)
         ]
 
-    def watch(self) -> dict[int, float]:
-        """Places of the quantities to be bounded, with half their numerical error."""
-        watched = choose_watched(self.members, self.signed, is_shared=self.is_shared)
-        return {
-            self.quantities.index(name): _WORTH * self._find_error(name)
-            for name in watched
-        }
+    def watch(self) -> dict[int, Watched]:
+        """Quantities to be bounded, by place, each as closely as it is worth."""
+        names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
+        return {self.quantities.index(name): self._ask_for(name) for name in names}
 
-    def _find_error(self, name: str) -> float:
-        """Smallest numerical error of the members that a quantity stands behind."""
+    def _ask_for(self, name: str) -> Watched:
+        """Half the numerical error of the members behind which a quantity stands."""
         behind = [
             member
             for member in self.members
             if name in (member, *name_sources(member, is_shared=self.is_shared))
         ]
+        floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
-            behind = [member for member in self.members if member.endswith("_guy")]
-        known = [self.errors[member] for member in behind if member in self.errors]
-        return max(known, default=0.0)
+            behind += [member for member in self.members if member.endswith("_guy")]
+        errors = [self.errors[member] for member in behind if member in self.errors]
+        return Watched(worth=_WORTH * max(errors, default=0.0), floor=floor)
 
     def bound_members(self, maxima: Maxima) -> Maxima:
         """Bounds of the members from those of the signed forces behind them."""

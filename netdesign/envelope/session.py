@@ -34,7 +34,7 @@ def open_runner(
     say : callable
         Takes what the user should know, for instance that there can be no store.
     on_done : callable
-        Called after each case that was new.
+        Called after each distinct case, from the store or new.
 
     Raises
     ------

@@ -9,6 +9,7 @@ from synthetic import drive, peak, ridge, smooth, true_maxima, valley
 from netdesign.envelope.adaptive import (
     RESOLVED_SHARE,
     SearchSettings,
+    Watched,
     list_first_design,
     search_maxima,
 )
@@ -102,6 +103,31 @@ def test_a_constant_response_ends_with_no_gap():
     assert found.is_closed
     assert found.maximum == (5.0, 0.0)
     assert found.upper_bound == pytest.approx((5.0, 0.0), abs=0.3 * 5e-3 * 5.0)
+
+
+def test_what_is_negative_everywhere_is_no_force():
+    found = drive(lambda u: np.array([8.0 + u[0], -5.0 + u[1]]), 3)
+    assert found.is_closed
+    assert found.upper_bound[1] == 0.0
+
+
+def test_only_what_is_watched_decides():
+    """The second quantity has a ridge; nobody asked for it, so it costs nothing."""
+
+    def search(watch):
+        talk = search_maxima(3, SearchSettings(), watch=watch)
+        points = next(talk)
+        try:
+            while True:
+                points = talk.send(
+                    [(10.0 + p[0], 10.0 + min(p[1], 2.0 - 3.0 * p[1])) for p in points]
+                )
+        except StopIteration as end:
+            return end.value
+
+    alone, both = search(lambda: {0: Watched()}), search(None)
+    assert len(alone.points) < len(both.points)
+    assert alone.is_closed
 
 
 def test_same_answers_give_the_same_search():
