@@ -77,9 +77,9 @@ def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
     from markupsafe import Markup, escape
 
     section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
-    envelope = draw_envelope(row, f"{anchor}-e")
+    envelope = draw_envelope(row)
     measured = draw_monitoring(row.monitoring, f"{anchor}-m")
-    head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
+    head = draw_head(row.head) if len(row.head) > 1 else ""
     return {
         "head": Markup(head),
         "section": Markup(section),
