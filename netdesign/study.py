@@ -227,6 +227,16 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class IndependentRecord:
+    """One law that the drawn case must obey whatever the mesh."""
+
+    name: str  # "net_balance", "friction_excess", "capstan_ratio", ...
+    value: float | None  # a share or a ratio [-]
+    limit: float | None  # None where nothing bounds it
+    is_met: bool
+
+
+@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
@@ -243,6 +253,7 @@ class RowStudy:
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     guideline: GuidelineRecord | None = None
     notes: list[str] = field(default_factory=list)
+    independent: list[IndependentRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

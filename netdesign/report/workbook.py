@@ -6,7 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from netdesign.outcome import Verdict
+from netdesign.report.language import Words
 from netdesign.report.table import Cell, Column, Table
+from netdesign.report.translation import translate_view
 from netdesign.report.words import VERDICTS, number_format
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
@@ -19,6 +22,8 @@ _COLOURS = {
 _NARROWEST, _WIDEST = 6.0, 40.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
+_LINK = "#2A4B6B"
+_LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 
 A4, A3 = 9, 8  # paper numbers of the format
@@ -27,8 +32,12 @@ A4, A3 = 9, 8  # paper numbers of the format
 class Book:
     """A workbook being written; keeps one format for each set of properties."""
 
-    def __init__(self, workbook: Any, footer: str) -> None:
+    def __init__(self, workbook: Any, footer: str, words: Words) -> None:
         self.workbook = workbook
+        self.words = words
+        self.verdicts = {
+            verdict: translate_view(shown, words) for verdict, shown in VERDICTS.items()
+        }
         self._footer = footer.replace("&", "&&")[:120]
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
 
@@ -49,16 +58,39 @@ class Book:
 
     def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
         """Sheet with a title in its first cell, ready to print on one page width."""
-        sheet = self.workbook.add_worksheet(name)
+        sheet = self.workbook.add_worksheet(self.name(name))
         sheet.hide_gridlines(2)
         sheet.set_landscape()
         sheet.set_paper(paper)
         sheet.fit_to_pages(1, 0)
         sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.7)
         sheet.set_footer(f"&L&8 {self._footer}&C&8 &A&R&8 &P / &N")
-        sheet.write_string(0, 0, title, self.text(bold=True, font_size=13))
+        shown = self.words(title)
+        sheet.write_string(0, 0, shown, self.text(bold=True, font_size=13))
         sheet.set_row(0, 22)
         return sheet
+
+    def name(self, sheet: str) -> str:
+        """Name of a sheet in the language of the workbook."""
+        return self.words(sheet)[:_LONGEST_NAME]
+
+    def refer(self, sheet: str, area: str) -> str:
+        """Reference to an area of another sheet."""
+        return f"'{self.name(sheet)}'!{area}"
+
+    def link(self, sheet: Any, place: tuple[int, int], target: str, text: str) -> None:
+        """Text that leads to a place of this workbook."""
+        form = self.text(font_color=_LINK, underline=1)
+        sheet.write_url(*place, f"internal:{target}", form, text)
+
+    def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
+        """Lead back to the first sheet."""
+        text = f"← {self.name('Summary')}"
+        self.link(sheet, place, self.refer("Summary", "A1"), text)
+
+    def word(self, verdict: Verdict) -> str:
+        """Word of a verdict in the language of the workbook."""
+        return self.verdicts[verdict].word
 
     def write_head(
         self, sheet: Any, row: int, columns: Sequence[Column], widths: Sequence[float]
@@ -103,6 +135,7 @@ class Book:
     def add_table_sheet(self, name: str, title: str, tables: Sequence[Table]) -> Any:
         """Sheet of tables one below the other; a single one can be filtered."""
         sheet = self.add_sheet(name, title)
+        self.link_back(sheet)
         top = 2
         for table in tables:
             top = self.write_table(sheet, table, top)
@@ -117,7 +150,7 @@ class Book:
 
     def colour_verdicts(self, sheet: Any, area: tuple[int, int, int, int]) -> None:
         """Colours for the words of the verdicts in ``area``."""
-        for words in VERDICTS.values():
+        for words in self.verdicts.values():
             back, front = _COLOURS[words.style]
             form = self.workbook.add_format({"bg_color": back, "font_color": front})
             rule = {
