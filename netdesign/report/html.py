@@ -112,7 +112,8 @@ def _draw_row(
     figures = {
         name: Markup(translate_drawing(svg, words)) for name, svg in drawn.items()
     }
-    note = escape(words(describe_monitoring(row.monitoring)))
+    measured = bool(drawn["monitoring"])
+    note = escape(words(describe_monitoring(row.monitoring)) if measured else "")
     return {**figures, "monitoring_note": note}
 
 

@@ -21,6 +21,7 @@ LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 
 _LONGEST = 1000  # longer texts are somebody's, not ours
 _GAP = re.compile(r"\{(\w+)(!?)\}")
+_NUMBER = r"[\d.]+"
 _WITH_UNIT = re.compile(r"(?P<stem>.+?) (?P<unit>\[[^\]]*\])")
 _BAND = re.compile(r"(?<=[\d°%]) to (?=[>\d-])")
 
@@ -32,6 +33,7 @@ class _Pattern:
     matches: re.Pattern[str]
     words: tuple[str, ...]
     target: str
+    letters: int  # of its own
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,10 +73,10 @@ class Words:
     def _match(self, text: str) -> str | None:
         for pattern in self.patterns:
             match = pattern.matches.fullmatch(text)
-            if match:
-                gaps = match.groupdict()
-                gaps |= {name: self(gaps[name]) for name in pattern.words}
-                return _fill(pattern.target, gaps)
+            gaps = match.groupdict() if match else {}
+            known = {name: self.find(gaps[name]) for name in pattern.words if gaps}
+            if match and None not in known.values():
+                return _fill(pattern.target, {**gaps, **known})
         return None
 
     def _translate_stem(self, text: str) -> str | None:
@@ -101,8 +103,8 @@ class Words:
         return shown if count else None
 
 
-def _fill(target: str, gaps: Mapping[str, str]) -> str:
-    return _GAP.sub(lambda gap: gaps[gap[1]], target)
+def _fill(target: str, gaps: Mapping[str, str | None]) -> str:
+    return _GAP.sub(lambda gap: gaps[gap[1]] or "", target)
 
 
 @lru_cache(maxsize=3)
@@ -120,7 +122,7 @@ def load_words(language: Language) -> Words:
         for text, target in texts.items()
         if _GAP.search(text)
     ]
-    patterns.sort(key=lambda one: -len(_GAP.sub("", one.target)))
+    patterns.sort(key=lambda one: -one.letters)
     return Words(language=language, texts=texts, patterns=tuple(patterns))
 
 
@@ -138,6 +140,7 @@ def _build_pattern(text: str, target: str) -> _Pattern:
     parts = _GAP.split(text)  # text, name, mark, text, name, mark, ..., text
     expression = re.escape(parts[0])
     for name, rest in zip(parts[1::3], parts[3::3], strict=True):
-        expression += f"(?P<{name}>.+?){re.escape(rest)}"
+        inside = _NUMBER if name in ("n", "m") else ".+?"
+        expression += f"(?P<{name}>{inside}){re.escape(rest)}"
     words = tuple(name for name, mark in _GAP.findall(text) if mark)
-    return _Pattern(re.compile(expression), words, target)
+    return _Pattern(re.compile(expression), words, target, len(_GAP.sub("", text)))

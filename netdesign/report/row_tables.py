@@ -219,13 +219,15 @@ def build_changes(row: RowStudy) -> Table:
 def list_flips(check: CheckRecord | None) -> tuple[str, ...]:
     """Changes that flip one check, in short; none where no change alone does."""
     changes = check.changes if check else []
-    return tuple(
-        describe_change(change)
-        if change.now is None
-        else f"{describe_change(change)}, now {_show(change.now, change.unit)}"
-        for change in changes
-        if change.bound is not None
-    )
+    return tuple(describe_flip(c) for c in changes if c.bound is not None)
+
+
+def describe_flip(change: ChangeRecord) -> str:
+    """One change and today's value: ``post spacing at most 1.42 m, now 4 m``."""
+    text = describe_change(change)
+    if change.now is None:
+        return text
+    return f"{text}, now {_show(change.now, change.unit)}"
 
 
 def describe_change(change: ChangeRecord) -> str:

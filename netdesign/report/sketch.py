@@ -79,10 +79,9 @@ class Sketch(Chart):
         fill: str = INK,
         bold: bool = False,
     ) -> None:
-        """One line of text in a colour, on a pale rim that keeps it readable."""
+        """One line of text in a colour."""
         weight = ' font-weight="bold"' if bold else ""
         self.shapes.append(
             f'<text x="{at[0]:.2f}" y="{at[1]:.2f}" text-anchor="{anchor}" '
-            f'fill="{fill}"{weight} stroke="#fff" stroke-width="2.5" '
-            f'paint-order="stroke">{escape(text)}</text>'
+            f'fill="{fill}"{weight}>{escape(text)}</text>'
         )

@@ -174,6 +174,7 @@ def _explain(shown: RowView) -> str:
 def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     """Identification, room for signatures, assumed values, under the rows."""
     head, text = book.text(bold=True, bottom=1), book.text()
+    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
     signed = (("Prepared", view.prepared), ("Checked", view.checked), ("Approved", ""))
     blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
         ("Identification and sign-off", view.identification),
@@ -187,7 +188,9 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
         for label, value in pairs:
             top += 1
             sheet.write_string(top, 0, label, text)
-            sheet.write_string(top, 2, value, text)
+            sheet.merge_range(top, 2, top, _LIMIT - 1, "", wrapped)
+            sheet.write_string(top, 2, value, wrapped)
+            book.set_height(sheet, top, count_lines([value], [room]))
         top += 2
 
 

@@ -28,7 +28,7 @@ _WORDS: dict[type, tuple[str, ...]] = {
         *("counts", "reasons", "unloaded", "flips"),
         *("guideline_sentence", "notes"),
     ),
-    ReportView: ("counts", "scope", "notes", "assumed_line"),
+    ReportView: ("counts", "scope", "notes"),
 }
 _TEXT = re.compile(r"(?<=>)[^<>]+(?=</text>)")
 _LABEL = re.compile(r'(?<= aria-label=")[^"]+(?=")')
@@ -62,7 +62,8 @@ def translate_view(view: View, words: Translate) -> View:
         changed["identification"] = tuple(
             (words(label), text) for label, text in view.identification
         )
-    return replace(shown, **changed)
+    translated: View = replace(shown, **changed)
+    return translated
 
 
 def _translate_texts(texts: Any, words: Translate) -> Any:

@@ -225,4 +225,4 @@ def _count_all(study: Study) -> tuple[tuple[str, str], ...]:
 def _list_assumed(profile: ProfileRecord) -> str:
     assumed = [v for v in profile.values if v.status == tables.ASSUMED]
     names = [f"{v.id} = {show_quantity(v.value, v.unit)}" for v in assumed]
-    return ", ".join(show_text(name) for name in names) or "none"
+    return ", ".join(show_text(name) for name in names)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ _COLOURS = {
 _NARROWEST, _WIDEST = 6.0, 40.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
+_DECIMAL = re.compile(r"-?\d+(\.\d+)?")
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
@@ -113,6 +115,9 @@ class Book:
             return
         if column.quantity:
             properties["num_format"] = number_format(column.quantity)
+        elif _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
+            decimals = len(cell.text.partition(".")[2])
+            properties["num_format"] = f"0.{'0' * decimals}".rstrip(".")
         sheet.write_number(*place, cell.number, self.format(**properties))
 
     def write_table(self, sheet: Any, table: Table, top: int) -> int:

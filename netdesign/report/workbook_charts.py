@@ -69,7 +69,7 @@ def add_force_chart(
     _finish(book, chart, ("Largest characteristic force per support", "", "kN"))
     chart.set_legend({"none": True})
     chart.set_size({"width": 980, "height": 320})
-    sheet.insert_chart(last + 2, 0, chart, {"object_position": 1})
+    _insert_below(sheet, last, chart)
 
 
 def add_case_chart(
@@ -100,6 +100,12 @@ def add_case_chart(
     titles = ("Force on the foot anchor in every case", "Density [kg/m³]", "kN")
     _finish(book, chart, titles)
     chart.set_size({"width": 820, "height": 360})
+    _insert_below(sheet, bottom, chart)
+
+
+def _insert_below(sheet: Any, bottom: int, chart: Any) -> None:
+    """On a page of its own, so that print does not cut it."""
+    sheet.set_h_pagebreaks([bottom + 2])
     sheet.insert_chart(bottom + 2, 0, chart, {"object_position": 1})
 
 
