@@ -31,6 +31,8 @@ SHEETS = (
     "Support",
     "Guideline",
     "Quality",
+    "Assumptions",
+    "Profile",
     "Provenance",
 )
 
@@ -86,11 +88,10 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_check_sheet(book, study, view)
     _add_row_tables(book, study, view)
     book.add_table_sheet("Quality", "Solver quality", [view.quality, view.outcomes])
-    book.add_table_sheet(
-        "Provenance",
-        "Provenance",
-        [view.provenance, view.assumptions, view.profile, _list_notes(book, view)],
-    )
+    book.add_table_sheet("Assumptions", "Assumptions", [view.assumptions])
+    book.add_table_sheet("Profile", "Limit profile", [view.profile])
+    notes = _list_notes(book, view)
+    book.add_table_sheet("Provenance", "Provenance", [view.provenance, notes])
     link_sheets(book, SHEETS[1:])
 
 

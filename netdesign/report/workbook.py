@@ -20,7 +20,7 @@ _COLOURS = {
     "fail": ("#F3D3CA", "#8C2A14"),
     "not-proven": ("#F7EBC8", "#5F4B00"),
 }
-_NARROWEST, _WIDEST = 6.0, 40.0  # columns, in characters of the default font
+_NARROWEST, _WIDEST = 6.0, 50.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(\.\d+)?")
@@ -105,12 +105,18 @@ class Book:
         self.set_height(sheet, row, max(2, count_lines(headings, widths)))
 
     def write_cell(
-        self, sheet: Any, place: tuple[int, int], column: Column, cell: Cell
+        self,
+        sheet: Any,
+        place: tuple[int, int],
+        column: Column,
+        cell: Cell,
+        *,
+        wraps: bool = True,
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         properties = _align(column)
         if cell.number is None or not math.isfinite(cell.number):
-            form = self.format(**properties, text_wrap=True)
+            form = self.format(**properties, text_wrap=wraps)
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return
         if column.quantity:
@@ -120,19 +126,24 @@ class Book:
             properties["num_format"] = f"0.{'0' * decimals}".rstrip(".")
         sheet.write_number(*place, cell.number, self.format(**properties))
 
-    def write_table(self, sheet: Any, table: Table, top: int) -> int:
+    def write_table(
+        self, sheet: Any, table: Table, top: int, *, is_first: bool = True
+    ) -> int:
         """Caption, headings and rows, or what stands for none; the next free row."""
         sheet.write_string(top, 0, table.caption, self.text(italic=True))
         if not table.rows:
             sheet.write_string(top + 1, 0, table.empty, self.text())
             return top + 3
         widths = find_widths([table])
+        if not is_first:
+            widths[-1] = _LONGEST_TEXT  # not wrapped: it reaches into empty cells
         self.write_head(sheet, top + 1, table.columns, widths)
         for row, cells in enumerate(table.rows, top + 2):
             for index, (column, cell) in enumerate(
                 zip(table.columns, cells, strict=True)
             ):
-                self.write_cell(sheet, (row, index), column, cell)
+                wraps = is_first or index < len(cells) - 1
+                self.write_cell(sheet, (row, index), column, cell, wraps=wraps)
             texts = [cell.text for cell in cells]
             self.set_height(sheet, row, count_lines(texts, widths))
         return top + 3 + len(table.rows)
@@ -143,7 +154,7 @@ class Book:
         self.link_back(sheet)
         top = 2
         for table in tables:
-            top = self.write_table(sheet, table, top)
+            top = self.write_table(sheet, table, top, is_first=table is tables[0])
         for index, width in enumerate(find_widths(tables)):
             sheet.set_column(index, index, width)
         sheet.repeat_rows(3)
@@ -195,12 +206,17 @@ def count_lines(texts: Sequence[str], widths: Sequence[float]) -> int:
 
 
 def find_widths(tables: Sequence[Table]) -> list[float]:
-    """Width of each column: its longest cell and the longest word of its head."""
+    """Width of each column: its longest cell and the longest word of its head.
+
+    The last columns of all tables but the first do not count.
+    """
     widths = [_NARROWEST] * max(len(table.columns) for table in tables)
-    for table in tables:
+    for place, table in enumerate(tables):
         for index, column in enumerate(table.columns):
+            if place and index == len(table.columns) - 1:
+                continue  # a last column may reach into empty cells beside it
             lengths = [len(row[index].text) for row in table.rows]
             lengths += [len(word) for word in column.heading.split()]
-            wanted = max(lengths, default=0) * _CHARACTER + 2
+            wanted = max(lengths, default=0) * _CHARACTER + 3
             widths[index] = min(max(widths[index], wanted), _WIDEST)
     return widths

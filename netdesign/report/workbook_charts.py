@@ -11,7 +11,7 @@ from netdesign.report.workbook import Book
 _FONT = {"name": "Arial", "size": 9, "color": INK}
 _BARS = "#8A929A"
 _MOST_LINES = 8  # of a chart of cases; more cannot be told apart
-_SHADES = (INK, ACCENT, GREY, "#2A4B6B")
+_SHADES = (INK, ACCENT, GREY, "#2A4B6B", "#C9A227", "#4F7A5B", "#8C6BB1", "#A9AFB6")
 _MARKERS = ("circle", "square", "triangle", "diamond")
 
 
@@ -83,7 +83,6 @@ def add_case_chart(
     chart = book.workbook.add_chart({"type": "scatter"})
     for place, (row_id, first, last) in enumerate(spans[:_MOST_LINES]):
         shade = _SHADES[place % len(_SHADES)]
-        is_filled = place < len(_SHADES)
         chart.add_series(
             {
                 "name": f"{book.words('Net row')} {row_id}",
@@ -93,7 +92,7 @@ def add_case_chart(
                     "type": _MARKERS[place % len(_MARKERS)],
                     "size": 6,
                     "border": {"color": shade},
-                    "fill": {"color": shade if is_filled else "#FFFFFF"},
+                    "fill": {"color": shade},
                 },
             }
         )
