@@ -8,28 +8,28 @@ from __future__ import annotations
 import importlib.metadata
 import math
 import platform
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import repeat
 from types import MappingProxyType
-from typing import Literal
 
 from netdesign import __version__
 from netdesign.checks import Standard
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.confirm import build_history_settings, confirm_rows
-from netdesign.envelope.extremes import Extreme, find_extremes
-from netdesign.envelope.grid import Case, build_cases
-from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.monitoring import follow_monitoring
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.grid import Case
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.search import RowEnvelope
+from netdesign.envelope_record import record_envelope
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.rowcheck.effects import RowEffects, find_effects
 from netdesign.rowcheck.guideline_record import record_guideline
 from netdesign.rowcheck.independent_record import record_independent
 from netdesign.rowcheck.member_checks import RowTask, check_row, record_point
-from netdesign.rowcheck.probe import Probe, build_scene
+from netdesign.rowcheck.probe import Probe
 from netdesign.rowcheck.support_record import record_anchors, record_head
 from netdesign.site.model import NetRow, Site
-from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY, CreepLaw
+from netdesign.site_cases import CheckRun
+from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.layout import place_support
 from netdesign.study import (
     SCHEMA,
@@ -45,7 +45,11 @@ from netdesign.study import (
     RowStudy,
     Study,
 )
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    newton_from_kilonewton,
+)
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
@@ -57,73 +61,6 @@ _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CheckRun:
-    """How a site is to be solved."""
-
-    settings: SolverSettings
-    method: Literal["steady", "transient"] = "steady"
-    creep_law: CreepLaw = BOUTILLIER_2004
-    jobs: int = 1
-    command: str = "netdesign check"
-    started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
-
-
-def count_cases(site: Site) -> int:
-    """Number of cases that ``solve_site`` will solve."""
-    return len(site.rows) * len(build_cases(site.ranges))
-
-
-def solve_site(
-    site: Site, run: CheckRun, on_done: Callable[[CaseResult], None] | None = None
-) -> list[list[CaseResult]]:
-    """Solve all cases of all net rows; no limit profile is needed for it.
-
-    Parameters
-    ----------
-    site : Site
-        What the engineer gives.
-    run : CheckRun
-        Settings.
-    on_done : callable, optional
-        Called after each case, for a progress display.
-
-    Returns
-    -------
-    list of list of CaseResult
-        For each row its cases in the order of the grid; failed ones are named.
-    """
-    cases = build_cases(site.ranges)
-    tasks = [_build_tasks(row, cases, run) for row in site.rows]
-    every = [task for of_row in tasks for task in of_row]
-    results = run_cases(every, jobs=run.jobs, on_done=on_done)
-    count = len(cases)
-    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
-    if run.method == "steady":
-        return by_row
-    settings = build_history_settings(run.settings)
-    return confirm_rows(tasks, by_row, settings, jobs=run.jobs)
-
-
-def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
-    """Measured series by net row, each beside a history of the middle of the ranges.
-
-    Nothing is solved for rows without a measurement.
-    """
-    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
-    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
-    middle = Case(
-        density=density, friction_angle=friction_angle, inclination=inclination
-    )
-    found = {}
-    for row in site.rows:
-        series = [one for one in site.monitoring if one.row_id == row.id]
-        if series:
-            (task,) = _build_tasks(row, [middle], run)
-            found[row.id] = follow_monitoring(task, series)
-    return found
-
-
 def judge_site(
     site: Site,
     results: Sequence[Sequence[CaseResult]],
@@ -131,6 +68,7 @@ def judge_site(
     run: CheckRun,
     probe: Probe | None = None,
     monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
+    envelopes: Sequence[RowEnvelope] | None = None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -139,7 +77,7 @@ def judge_site(
     site : Site
         What the engineer gives.
     results : sequence of sequence of CaseResult
-        As ``solve_site`` returns them.
+        As ``solve_site`` returns them; of searched rows their ``results``.
     standard : Standard
         Limit profile.
     run : CheckRun
@@ -149,6 +87,8 @@ def judge_site(
         flips. Without it a study has neither; give the same one for each profile.
     monitoring : mapping of str to list of MonitoringRecord
         As ``follow_site`` returns it; decides nothing.
+    envelopes : sequence of RowEnvelope, optional
+        As ``search_site`` returns them: their upper bounds are what is checked.
 
     Returns
     -------
@@ -156,8 +96,20 @@ def judge_site(
         Complete; a failed case is in it by name.
     """
     rows = [
-        _judge_row(site, row, of_row, standard, run, probe)
-        for row, of_row in zip(site.rows, results, strict=True)
+        _judge_row(
+            RowTask(
+                site=site,
+                row=row,
+                results=of_row,
+                standard=standard,
+                probe=probe,
+                envelope=searched,
+            ),
+            run,
+        )
+        for row, of_row, searched in zip(
+            site.rows, results, envelopes or repeat(None, len(site.rows)), strict=True
+        )
     ]
     rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
@@ -176,25 +128,11 @@ def judge_site(
     )
 
 
-def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
-    def build(case: Case) -> Scene:
-        return build_scene(row, case, run.creep_law)
-
-    return [build_task(case, build, row.layout, run.settings) for case in cases]
-
-
-def _judge_row(
-    site: Site,
-    row: NetRow,
-    results: Sequence[CaseResult],
-    standard: Standard,
-    run: CheckRun,
-    probe: Probe | None,
-) -> RowStudy:
-    task = RowTask(site=site, row=row, results=results, standard=standard, probe=probe)
-    extremes = find_extremes(results)
+def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
+    row, envelope = task.row, task.envelope
+    extremes = task.extremes
     checks = check_row(task)
-    effects = find_effects(row, standard)
+    effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get("foot_anchor")
     head = record_head(row, governing) if governing else []
@@ -215,11 +153,11 @@ def _judge_row(
         verdict=merge_verdicts([*(check.verdict for check in checks), *held]),
         checks=checks,
         extremes=[
-            _record_extreme(extremes[member])
+            _record_extreme(extremes[member], envelope)
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, run.creep_law, row) for result in results],
+        cases=[_record_case(result, run.creep_law, row) for result in task.results],
         inputs=list(row.inputs),
         drawing=_draw(row, governing),
         reasons=unproven,
@@ -228,7 +166,27 @@ def _judge_row(
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         notes=_list_row_notes(row, effects),
+        envelope=(
+            None
+            if envelope is None
+            else record_envelope(
+                envelope, REPORTED_MEMBERS, _list_levels(checks, effects)
+            )
+        ),
     )
+
+
+def _list_levels(
+    checks: Sequence[CheckRecord], effects: RowEffects
+) -> dict[str, list[tuple[str, float]]]:
+    """Solved force at which each check is just met, by member [N]."""
+    levels: dict[str, list[tuple[str, float]]] = {}
+    for check in checks:
+        if check.resistance_kN is not None and check.action_factor:
+            on_row = check.action_factor * effects.factor(check.member)
+            level = newton_from_kilonewton(check.resistance_kN / on_row)
+            levels.setdefault(check.member, []).append((check.id, level))
+    return levels
 
 
 def _list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
@@ -252,19 +210,24 @@ def _list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
     return notes
 
 
-def _record_extreme(extreme: Extreme) -> ExtremeRecord:
-    coincident = extreme.governing.member_forces
+def _record_extreme(extreme: Extreme, envelope: RowEnvelope | None) -> ExtremeRecord:
+    coincident, upper = extreme.governing.member_forces, None
+    force = extreme.force
+    if envelope is not None:
+        force = envelope.bound(extreme.member)
+        upper = kilonewton_from_newton(envelope.upper_bound(extreme.member))
     return ExtremeRecord(
         quantity=extreme.member,
-        max_kN=kilonewton_from_newton(extreme.force.value),
-        low_kN=kilonewton_from_newton(extreme.force.low),
-        high_kN=kilonewton_from_newton(extreme.force.high),
+        max_kN=kilonewton_from_newton(force.value),
+        low_kN=kilonewton_from_newton(force.low),
+        high_kN=kilonewton_from_newton(force.high),
         case=record_point(extreme.governing.case),
         coincident_kN={
             member: kilonewton_from_newton(coincident[member].value)
             for member in REPORTED_MEMBERS
             if member != extreme.member
         },
+        upper_bound_kN=upper,
     )
 
 

@@ -20,10 +20,13 @@ from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
 from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
+from netdesign.commands.envelope import envelope
+from netdesign.commands.glide import glide
 from netdesign.commands.paper import paper
 from netdesign.commands.report import DEFAULT_FOLDER, report
 from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options
+from netdesign.commands.solving import open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.outcome import Verdict
@@ -60,6 +63,8 @@ cli.add_command(bench)
 cli.add_command(completion)
 cli.add_command(diff)
 cli.add_command(doctor)
+cli.add_command(envelope)
+cli.add_command(glide)
 cli.add_command(paper)
 cli.add_command(report)
 cli.add_command(standards)
@@ -90,9 +95,7 @@ cli.add_command(standards)
     show_default=True,
     help="Steady states; transient confirms governing cases by their histories.",
 )
-@click.option(
-    "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
-)
+@solving_options
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -112,6 +115,8 @@ def check(
     accuracy: float,
     method: Literal["steady", "transient"],
     jobs: int | None,
+    executor: str,
+    cache: bool,
     out: Path | None,
     language: Language,
     detail: Literal["summary", "full"],
@@ -140,17 +145,10 @@ def check(
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """
-    from netdesign.check_site import (
-        CheckRun,
-        count_cases,
-        follow_site,
-        judge_site,
-        solve_site,
-    )
+    from netdesign.check_site import judge_site
     from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
-    from netdesign.progress import show_progress
     from netdesign.report.files import (
         STUDY_FILE,
         ReportStyle,
@@ -158,6 +156,7 @@ def check(
         render_files,
     )
     from netdesign.rowcheck.probe import Probe
+    from netdesign.site_cases import CheckRun, follow_site
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -182,13 +181,15 @@ def check(
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
-        results = solve_site(site, run, on_done)
-    measured = follow_site(site, run)
-    probe = Probe(run.settings, run.creep_law)
-    studies = [
-        judge_site(site, results, profile, run, probe, measured) for profile in profiles
-    ]
+    with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
+        measured = follow_site(site, run)
+        probe = Probe(run.settings, run.creep_law, solved.runner)
+        studies = [
+            judge_site(
+                site, solved.results, profile, run, probe, measured, solved.envelopes
+            )
+            for profile in profiles
+        ]
     style = ReportStyle(language=language, detail=detail)
     write_files(render_files(studies, names, style))
     _show(studies, language, as_json=as_json, explain=explain)
@@ -286,20 +287,6 @@ def solve(
 
 
 @cli.command()
-def glide() -> None:
-    """Measure the glide factors of slip lengths again, beside the stored table."""
-    from netdesign.coupling.glide import measure_glide_factor
-    from netdesign.snow.creep_law import CREEP_LAWS
-    from netdesign.snow.ground import load_glide_tables
-
-    click.echo("creep law          slip length / d   N stored   N measured")
-    for name, table in load_glide_tables().items():
-        for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
-            measured = measure_glide_factor(CREEP_LAWS[name], ratio)
-            click.echo(f"{name:18} {ratio:15g} {stored:10.3f} {measured:12.3f}")
-
-
-@cli.command()
 @click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
 def verify(*, as_json: bool) -> None:
     """Run the verification pack: closed forms, invariants, other codes.
@@ -337,7 +324,7 @@ def main() -> NoReturn:
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted; run the same command again", err=True)
+        click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
         error.show()

@@ -12,13 +12,14 @@ from netdesign.coupling.history import Moment
 from netdesign.coupling.net_start import Start
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.staggered import StaggeredSettings
 from netdesign.coupling.transient import TransientSettings, solve_transient
 from netdesign.envelope.run import CaseTask
 from netdesign.site.model import MonitoringSeries
 from netdesign.snow.fluidity import COLDEST, FLUIDITY_EXPONENT, WARMEST
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import place_support
+from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_from_newton
 
@@ -96,6 +97,9 @@ def _record(task: CaseTask, series: MonitoringSeries) -> MonitoringRecord:
 def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
     if task.scene is None:
         return _Modelled(times_d=[], forces_kN=[], reason=task.refusal)
+    if task.layout is None or isinstance(task.settings, StaggeredSettings):
+        reason = "a history of member forces needs a support and an accuracy"
+        return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
         reason = "a single reading has no history"
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
@@ -107,13 +111,13 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
     if isinstance(solution, FailedSolution) or solution.history is None:
         reason = getattr(solution, "reason", "no history")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
-    return _read_member(task, solution, solution.history.moments, series.member)
+    return _read_member(task.layout, solution, solution.history.moments, series.member)
 
 
 def _read_member(
-    task: CaseTask, solution: Solution, moments: Sequence[Moment], member: str
+    layout: SupportLayout, solution: Solution, moments: Sequence[Moment], member: str
 ) -> _Modelled:
-    points = place_support(task.layout, solution.head_point)
+    points = place_support(layout, solution.head_point)
     found = _Modelled(times_d=[], forces_kN=[])
     for moment in moments:
         foot, head = moment.foot.tolist(), moment.head.tolist()
@@ -121,7 +125,7 @@ def _read_member(
             points,
             foot_pull_per_m=(foot[0], foot[1]),
             head_pull_per_m=(head[0], head[1]),
-            post_spacing=task.layout.post_spacing,
+            post_spacing=layout.post_spacing,
         )
         if isinstance(forces, FailedSupport):
             return replace(found, reason=forces.reason)

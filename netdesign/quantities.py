@@ -51,6 +51,9 @@ _ROWS = (
     _row("density_kg_m3", "ρ", "Density", "kg/m³", None),
     _row("friction_deg", "φ", "Friction angle", "°", None),
     _row("inclination_deg", "θ", "Inclination", "°", None),
+    _row("thickness_m", "d", "Snow thickness", "m", None),
+    _row("slack", "", "Slack", "", None),
+    _row("glide_factor", "N", "Glide factor", "", None),
     # geometry
     _row("slope_deg", "ψ", "Slope angle", "°", 1),
     _row("snow_thickness_m", "d", "Snow thickness", "m", 2),

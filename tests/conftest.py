@@ -7,9 +7,16 @@ order of a threaded sum must not decide a last digit.
 from __future__ import annotations
 
 import os
+import tempfile
 
 for _library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{_library}_NUM_THREADS"] = "1"
+
+# Runs of the program must neither use nor fill the user's store of finished cases.
+if "NETDESIGN_STORE" not in os.environ:
+    os.environ["NETDESIGN_STORE"] = os.path.join(  # noqa: PTH118
+        tempfile.mkdtemp(prefix="netdesign-tests-"), "cases.sqlite"
+    )
 
 import math  # noqa: E402  (all of these after the environment)
 from collections.abc import Callable  # noqa: E402

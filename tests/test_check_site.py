@@ -6,17 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.check_site import (
-    REPORTED_MEMBERS,
-    CheckRun,
-    count_cases,
-    judge_site,
-    solve_site,
-)
+from netdesign.check_site import REPORTED_MEMBERS, judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
+from netdesign.envelope.runner import Runner
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import (
     MEMBER_MODES,
@@ -26,6 +21,7 @@ from netdesign.site.model import (
     Resistance,
     Site,
 )
+from netdesign.site_cases import CheckRun, count_cases, solve_site
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 
@@ -172,8 +168,9 @@ def test_each_row_gets_its_own_forces(results):
 
 def test_progress_sees_every_case(results):
     seen = []
-    solve_site(build_site(ROWS[0]), RUN, seen.append)
-    assert [one.case for one in seen] == [one.case for one in results[0]]
+    solve_site(build_site(ROWS[0]), RUN, Runner(on_done=seen.append))
+    pulls = [one.state.foot for one in seen]
+    assert pulls == [one.solution.foot for one in results[0]]
 
 
 def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):

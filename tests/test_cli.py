@@ -376,10 +376,11 @@ def test_what_is_no_workbook_ends_with_3(tmp_path, content):
 # --- bugs, interrupts, closed pipes ------------------------------------------------
 
 BUG = """
-import netdesign.check_site
+import netdesign.site_cases
 def solve_site(*_):
     raise ZeroDivisionError("spoilt")
-netdesign.check_site.solve_site = solve_site
+netdesign.site_cases.solve_site = solve_site
+netdesign.site_cases.search_site = solve_site
 """
 
 

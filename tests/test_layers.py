@@ -29,7 +29,8 @@ ROWS = (
     {"envelope"},
     {"site"},
     {
-        *("study", "check_site", "monitoring", "rowcheck"),
+        *("study", "check_site", "monitoring", "rowcheck", "site_cases"),
+        *("envelope_record", "envelope_file"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
     {"benchmark"},
@@ -45,7 +46,14 @@ NEIGHBOURS = {
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares
-    ("check_site", "monitoring"),
+    ("check_site", "site_cases"),  # judges what site_cases.py solved
+    ("check_site", "envelope_record"),
+    ("envelope_record", "study"),
+    ("envelope_file", "envelope_record"),
+    ("envelope_file", "study"),
+    ("site_cases", "monitoring"),
+    ("site_cases", "rowcheck"),  # the scene of a row at a case
+    ("site_cases", "study"),
     ("monitoring", "study"),  # fills in what study.py declares too
     ("cli", "commands"),  # registers what would make it too long
     ("rowcheck", "study"),  # so does this
@@ -56,11 +64,15 @@ NEIGHBOURS = {
 THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.grid", "solution_file", "verification.*", "benchmark.*"),
+        *("envelope.*", "solution_file", "verification.*", "benchmark.*"),
         *("monitoring", "paper.runs", "paper.findings", "report.net_figures"),
         *("guideline.comparison", "commands.doctor"),
     ),
-    "scipy": ("snow.*", "verification.*", "benchmark.reference_path"),
+    "scipy": (
+        *("snow.*", "envelope.store", "verification.*"),
+        "benchmark.reference_path",
+    ),
+    "distributed": ("envelope.workers",),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),
     "openpyxl": ("site.xlsx", "site.annotate"),
     "defusedxml": ("site.xlsx", "site.ods"),
@@ -85,6 +97,7 @@ ONLY_INSIDE_FUNCTIONS = {"openpyxl", "defusedxml", "xlsxwriter", "jinja2"} | {
     "matplotlib",
     "pandas",
     "rich",
+    "distributed",
 }
 
 

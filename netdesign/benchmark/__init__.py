@@ -1,1 +1,1 @@
-"""Run time against error, and stability under stress, of the program itself."""
+"""The program measured: run time against error, stability, cost of the envelope."""

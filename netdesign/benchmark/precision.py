@@ -40,10 +40,16 @@ from netdesign.coupling.transient import (
     solve_transient,
 )
 from netdesign.errors import SolveError
+from netdesign.snow.mesh import MeshSize
 
 BENCH_SCHEMA = "netdesign.bench/1"
 HISTORY_ACCURACY = 0.01  # of the steps
 
+# Even meshes as one draws them without a thought for the net's ends.
+PLAIN_LEVELS = tuple(
+    MeshSize(net_spacing=h, corner=h / 2, sectors=1, upslope_spacing=2 * h)
+    for h in (1 / 4, 1 / 8, 1 / 16, 1 / 32)
+)
 _TIGHT = 1e-4  # accuracy asked for; a pair of meshes is never stopped by it
 
 
@@ -63,7 +69,7 @@ Solve = Callable[[], Solution | FailedSolution]
 
 
 def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
-    """Rows of one scene: every pair of neighbouring levels, both paths.
+    """Rows of one scene: every pair of neighbouring levels, all paths.
 
     Raises
     ------
@@ -81,6 +87,10 @@ def measure_steady(name: str, scene: Scene, effort: Effort = FULL) -> list[Row]:
             "reference": partial(solve_steady, scene, plain),
         }
         rows += _measure(name, "steady", solves, truth, effort.repeats)
+    for pair in pairwise(PLAIN_LEVELS[: effort.finest]):
+        plain = replace(settings, levels=pair, step=reference_path.advance)
+        solve = partial(solve_steady, scene, plain)
+        rows += _measure(name, "steady", {"plain": solve}, truth, effort.repeats)
     return rows
 
 

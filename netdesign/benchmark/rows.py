@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Path = Literal["fast", "reference"]
+Path = Literal["fast", "reference", "plain"]
 Method = Literal["steady", "transient"]
 
 
@@ -18,7 +18,8 @@ class Row:
     scene, method : str
         What was solved, and how.
     path : str
-        ``fast`` kernel or plain scikit-fem (``reference``).
+        ``fast`` kernel; its meshes solved in scikit-fem (``reference``); scikit-fem on
+        even meshes, without grading, each from the start (``plain``).
     elements, degrees_of_freedom : int
         Of the finer mesh.
     wall_s : float

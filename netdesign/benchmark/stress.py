@@ -1,7 +1,8 @@
 """Stress test: random scenes converge, are refused with a reason, or count as failed.
 
 Refused is what the model names as outside of itself: before any solve, or while
-solving with the outcome ``out_of_validity``. All else that does not converge fails.
+solving with the outcome ``out_of_validity``, or ``no_equilibrium`` with its cause in
+the scene. All else that does not converge fails.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ STRESS_SCHEMA = "netdesign.stress/1"
 LARGEST_BALANCE = 1e-8  # of the weight
 DEFAULT_ACCURACY = 0.005
 _SLOWEST_SHOWN = 5
+_NAMED = (Outcome.OUT_OF_VALIDITY, Outcome.NO_EQUILIBRIUM)
 
 Kind = Literal["converged", "refused before", "refused while solving", "failed"]
 
@@ -118,11 +120,7 @@ def _solve(
     if isinstance(solution, FailedSolution):
         return Attempt(
             number=number,
-            kind=(
-                "refused while solving"
-                if solution.outcome is Outcome.OUT_OF_VALIDITY
-                else "failed"
-            ),
+            kind=("refused while solving" if solution.outcome in _NAMED else "failed"),
             reason=f"{solution.outcome.value}: {solution.reason}",
             tables=tables,
             wall_s=elapsed,

@@ -22,6 +22,9 @@ class Summary:
         equal error; median over all scenes and meshes [-].
     least_times_faster, most_times_faster : float or None
         Over the same.
+    times_faster_at_error : float or None
+        Time of scikit-fem on even meshes over that of the fast path at equal error;
+        median over all scenes and even meshes [-].
     cost_order : float or None
         Median over the scenes of p in time ~ degrees of freedom^p, fast path [-].
     worst_cost_order : float or None
@@ -33,6 +36,7 @@ class Summary:
     times_faster: float | None
     least_times_faster: float | None
     most_times_faster: float | None
+    times_faster_at_error: float | None
     cost_order: float | None
     worst_cost_order: float | None
     error_order: float | None
@@ -42,6 +46,7 @@ def summarise(rows: Sequence[Row]) -> Summary:
     """Summary of the steady rows."""
     steady = [row for row in rows if row.method == "steady"]
     ratios = compare_paths(steady)
+    at_error = compare_at_error(steady)
     by_scene: dict[str, list[Row]] = defaultdict(list)
     for row in steady:
         if row.path == "fast":
@@ -59,6 +64,7 @@ def summarise(rows: Sequence[Row]) -> Summary:
         times_faster=median(ratios) if ratios else None,
         least_times_faster=min(ratios, default=None),
         most_times_faster=max(ratios, default=None),
+        times_faster_at_error=median(at_error) if at_error else None,
         cost_order=median(costs) if costs else None,
         worst_cost_order=max(costs, default=None),
         error_order=median(orders) if orders else None,
@@ -76,3 +82,25 @@ def compare_paths(rows: Sequence[Row]) -> list[float]:
         for row in rows
         if row.path == "reference" and (row.scene, row.elements) in fast
     ]
+
+
+def compare_at_error(rows: Sequence[Row]) -> list[float]:
+    """Time of each plain row over the least that the fast path takes for its error.
+
+    The fast path counts with the cheapest of its meshes that is at least as accurate;
+    plain rows more accurate than all of them are left out.
+    """
+    ratios = []
+    for row in rows:
+        if row.path != "plain":
+            continue
+        as_good = [
+            fast.wall_s
+            for fast in rows
+            if fast.path == "fast"
+            and fast.scene == row.scene
+            and fast.error <= row.error
+        ]
+        if as_good:
+            ratios.append(row.wall_s / min(as_good))
+    return ratios

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from netdesign.check_site import CheckRun
     from netdesign.site.model import Site
+    from netdesign.site_cases import CheckRun
 
 
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
@@ -19,7 +19,7 @@ _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 def announce(site: Site, run: CheckRun, *, as_json: bool) -> None:
     """Print net rows, cases and the predicted time."""
-    from netdesign.check_site import count_cases
+    from netdesign.site_cases import count_cases
 
     cases = count_cases(site)
     seconds = _measure_case(site, run) * cases / run.jobs
@@ -28,14 +28,16 @@ def announce(site: Site, run: CheckRun, *, as_json: bool) -> None:
             "schema": "netdesign.plan/1",
             "net_rows": len(site.rows),
             "cases": cases,
+            "is_searched": not site.ranges.is_grid,  # then about so many
             "jobs": run.jobs,
             "predicted_s": seconds,
             "notes": list(site.notes),
         }
         click.echo(json.dumps(plan, indent=1))
         return
+    about = "" if site.ranges.is_grid else "about "
     click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {cases} cases, about "
+        f"{site.file_name}: {len(site.rows)} net rows, {about}{cases} cases, about "
         f"{max(seconds, 1.0):.0f} s with {run.jobs} processes; nothing was written"
     )
     for note in site.notes:
@@ -44,8 +46,8 @@ def announce(site: Site, run: CheckRun, *, as_json: bool) -> None:
 
 def _measure_case(site: Site, run: CheckRun) -> float:
     """Seconds of one case on this machine: the middle of the ranges, for some rows."""
-    from netdesign.check_site import solve_site
     from netdesign.envelope.grid import Interval, Ranges
+    from netdesign.site_cases import solve_site
 
     def middle(interval: Interval) -> Interval:
         value = (interval.low + interval.high) / 2

@@ -51,6 +51,8 @@ _LOOSEST_INNER = 1e-2
 _FIRST_MESH = 5.0
 _CONTACT_ROUNDS = 30
 _HALVINGS = 4
+# Layers whose creep rates differ by more may have no steady state that rounds find.
+_LAYER_CONTRAST = 1e3
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
 # Corrected rounds remember little: contacts that changed make old ones mislead.
@@ -195,7 +197,9 @@ def _couple(
         )
         solves += flow.linear_solves
         if flow.outcome is not Outcome.CONVERGED:
-            raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+            raise _fail(
+                problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}"
+            )
         state = flow.state
         forces = compute_support_forces(problem.law, mesh, state)
         hanging = _hang(
@@ -217,10 +221,28 @@ def _couple(
         if _is_slow(misses, state):
             inverse = _invert_round(problem, mesh, state, hanging)
         curve = _mix(curves, misses, inverse)
-    raise SolveError(
+    raise _fail(
+        problem.law,
         Outcome.MAX_ITERATIONS,
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {settings.max_rounds} rounds",
+    )
+
+
+def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
+    """The failure, with what in the scene is known to leave no steady state."""
+    causes = []
+    if "one-sided" in (law.ground_contact, law.net_contact):
+        causes.append("snow lifts off a one-sided support and settles again")
+    rates = [layer.fluidity for layer in law.layers]
+    if max(rates) > _LAYER_CONTRAST * min(rates):
+        contrast = max(rates) / min(rates)
+        causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
+    if outcome is not Outcome.MAX_ITERATIONS or not causes:
+        return SolveError(outcome, what)
+    return SolveError(
+        Outcome.NO_EQUILIBRIUM,
+        f"no steady state was found ({what.rstrip('.')}): {' and '.join(causes)}",
     )
 
 

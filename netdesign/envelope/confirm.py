@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.checks.result import Band
@@ -10,15 +10,15 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.run import CaseResult, CaseTask, run_cases
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.search import RowEnvelope, build_point_task
 
 
 def confirm_rows(
     tasks: Sequence[Sequence[CaseTask]],
     results: Sequence[Sequence[CaseResult]],
     settings: TransientSettings,
-    *,
-    jobs: int = 1,
-    on_done: Callable[[CaseResult], None] | None = None,
+    runner: Runner | None = None,
 ) -> list[list[CaseResult]]:
     """Follow the history of every case that governs a member of its net row.
 
@@ -28,10 +28,8 @@ def confirm_rows(
         Of the steady envelope, by net row, each in the order of the grid.
     settings : TransientSettings
         Of the histories.
-    jobs : int
-        Processes.
-    on_done : callable, optional
-        Called with each history's result.
+    runner : Runner, optional
+        Where they are solved and kept; this process unless told otherwise.
 
     Returns
     -------
@@ -47,13 +45,36 @@ def confirm_rows(
     ]
     histories = run_cases(
         [replace(tasks[row][place], settings=settings) for row, place in places],
-        jobs=jobs,
-        on_done=on_done,
+        runner=runner,
     )
     confirmed = [list(of_row) for of_row in results]
     for (row, place), history in zip(places, histories, strict=True):
         confirmed[row][place] = merge_history(results[row][place], history)
     return confirmed
+
+
+def confirm_envelopes(
+    envelopes: Sequence[RowEnvelope],
+    settings: TransientSettings,
+    runner: Runner | None = None,
+) -> list[RowEnvelope]:
+    """Searched rows with the histories of their governing cases, as ``confirm_rows``.
+
+    What may hide between the cases stays that of the steady states.
+    """
+    tasks = [
+        [build_point_task(one.task, point) for point in one.maxima.points]
+        for one in envelopes
+    ]
+    results = confirm_rows(tasks, [one.results for one in envelopes], settings, runner)
+    return [
+        replace(
+            one,
+            results=tuple(of_row),
+            members=one.members if any(r.is_converged for r in of_row) else (),
+        )
+        for one, of_row in zip(envelopes, results, strict=True)
+    ]
 
 
 def find_governing(results: Sequence[CaseResult]) -> list[int]:

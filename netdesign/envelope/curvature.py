@@ -74,7 +74,7 @@ def _second_difference(
     place = samples.index(getattr(case, axis))
     middle = min(max(place, 1), len(samples) - 2)
     values = [
-        forces.get(replace(case, **{axis: samples[middle + step]}))
+        forces.get(replace(case, **{axis: samples[middle + step]}))  # type: ignore[arg-type]
         for step in (-1, 0, 1)
     ]
     before, at, after = values

@@ -10,14 +10,19 @@ import numpy as np
 
 from netdesign.errors import ModelError
 
+_USUAL_COUNT = 3  # of a range without a count, beside one with a count
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interval:
-    """Closed range of an uncertain quantity, in SI units, with sample count."""
+    """Closed range of an uncertain quantity, in SI units, with sample count.
+
+    Without a count the range is searched, not sampled.
+    """
 
     low: float
     high: float
-    count: int
+    count: int | None = None
 
     def __post_init__(self) -> None:
         """Refuse reversed and endless ranges, and samples that leave an end out."""
@@ -26,6 +31,8 @@ class Interval:
                 f"range {self.low!r} to {self.high!r}: must run from a finite low end "
                 "to a finite high end"
             )
+        if self.count is None:
+            return
         if self.count < 1 or (self.count == 1 and self.low != self.high):
             raise ModelError(f"range with {self.count} samples: at least 2 are needed")
 
@@ -34,7 +41,8 @@ class Interval:
         """Equally spaced values, both ends included."""
         if self.low == self.high:
             return (self.low,)
-        return tuple(float(v) for v in np.linspace(self.low, self.high, self.count))
+        count = self.count or _USUAL_COUNT
+        return tuple(float(v) for v in np.linspace(self.low, self.high, count))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,14 +53,25 @@ class Ranges:
     friction_angle: Interval  # [rad]
     inclination: Interval  # [rad]
 
+    @property
+    def is_grid(self) -> bool:
+        """Some range has a sample count, or none of them is a range at all."""
+        spans = (self.density, self.friction_angle, self.inclination)
+        wide = [span for span in spans if span.low < span.high]
+        return not wide or any(span.count is not None for span in wide)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class Case:
-    """One point of the ranges. SI units; angles in radians."""
+    """One point of the ranges. SI units; angles in radians.
+
+    ``others`` names further quantities that range, as in ``envelope.parameters``.
+    """
 
     density: float
     friction_angle: float
     inclination: float
+    others: tuple[tuple[str, float], ...] = ()
 
 
 def build_cases(ranges: Ranges) -> tuple[Case, ...]:

@@ -14,8 +14,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _HEIGHT_IN = 3.6
-_LABELS: dict[Path, str] = {"fast": "fast path", "reference": "plain scikit-fem"}
-_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK}
+_LABELS: dict[Path, str] = {
+    "fast": "fast path",
+    "reference": "scikit-fem, same meshes",
+    "plain": "scikit-fem, even meshes",
+}
+_COLOURS: dict[Path, str] = {"fast": ACCENT, "reference": INK, "plain": GREY}
 
 
 def draw_work_precision(rows: Sequence[Row]) -> str:
@@ -37,7 +41,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         axes.set_ylabel("run time [ms]")
         axes.invert_xaxis()
         axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)
-        figure.legend(frameon=False, loc="outside upper left", ncols=3)
+        figure.legend(frameon=False, loc="outside upper left", ncols=2)
     return write_svg(figure, "work-precision", "Run time against error")
 
 
@@ -55,7 +59,7 @@ def _draw_path(axes: Axes, rows: Sequence[Row], path: Path) -> None:
 
 def _draw_histories(axes: Axes, rows: Sequence[Row]) -> None:
     if rows:
-        axes.plot(*_places(rows), "x", color=GREY, markersize=5, label="transient")
+        axes.plot(*_places(rows), "x", color=ACCENT, markersize=5, label="transient")
 
 
 def _places(rows: Sequence[Row]) -> tuple[list[float], list[float]]:

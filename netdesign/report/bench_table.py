@@ -96,6 +96,11 @@ def _describe(rows: Sequence[Row]) -> list[str]:
             f"on the same mesh (median; {found.least_times_faster:.1f} to "
             f"{found.most_times_faster:.1f})"
         )
+    if found.times_faster_at_error is not None:
+        lines.append(
+            f"{found.times_faster_at_error:.0f} times faster than plain scikit-fem on "
+            "even meshes at equal error (median)"
+        )
     if found.cost_order is not None:
         lines.append(
             f"time grows as unknowns^{found.cost_order:.2f} (median; at most "

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, Literal
 
 from netdesign.report.envelope_figure import draw_envelope
+from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
 from netdesign.report.language import Words
@@ -103,11 +104,15 @@ def _draw_row(
     """Drawings of a net row by name; "" where there is nothing to draw."""
     from markupsafe import Markup, escape
 
+    record = row.envelope if is_full else None
     drawn = {
         "section": draw_section(row.drawing, anchor) if row.drawing else "",
-        "envelope": draw_envelope(row) if is_full else "",
+        "envelope": draw_envelope(row) if is_full and not record else "",
+        "maps": draw_maps(record) if record else "",
+        "lines": draw_lines(record) if record else "",
+        "drivers": draw_drivers(record) if record else "",
         "head": draw_head(row.head) if is_full and len(row.head) > 1 else "",
-        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-m") if is_full else "",
+        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r") if is_full else "",
     }
     figures = {
         name: Markup(translate_drawing(svg, words)) for name, svg in drawn.items()

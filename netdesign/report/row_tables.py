@@ -25,8 +25,8 @@ from netdesign.report.words import (
 from netdesign.study import ChangeRecord, CheckRecord, RowStudy, SpreadRecord
 
 _LAWS = {
-    "net_balance": "Snow's forces on the net less the pulls at its ends, over the "
-    "largest pull",
+    "global_balance": "Force missing from the global balance, over the weight",
+    "end_direction": "Sine of the angle between an end's pull and the net there",
     "friction_excess": "Shear on the net beyond the friction limit, over the weight",
     "capstan_ratio": "Largest over smallest tension of the net; the limit is what "
     "friction can hold around its curve",

@@ -49,7 +49,7 @@ class Sketch(Chart):
 
     def clip_area(self, name: str, points: Sequence[Point]) -> None:
         """Define an area that may bound other shapes."""
-        path = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         self.shapes.append(
             f'<clipPath id="{name}"><polygon points="{path}"/></clipPath>'
         )

@@ -25,7 +25,7 @@ _WORDS: dict[type, tuple[str, ...]] = {
     Step: ("numbers", "result"),
     Worked: ("title", "needed"),
     RowView: (
-        *("counts", "reasons", "unloaded", "flips"),
+        *("counts", "reasons", "unloaded", "flips", "searched"),
         *("guideline_sentence", "notes"),
     ),
     ReportView: ("counts", "scope", "notes"),

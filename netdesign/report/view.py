@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report import basis_tables, row_tables, tables
+from netdesign.report import basis_tables, envelope_tables, row_tables, tables
 from netdesign.report.check_view import (
     SEVERITY,
     CheckView,
@@ -51,6 +51,9 @@ class RowView:
     drawn_case: str
     unloaded: str  # members left out of the envelope figure, or ""
     extremes: Table
+    searched: str  # how the envelope was found; "" of a grid of cases
+    bounds: Table
+    drivers: Table
     failed: Table
     inputs: Table
     anchors: Table
@@ -161,6 +164,9 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         drawn_case=name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row),
         extremes=tables.build_extremes(row),
+        searched=envelope_tables.describe_search(row),
+        bounds=envelope_tables.build_bounds(row),
+        drivers=envelope_tables.build_drivers(row),
         failed=tables.build_failed(row),
         inputs=tables.build_inputs(row.inputs, "Inputs, with the cell of each"),
         anchors=row_tables.build_anchors(row),

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from netdesign.envelope.grid import Case, Ranges
 from netdesign.envelope.run import CaseResult
@@ -44,7 +45,7 @@ class Target:
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
-        Of the whole grid.
+        Of the whole grid, or of the search.
     """
 
     row: NetRow
@@ -146,7 +147,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     governing case is told, between the nearest sample that passes and the one that
     does not.
     """
-    samples = target.ranges.friction_angle.samples
+    samples = _list_friction_angles(target)
     worst = [_worst_at(target, angle) for angle in samples]
     if all(one is not None and one <= 1.0 for one in worst):
         return None
@@ -179,6 +180,25 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
         sense="at most" if is_upper else "at least",
         solves=probe.count - before,
     )
+
+
+def _list_friction_angles(target: Target) -> list[float]:
+    """Angles that stand for the whole of the other ranges, and the governing one.
+
+    A search solves some angles at a few cases only; an angle counts where the corners
+    of density and inclination were solved.
+    """
+    density, inclination = target.ranges.density, target.ranges.inclination
+    corners = set(
+        product((density.low, density.high), (inclination.low, inclination.high))
+    )
+    solved: dict[float, set[tuple[float, float]]] = {}
+    for result in target.results:
+        case = result.case
+        at = solved.setdefault(case.friction_angle, set())
+        at.add((case.density, case.inclination))
+    whole = {angle for angle, cases in solved.items() if cases >= corners}
+    return sorted(whole | {target.governing.friction_angle})
 
 
 def _bisect_friction(

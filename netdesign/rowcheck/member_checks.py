@@ -18,6 +18,7 @@ from netdesign.envelope.curvature import EnvelopeGap, estimate_gap
 from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
 from netdesign.envelope.grid import Case, Ranges
 from netdesign.envelope.run import CaseResult
+from netdesign.envelope.search import RowEnvelope
 from netdesign.outcome import Verdict
 from netdesign.rowcheck.effects import RowEffects, check_ends, find_effects
 from netdesign.rowcheck.flips import (
@@ -42,7 +43,8 @@ _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 class RowTask:
     """One net row under one profile.
 
-    ``probe`` is None where nothing beyond the envelope is to be solved.
+    ``probe`` is None where nothing beyond the envelope is to be solved; ``envelope``
+    where the results are a grid.
     """
 
     site: Site
@@ -50,6 +52,27 @@ class RowTask:
     results: Sequence[CaseResult]
     standard: Standard
     probe: Probe | None
+    envelope: RowEnvelope | None = None
+
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces at the cases, by member."""
+        if self.envelope is None:
+            return find_extremes(self.results)
+        return self.envelope.extremes
+
+    @property
+    def gap(self) -> str:
+        """Why the extremes do not cover every case; "" if they do."""
+        if self.envelope is None:
+            return describe_gap(self.results)
+        return self.envelope.gap
+
+    def estimate_between(self, extreme: Extreme) -> EnvelopeGap:
+        """What may hide between the cases: bounded by a search, else estimated."""
+        if self.envelope is None:
+            return estimate_gap(extreme, self.results)
+        return EnvelopeGap(size=self.envelope.hidden(extreme.member), unknown=())
 
     @property
     def ranges(self) -> Ranges:
@@ -59,7 +82,7 @@ class RowTask:
 
 def check_row(task: RowTask) -> list[CheckRecord]:
     """Every check of a row: each member in each mode, then the geometry."""
-    extremes = find_extremes(task.results)
+    extremes = task.extremes
     effects = find_effects(task.row, task.standard)
     checks = [
         _check_one(task, given, extremes, effects) for given in task.row.resistances
@@ -100,10 +123,10 @@ def _check_one(
     effects: RowEffects,
 ) -> CheckRecord:
     extreme = extremes.get(given.member)
-    gap = describe_gap(task.results)
+    gap = task.gap
     if extreme is None:
         return _record(check_member(None, given, task.standard, gap=gap), given)
-    between = estimate_gap(extreme, task.results)
+    between = task.estimate_between(extreme)
     factor = effects.factor(given.member)
     action = _widen(extreme.force, between).times(factor)
     result = check_member(action, given, task.standard, gap=gap)
@@ -219,7 +242,7 @@ def _list_changes(
         return []
     used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
-    gap = describe_gap(task.results)
+    gap = task.gap
     if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
         return []  # a case without result is not mended by any change
     changes = _list_resistance_changes(task, given, result)
@@ -231,7 +254,8 @@ def _list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
-    margin = 1.0 + between.size / extreme.force.high
+    at_cases = find_extremes(task.results)[given.member].force.high
+    margin = (extreme.force.high + between.size) / at_cases
     on_force = effects.factor(given.member) * (result.action_factor or math.nan)
     target = Target(
         row=task.row,

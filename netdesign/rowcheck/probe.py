@@ -5,7 +5,8 @@ from __future__ import annotations
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.grid import Case
-from netdesign.envelope.run import CaseResult, build_task, solve_case
+from netdesign.envelope.run import CaseResult, build_task, run_cases
+from netdesign.envelope.runner import Runner
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.snowpack import Snowpack
@@ -46,10 +47,14 @@ class Probe:
     depend on them.
     """
 
-    def __init__(self, settings: SolverSettings, law: CreepLaw) -> None:
+    def __init__(
+        self, settings: SolverSettings, law: CreepLaw, runner: Runner | None = None
+    ) -> None:
+        """Without a ``runner`` cases are solved in this process and kept nowhere."""
         self.law = law
         self.count = 0
         self._settings = settings
+        self._runner = runner
         self._known: dict[tuple[NetRow, Case, str], CaseResult] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
@@ -61,5 +66,5 @@ class Probe:
             task = build_task(
                 case, lambda c: build_scene(row, c, law), row.layout, self._settings
             )
-            self._known[key] = solve_case(task)
+            (self._known[key],) = run_cases([task], self._runner)
         return self._known[key]

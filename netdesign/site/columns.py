@@ -30,7 +30,7 @@ from netdesign.units import degree_from_radian
 
 # Chosen low: a tauter net pulls harder on its anchors.
 DEFAULT_SLACK = 0.02
-DEFAULT_SAMPLES = 3
+SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
 DEFAULT_INCLINATION_DEG = (25.0, 35.0)
 
 _SNOW_SIZE = ("snow_thickness", "snow_height")
@@ -400,8 +400,8 @@ RANGES = word_plan(
                 aliases=("count",),
                 kind="count",
                 bounds=(1.0, 25.0),
-                note=f"number of values from low to high; left empty: "
-                f"{DEFAULT_SAMPLES}",
+                note="number of values from low to high; left empty: the worst case is "
+                "searched, with a bound",
             ),
         ),
     )

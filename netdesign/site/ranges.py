@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from netdesign.envelope.grid import Interval, Ranges
 from netdesign.site.columns import (
     DEFAULT_INCLINATION_DEG,
-    DEFAULT_SAMPLES,
     RANGE_QUANTITIES,
+    SEARCHED,
 )
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
 from netdesign.site.fields import Field, split_heading
@@ -159,13 +159,13 @@ def _read_end(
 def _settle_samples(
     low: Reading, high: Reading, samples: Reading, findings: list[Finding]
 ) -> Reading:
-    """Check order and count of a range; an empty count gets its default."""
+    """Check order and count of a range; an empty count means a search."""
     is_single = low.number == high.number
     if low.number > high.number:
         refuse(high, f"is below the low end in {low.place}", "low to high", findings)
     elif samples.state == "blank":
-        count = 1.0 if is_single else float(DEFAULT_SAMPLES)
-        return replace(samples, state="default", value=count)
+        value = 1.0 if is_single else SEARCHED
+        return replace(samples, state="default", value=value)
     elif is_single and samples.number != 1:
         refuse(samples, "is too many for a single value", "1", findings)
     elif samples.number == 1 and not is_single:
@@ -184,15 +184,15 @@ def _default_inclination(field: Field) -> _Range:
         )
         for key, value in zip(("low", "high"), DEFAULT_INCLINATION_DEG, strict=True)
     )
-    count = float(DEFAULT_SAMPLES)
     samples_field = Field(key="samples", label="samples", kind="count")
-    samples = Reading(field=samples_field, state="default", value=count)
+    samples = Reading(field=samples_field, state="default", value=SEARCHED)
     return _build_range(field, (low, high, samples))
 
 
 def _build_range(field: Field, line: _Line) -> _Range:
     low, high, samples = line
-    interval = Interval(low=low.si, high=high.si, count=int(samples.number))
+    count = None if samples.value == SEARCHED else int(samples.number)
+    interval = Interval(low=low.si, high=high.si, count=count)
     labelled = replace(
         samples, field=replace(samples.field, label=f"{field.label}, samples")
     )

@@ -142,17 +142,14 @@ def build_placed_mesh(
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
     operator = build_strain_operator(template, gradients, axes)
-    dofs = list_velocity_dofs(template)
     if element == "mixed":
         operator = add_pressure_rows(operator)
-        first = 2 * nodes.shape[1]
-        dofs = np.hstack([dofs, first + template.triangles[:3].T])
     return PlacedMesh(
         template=template,
         nodes=nodes,
         weights=weights,
         operator=operator,
-        dofs=dofs,
+        dofs=list_dofs(template, element),
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,
         axes=axes,
@@ -362,6 +359,17 @@ def reference_element() -> tuple[Floats, Floats, Floats]:
     points, weights = get_quadrature(element.refdom, QUADRATURE_DEGREE)
     values, gradients = zip(*(element.lbasis(points, i) for i in range(6)), strict=True)
     return np.array(values).T, np.array(gradients), weights
+
+
+@lru_cache(maxsize=256)
+def list_dofs(template: MeshTemplate, element: Element) -> Ints:
+    """Unknowns of each triangle, velocities first, shape (n_triangles, C)."""
+    dofs = list_velocity_dofs(template)
+    if element == "mixed":
+        first = 2 * template.nodes.shape[1]
+        dofs = np.hstack([dofs, first + template.triangles[:3].T])
+    dofs.setflags(write=False)
+    return dofs
 
 
 def list_velocity_dofs(template: MeshTemplate) -> Ints:

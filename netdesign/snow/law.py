@@ -18,7 +18,7 @@ from netdesign.snow.mesh import Floats, MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
 # Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).
-STRESS_FLOOR = 1e-3
+STRESS_FLOOR = 3e-3
 
 Sides = Literal["one-sided", "two-sided"]
 

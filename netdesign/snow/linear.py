@@ -9,7 +9,7 @@ Wide meshes go to SuperLU.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -58,7 +58,7 @@ class Blocks(NamedTuple):
         return np.asarray(sums)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Ordering:
     """Order of the unknowns of a template.
 
@@ -68,10 +68,41 @@ class Ordering:
         Row of each unknown.
     band : int
         Half bandwidth.
+    known : dict
+        Places found before, by array of unknowns.
     """
 
     place: Ints
     band: int
+    known: dict[tuple[int, bool], tuple[Ints, Ints]] = field(default_factory=dict)
+
+    def find_below(self, dofs: Ints) -> Ints:
+        """Where blocks of these unknowns go in storage of the lower half band.
+
+        What lies above the diagonal goes to one place behind the end.
+        """
+        return self._find(dofs, lower=True)
+
+    def find_all(self, dofs: Ints) -> Ints:
+        """Where blocks of these unknowns go in LAPACK's storage of the whole band."""
+        return self._find(dofs, lower=False)
+
+    def _find(self, dofs: Ints, *, lower: bool) -> Ints:
+        # the same array comes again with each solve: it is its own key while it lives
+        kept = self.known.get((id(dofs), lower))
+        if kept is not None and kept[0] is dofs:
+            return kept[1]
+        row = self.place[dofs]
+        if lower:
+            height = self.band + 1
+            below = row[:, :, None] - row[:, None, :]
+            end = self.place.size * height
+            places = np.where(below >= 0, row[:, None, :] * height + below, end)
+        else:
+            places = row[:, None, :] * 3 * self.band + 2 * self.band + row[:, :, None]
+        if not dofs.flags.writeable:
+            self.known[id(dofs), lower] = (dofs, places.ravel())
+        return np.asarray(places.ravel())
 
 
 def build_ordering(
@@ -208,11 +239,8 @@ def _solve_cholesky(
     height, size = ordering.band + 1, len(load)
     storage = np.zeros(size * height + 1)
     for part in parts:
-        row = ordering.place[part.dofs]
-        below = row[:, :, None] - row[:, None, :]
-        places = np.where(below >= 0, row[:, None, :] * height + below, size * height)
         storage += np.bincount(
-            places.ravel(), part.values.ravel(), minlength=storage.size
+            ordering.find_below(part.dofs), part.values.ravel(), minlength=storage.size
         )
     matrix = storage[:-1].reshape(size, height)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
@@ -237,10 +265,8 @@ def _solve_lu(
     height = 3 * band + 1
     storage = np.zeros(size * height)
     for part in parts:
-        row = ordering.place[part.dofs]
-        places = row[:, None, :] * (height - 1) + 2 * band + row[:, :, None]
         storage += np.bincount(
-            places.ravel(), part.values.ravel(), minlength=storage.size
+            ordering.find_all(part.dofs), part.values.ravel(), minlength=storage.size
         )
     matrix = storage.reshape(size, height)
     matrix[ordering.place[held], 2 * band] = _scale_of(matrix[:, 2 * band])

@@ -10,7 +10,7 @@ from netdesign.benchmark.precision import Effort, measure_steady, write_bench
 from netdesign.benchmark.rows import Row
 from netdesign.benchmark.scenes import HISTORY_SCENES, SCENES, load_scenes
 from netdesign.benchmark.statistics import fit_order, share, summarise_times
-from netdesign.benchmark.summary import summarise
+from netdesign.benchmark.summary import compare_at_error, summarise
 from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
@@ -29,13 +29,13 @@ def rows():
     return measure_steady("rough-ground", scenes["rough-ground"], LEAST)
 
 
-def test_both_paths_on_every_mesh(rows):
-    assert [row.path for row in rows] == ["fast", "reference"] * 2
+def test_both_paths_on_every_mesh_and_plain_meshes(rows):
+    assert [row.path for row in rows] == ["fast", "reference"] * 2 + ["plain"]
     assert rows[0].elements == rows[1].elements < rows[2].elements
 
 
 def test_paths_err_alike(rows):
-    for fast, plain in zip(rows[::2], rows[1::2], strict=True):
+    for fast, plain in zip(rows[:4:2], rows[1:4:2], strict=True):
         assert plain.error == pytest.approx(fast.error, rel=1e-5)
         assert plain.linear_solves == fast.linear_solves > 0
 
@@ -99,6 +99,20 @@ def test_summary_of_known_rows():
     assert found.cost_order == pytest.approx(1.5)
     assert found.worst_cost_order == pytest.approx(1.5)
     assert found.error_order == pytest.approx(2.0)
+
+
+def test_paths_at_equal_error():
+    """Against the cheapest fast row at least as good; better ones have no partner."""
+    rows = [
+        a_row(wall_s=1.0, error=0.01),
+        a_row(wall_s=4.0, error=0.001),
+        a_row(path="plain", wall_s=30.0, error=0.02),
+        a_row(path="plain", wall_s=80.0, error=0.005),
+        a_row(path="plain", wall_s=999.0, error=0.0001),
+        a_row(path="plain", scene="another", wall_s=999.0, error=0.5),
+    ]
+    assert sorted(compare_at_error(rows)) == [20.0, 30.0]
+    assert summarise(rows).times_faster_at_error == pytest.approx(25.0)
 
 
 def test_summary_of_too_few_rows():

@@ -336,3 +336,13 @@ def test_pressures_are_skipped_far_from_ice(solved):
     solution = solved()
     unknowns = solution.cost.degrees_of_freedom
     assert solution.cost.skipped.pressure_unknowns > 0.1 * unknowns
+
+
+def test_failure_names_what_leaves_no_steady_state(a_scene):
+    """One-sided ground under snow that slips: too few rounds are not its only cause."""
+    scene = replace(
+        a_scene(inclination_deg=30.0, friction_deg=5.0), ground_contact="one-sided"
+    )
+    result = solve_steady(scene, replace(COARSE, max_rounds=2))
+    fails_with(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
+    assert "the net still moves by" in result.reason

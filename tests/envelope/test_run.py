@@ -1,6 +1,4 @@
 import math
-import multiprocessing
-import os
 import pickle
 from dataclasses import fields
 from itertools import product
@@ -9,8 +7,9 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.envelope import run
+from netdesign.envelope import workers
 from netdesign.envelope.run import run_cases, solve_case
+from netdesign.envelope.runner import Runner
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
@@ -24,14 +23,6 @@ MEMBERS = {
     "post",
     "post_base",
 }
-
-
-class DyingScene(Scene):
-    """Takes its whole process down as soon as somebody solves it."""
-
-    @property
-    def flow_law(self):
-        os._exit(9)
 
 
 class FaultyScene(Scene):
@@ -49,13 +40,6 @@ def sizes(result):
 
 def densities(results):
     return [result.case.density for result in results]
-
-
-@pytest.fixture
-def threads_asked_for(monkeypatch):
-    """Thread counts as a user may have set them."""
-    monkeypatch.setenv("OMP_NUM_THREADS", "3")
-    monkeypatch.delenv("MKL_NUM_THREADS", raising=False)
 
 
 def test_a_solved_case_names_every_member_with_its_band(task):
@@ -87,7 +71,7 @@ def forces_of_moved_pulls(one, solution, foot_angle, head_angle):
         for pull, angle in ((solution.foot, foot_angle), (solution.head, head_angle))
     )
     return compute_anchor_forces(
-        place_support(one.layout, tuple(solution.scene.net.head)),
+        place_support(one.layout, tuple(one.scene.net.head)),
         foot_pull_per_m=foot,
         head_pull_per_m=head,
         post_spacing=one.layout.post_spacing,
@@ -123,9 +107,10 @@ def test_bands_hold_where_foot_and_guy_share_an_anchor(task):
 def test_results_come_in_the_order_of_the_tasks(task):
     wanted = [400.0, 250.0, 325.0]
     seen = []
-    results = run_cases([task(density) for density in wanted], on_done=seen.append)
+    tasks = [task(density) for density in wanted]
+    results = run_cases(tasks, Runner(on_done=seen.append))
     assert densities(results) == wanted
-    assert seen == results
+    assert [end.state for end in seen] == [result.solution for result in results]
 
 
 def test_a_refused_scene_is_a_named_failure_not_a_gap(task):
@@ -159,69 +144,26 @@ def test_a_support_that_cannot_stand_fails_by_name(task):
     assert result.member_forces == {}
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_a_bug_in_one_case_spares_the_others(task, jobs):
+def test_a_bug_in_one_case_spares_the_others(task):
     tasks = [task(250.0), task(300.0, kind=FaultyScene), task(350.0)]
-    results = run_cases(tasks, jobs=jobs)
+    results = run_cases(tasks)
     assert densities(results) == [250.0, 300.0, 350.0]
     assert [result.is_converged for result in results] == [True, False, True]
     assert results[1].outcome is Outcome.WORKER_FAILED
     assert results[1].reason == "ZeroDivisionError: spoilt"
 
 
-def test_one_process_or_two_give_the_same_results(task, threads_asked_for):
-    wanted = [250.0, 917.0, 300.0, 400.0]
-    alone = run_cases([task(density) for density in wanted], jobs=1)
-    seen = []
-    shared = run_cases(
-        [task(density) for density in wanted], jobs=2, on_done=seen.append
-    )
-    assert sorted(densities(seen)) == sorted(wanted)
-    for one, other in zip(alone, shared, strict=True):
-        assert one.case == other.case
-        assert (one.outcome, one.reason) == (other.outcome, other.reason)
-        # threads may add in another order; nothing else may differ
-        assert sizes(other) == pytest.approx(sizes(one), rel=1e-10, abs=1e-6)
-    assert os.environ["OMP_NUM_THREADS"] == "3"
-    assert "MKL_NUM_THREADS" not in os.environ
-
-
-def test_a_worker_that_dies_leaves_named_failures(task):
-    tasks = [task(250.0), task(300.0, kind=DyingScene), task(350.0), task(400.0)]
-    results = run_cases(tasks, jobs=2)
-    assert densities(results) == [250.0, 300.0, 350.0, 400.0]
-    assert results[1].outcome is Outcome.WORKER_FAILED
-    for result in results:
-        if not result.is_converged:  # others may have been lost with the pool
-            assert result.outcome is Outcome.WORKER_FAILED
-            assert result.reason == "a worker process ended abruptly"
-            assert result.member_forces == {}
-    assert multiprocessing.active_children() == []
-
-
-def test_an_interrupt_leaves_no_process_behind(task):
-    def interrupt(_):
-        raise KeyboardInterrupt
-
-    tasks = [task(250.0 + 10.0 * k) for k in range(6)]
-    with pytest.raises(KeyboardInterrupt):
-        run_cases(tasks, jobs=2, on_done=interrupt)
-    for child in multiprocessing.active_children():
-        child.join(timeout=60.0)  # each ends its case at most
-    assert multiprocessing.active_children() == []
-
-
 def test_an_interrupt_is_no_failed_case(task, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(run, "solve_steady", interrupted)
+    monkeypatch.setattr(workers, "solve_scene", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run_cases([task(250.0)])
 
 
 def test_no_task_gives_no_result():
-    assert run_cases([], jobs=2) == []
+    assert run_cases([]) == []
 
 
 def test_tasks_and_results_survive_the_way_to_a_worker_and_back(task):

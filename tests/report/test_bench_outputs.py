@@ -81,7 +81,7 @@ def test_plot():
     svg = draw_work_precision(ROWS)
     root = ElementTree.fromstring(svg)
     words = [element.text for element in root.iter() if element.tag.endswith("text")]
-    assert {"fast path", "plain scikit-fem"} <= set(words)
+    assert {"fast path", "scikit-fem, same meshes"} <= set(words)
     assert "run time [ms]" in words
     assert draw_work_precision(ROWS) == svg
 

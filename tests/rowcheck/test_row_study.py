@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.check_site import CheckRun, judge_site, solve_site
+from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.rowcheck.probe import Probe
 from netdesign.site.model import MEMBER_MODES, NetRow, Project, Resistance, Site
+from netdesign.site_cases import CheckRun, solve_site
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 

@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.check_site import CheckRun, judge_site, solve_site
+from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Case
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.workers import OwnProcess
 from netdesign.rowcheck.probe import build_scene
 from netdesign.site.reader import read_site
+from netdesign.site_cases import CheckRun, search_site, solve_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 
 SNOW = [
@@ -139,13 +142,14 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     layered["Nets"][2:] = []
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     site = read_site(save(layered))
-    results = solve_site(site, run)
-    for result in results[0]:
-        scene = result.solution.scene
-        densities = [layer.density for layer in scene.layers]
+    workers = Recording()
+    results = solve_site(site, run, Runner(workers=workers))
+    packs = [job.scene.snowpack for job in workers.seen]
+    assert [pack.density for pack in packs] == [r.case.density for r in results[0]]
+    for pack in packs:
         # in proportion as typed, with the mean of the case
-        assert densities == pytest.approx(
-            [density * result.case.density / MEAN for density in (450, 300, 200)]
+        assert [layer.density for layer in pack.layers] == pytest.approx(
+            [density * pack.density / MEAN for density in (450, 300, 200)]
         )
     study = judge_site(site, results, load_standard("nf-p-95-304-style"), run)
     (note,) = [note for note in study.notes if "layers" in note]
@@ -156,3 +160,34 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
         found[0][0].member_forces["uphill_guy"].value for found in (results, uniform)
     ]
     assert abs(heads[0] / heads[1] - 1) > 0.01
+
+
+def test_layers_follow_the_density_of_a_search_too(layered, save):
+    layered["Ranges"][1][1:4] = [300, 360, None]
+    layered["Ranges"][2][1:4] = [30, 30, None]
+    layered["Ranges"].append(["net inclination [deg]", 30, 30, None])
+    layered["Nets"][2:] = []
+    run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
+    site = read_site(save(layered))
+    assert not site.ranges.is_grid
+    workers = Recording()
+    (found,) = search_site(site, run, Runner(workers=workers))
+    assert found.gap == ""
+    densities = {job.scene.snowpack.density for job in workers.seen}
+    assert {300.0, 330.0, 360.0} <= densities
+    for job in workers.seen:
+        pack = job.scene.snowpack
+        assert [layer.density for layer in pack.layers] == pytest.approx(
+            [density * pack.density / MEAN for density in (450, 300, 200)]
+        )
+
+
+class Recording(OwnProcess):
+    """Workers that remember their jobs."""
+
+    def __init__(self):
+        self.seen = []
+
+    def solve(self, jobs):
+        self.seen += jobs
+        return super().solve(jobs)

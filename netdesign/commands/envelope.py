@@ -1,0 +1,231 @@
+"""``netdesign envelope``: the worst case of one scene over ranges."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from netdesign.commands.ranges import RANGE, GivenRange
+from netdesign.commands.solving import solving_options
+
+if TYPE_CHECKING:
+    from netdesign.coupling.scene import Scene
+    from netdesign.coupling.solve import Settings
+    from netdesign.envelope.parameters import Box
+    from netdesign.envelope.search import RowTask
+    from netdesign.study import EnvelopeRecord
+
+_OPTIONS = (
+    ("--density", "density", "Snow density [kg/m3]."),
+    ("--friction", "friction_angle", "Friction angle of snow on net [degrees]."),
+    ("--inclination", "inclination", "Net inclination [degrees]."),
+    ("--slope", "slope_angle", "Slope angle [degrees]."),
+    ("--thickness", "thickness", "Snow thickness normal to the slope [m]."),
+    ("--slack", "slack", "Slack of the net [-]."),
+    ("--glide", "glide_factor", "Glide factor [-]."),
+)
+_NOT_PROVEN = 4
+_MOST_RANGES = 6
+DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
+
+
+def _range_options(command: Any) -> Any:
+    for flag, name, text in reversed(_OPTIONS):
+        command = click.option(flag, name, type=RANGE, help=text)(command)
+    return command
+
+
+@click.command()
+@click.argument("scene_file", type=click.Path(path_type=Path))
+@_range_options
+@click.option(
+    "--accuracy",
+    type=click.FloatRange(1e-3, 0.1),
+    default=0.005,
+    show_default=True,
+    help="Relative error allowed in every force, and most that may hide above it.",
+)
+@click.option(
+    "--confirm",
+    type=click.Choice(["mesh", "transient", "none"]),
+    default="mesh",
+    show_default=True,
+    help="How the governing cases are solved again.",
+)
+@solving_options
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print the envelope as JSON.")
+@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+def envelope(
+    scene_file: Path,
+    *,
+    accuracy: float,
+    confirm: Literal["mesh", "transient", "none"],
+    jobs: int | None,
+    executor: str,
+    cache: bool,
+    out: Path | None,
+    as_json: bool,
+    force: bool,
+    quiet: bool,
+    **ranges: GivenRange | None,
+) -> None:
+    """Find the largest forces of a scene over ranges, with what may still hide.
+
+    \b
+    netdesign envelope scene.toml --density 250:450 --friction 15:45
+    netdesign envelope scene.toml --inclination 25:35 --json
+    netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
+    """
+    from netdesign.envelope.parameters import require_valid
+    from netdesign.envelope.search import run_grid, search_rows
+    from netdesign.envelope.session import open_runner
+    from netdesign.envelope.store import find_store
+    from netdesign.envelope_file import write_envelope_document, write_grid_document
+    from netdesign.output import require_free, write_files
+    from netdesign.progress import show_search
+    from netdesign.scene_file import read_scene
+
+    given = {name: one for name, one in ranges.items() if one is not None}
+    counted = _require_usable(given)
+    scene, _ = read_scene(scene_file, "steady")
+    box = _build_box(given)
+    require_valid(scene, box)
+    paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
+    require_free(paths, overwrite=force)
+    start = time.perf_counter()
+    with (
+        show_search(1, quiet=quiet) as progress,
+        open_runner(
+            executor=executor,
+            processes=jobs or os.cpu_count() or 1,
+            store=find_store() if cache else None,
+            say=lambda text: click.echo(text, err=True),
+            on_done=progress.count_case,
+        ) as runner,
+    ):
+        task = _build_task(scene, _read_confirming(scene_file, confirm), box, accuracy)
+        if counted:
+            results = run_grid(task, {k: one.count for k, one in given.items()}, runner)
+            elapsed = time.perf_counter() - start
+            document = write_grid_document(box, results, runner.counts, elapsed)
+            record = None
+        else:
+            (found,) = search_rows([task], runner, progress.tell_wave)
+            elapsed = time.perf_counter() - start
+            document, record = write_envelope_document(found, runner.counts, elapsed)
+    text = json.dumps(document, indent=1, allow_nan=False)
+    if out:
+        write_files(dict(zip(paths, _render(record, text), strict=True)))
+    if as_json:
+        click.echo(text)
+    else:
+        _show(document)
+    sys.exit(_NOT_PROVEN if document["outcome"] == "not_proven" else 0)
+
+
+def _require_usable(given: dict[str, GivenRange]) -> bool:
+    """Refuse what is no envelope; whether a grid is asked for."""
+    if not given:
+        flags = ", ".join(flag for flag, _, _ in _OPTIONS)
+        raise click.UsageError(f"no range is given: accepted are {flags}")
+    if len(given) > _MOST_RANGES:
+        raise click.UsageError(f"{len(given)} ranges: at most {_MOST_RANGES} at once")
+    counts = [one.count is not None for one in given.values()]
+    if any(counts) and not all(counts):
+        raise click.UsageError(
+            "low:high:n in one range and low:high in another: give n in all of them "
+            "for a grid, or in none for a bounded search"
+        )
+    return all(counts)
+
+
+def _build_box(given: dict[str, GivenRange]) -> Box:
+    from netdesign.envelope.grid import Interval
+    from netdesign.envelope.parameters import PARAMETERS, Box
+    from netdesign.units import radian_from_degree
+
+    def convert(name: str, value: float) -> float:
+        is_angle = PARAMETERS[name].key.endswith("_deg")
+        return radian_from_degree(value) if is_angle else value
+
+    return Box(
+        intervals=tuple(
+            (
+                name,
+                Interval(
+                    low=convert(name, one.low),
+                    high=convert(name, one.high),
+                    count=one.count or 2,
+                ),
+            )
+            for name, one in given.items()
+        )
+    )
+
+
+def _build_task(
+    scene: Scene, confirming: Settings | None, box: Box, accuracy: float
+) -> RowTask:
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.envelope.adaptive import SearchSettings
+    from netdesign.envelope.search import RowTask, refine_settings
+
+    settings = SolverSettings(accuracy=accuracy)
+    is_mesh = isinstance(confirming, SolverSettings)
+    return RowTask(
+        scene=scene,
+        box=box,
+        layout=None,
+        settings=settings,
+        search=SearchSettings(gap=accuracy),
+        confirmed_by=refine_settings(settings) if is_mesh else confirming,
+    )
+
+
+def _read_confirming(
+    scene_file: Path, confirm: Literal["mesh", "transient", "none"]
+) -> Settings | None:
+    """Settings of the scene file for the other fidelity."""
+    from netdesign.scene_file import read_scene
+
+    if confirm == "none":
+        return None
+    return read_scene(scene_file, "transient" if confirm == "transient" else "steady")[
+        1
+    ]
+
+
+def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
+    """Contents of the outputs; a grid has no model to draw."""
+    from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
+
+    pictures = [
+        draw(record) if record else "" for draw in (draw_maps, draw_lines, draw_drivers)
+    ]
+    return [part.encode() for part in (f"{text}\n", *pictures)]
+
+
+def _show(document: dict[str, Any]) -> None:
+    for one in document["extremes"]:
+        case = ", ".join(f"{key} {value:.4g}" for key, value in one["case"].items())
+        bound = one["upper_bound"]
+        limit = "no bound" if bound is None else f"nowhere above {bound:.2f}"
+        click.echo(f"{one['quantity']:22} {one['max']:10.2f}  {limit}  at {case}")
+        again = one.get("confirmation") or {}
+        if again.get("difference_percent") is not None:
+            click.echo(
+                f"{'':22} {again['confirmed_kN_per_m']:10.2f}  {again['method']}, "
+                f"{again['elements']} triangles: {again['difference_percent']:+.2f} %"
+            )
+    cases = ", ".join(f"{count} {what}" for what, count in document["cases"].items())
+    click.echo(f"cases: {cases}; {document['cost']['wall_s']:.2f} s")
+    if document["reason"]:
+        click.echo(f"NOT PROVEN: {document['reason']}")

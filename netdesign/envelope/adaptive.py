@@ -1,0 +1,465 @@
+"""The largest values of several quantities over a box, with what may still hide.
+
+Knows no solver: it asks for values at points of the unit cube. Coarse to fine: a
+first design, then cases where a quantity could still exceed its maximum under the
+model of ``surrogate.py``; once none can, cases that put that very claim to the test.
+Theory: envelope/THEORY.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.envelope.surrogate import (
+    REACH,
+    Surrogate,
+    count_trend_terms,
+    fit_surrogate,
+)
+from netdesign.errors import ModelError
+from netdesign.guards import require_count, require_within
+
+Floats = NDArray[np.float64]
+Point = tuple[float, ...]
+Values = tuple[float, ...]
+Search = Generator[tuple[Point, ...], Sequence[Values | None], "Maxima"]
+
+MOST_PARAMETERS = 6
+# The first design sees features at least as wide at half their height, as a share of
+# a range; narrower ones may hide, and every result says so.
+RESOLVED_SHARE = 0.6
+# Coordinates are multiples of this share of a range: equal cases have equal keys.
+_GRAIN = 1.0 / 64.0
+# Points per axis at which the bound is looked at before it is followed uphill.
+_LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
+_WANTED = 200  # highest lattice points per quantity that may be asked for
+_STARTS = 6  # highest lattice points per quantity that are followed uphill
+_FINEST_STEP = 1.0 / 1024.0
+_BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
+_MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
+_TEST_APART = 0.125  # least distance of a test from every known case
+_APART = 0.2  # least distance between the cases of one batch
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SearchSettings:
+    """How closely the maxima are bounded; pure numbers, printed in every result.
+
+    Attributes
+    ----------
+    gap : float
+        Most that the upper bound may lie above the maximum found, as a share of it.
+    certainty : float
+        Standard errors between the model's mean and the upper bound.
+    tests : int
+        Batches of held-out cases in turn that the model must predict well, at the
+        places where it could be wrong most dearly, before the search ends.
+    small_share : float
+        Quantities below this share of the largest one are bounded to the same
+        absolute gap as at that share: nobody needs 0.5 % of nothing.
+    batch : int
+        Cases per round; not the number of workers, so that results do not depend
+        on that.
+    max_cases : int
+        The search ends there with whatever gap is left, and says so.
+    """
+
+    gap: float = 0.005
+    certainty: float = 3.0
+    tests: int = 2
+    small_share: float = 0.05
+    batch: int = 6
+    max_cases: int = 400
+
+    def __post_init__(self) -> None:
+        """Refuse settings that would certify anything."""
+        require_within("gap", self.gap, 1e-4, 0.5)
+        require_within("certainty", self.certainty, 1.0, 10.0)
+        require_within("small share", self.small_share, 0.0, 1.0)
+        for name in ("tests", "batch", "max_cases"):
+            require_count(name.replace("_", " "), getattr(self, name))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Addition:
+    """One line of the densification log: a case, why, and what the model expected.
+
+    ``predicted``, ``claimed`` (one standard error) and ``found`` are of the quantity
+    that asked for the case; NaN predictions belong to the first design, a NaN
+    ``found`` to a case that failed.
+    """
+
+    point: Point
+    round: int
+    reason: str  # "first design", "could exceed", "test"
+    quantity: int
+    predicted: float
+    claimed: float
+    found: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Maxima:
+    """End of a search.
+
+    Attributes
+    ----------
+    points : tuple of Point
+        All cases asked for, in order; shares of the ranges.
+    values : tuple of Values or None
+        Their answers; None for a failed case.
+    maximum, upper_bound : tuple of float
+        Of each quantity: largest value found, and largest value that the model
+        allows anywhere in the box. Empty if no case succeeded.
+    governing : tuple of int
+        Place of each maximum in ``points``; of equals the least point.
+    is_closed : bool
+        Every gap is within the settings and the claim passed its tests.
+    log : tuple of Addition
+        Why each case was solved.
+    surrogate : Surrogate or None
+        Last model; None where there were too few cases for one.
+    """
+
+    points: tuple[Point, ...]
+    values: tuple[Values | None, ...]
+    maximum: tuple[float, ...]
+    upper_bound: tuple[float, ...]
+    governing: tuple[int, ...]
+    is_closed: bool
+    log: tuple[Addition, ...]
+    surrogate: Surrogate | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Surprise:
+    """A case that lay outside what the bound allowed around it."""
+
+    place: Floats
+    ratio: Floats  # error over what was allowed, shape (quantities,)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Bounds:
+    """What the model allows, and where."""
+
+    best: Floats
+    tolerance: Floats  # shape (quantities,)
+    upper: Floats
+    summits: tuple[Point, ...]  # where the best values were found
+    wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
+
+    @property
+    def gap(self) -> float:
+        """Largest gap over its tolerance."""
+        return float(np.max((self.upper - self.best) / self.tolerance))
+
+    @property
+    def is_closed(self) -> bool:
+        return self.gap <= 1.0 + 1e-9
+
+
+def search_maxima(
+    dimension: int,
+    settings: SearchSettings,
+    on_round: Callable[[float], None] = lambda _: None,
+) -> Search:
+    """Ask for values until every maximum is bounded; ``send`` answers each question.
+
+    Parameters
+    ----------
+    dimension : int
+        Number of parameters, 1 to 6.
+    settings : SearchSettings
+        When to stop.
+    on_round : callable, optional
+        Takes the largest gap left after each round, over its quantity [-].
+
+    Yields
+    ------
+    tuple of Point
+        Cases to solve, each coordinate a share of its range, 0 to 1. The answer is
+        one tuple of values for each, or None where a case failed.
+
+    Returns
+    -------
+    Maxima
+        The same for the same answers, whoever computed them in whatever order.
+
+    Raises
+    ------
+    ModelError
+        For a number of parameters that is not within 1 to 6.
+
+    Verified by
+    -----------
+    tests/envelope/test_adaptive.py
+    """
+    if dimension not in _LATTICE:
+        raise ModelError(
+            f"{dimension} parameters: an envelope takes 1 to {MOST_PARAMETERS}"
+        )
+    points = list_first_design(dimension)
+    values = list((yield points))
+    log = [_note_first(*one) for one in zip(points, values, strict=True)]
+    lattice = _build_lattice(dimension)
+    passed = 0
+    surprises: list[_Surprise] = []
+    while True:
+        solved = [k for k, value in enumerate(values) if value is not None]
+        if len(solved) <= count_trend_terms(dimension):
+            return _finish(points, values, log, None, None, is_closed=False)
+        places = np.array([points[k] for k in solved])
+        model = fit_surrogate(places, np.array([values[k] for k in solved]))
+        known = np.array([values[k] for k in solved])
+        bounds = _bound(model, known, lattice, settings, surprises)
+        on_round(bounds.gap * settings.gap)
+        batch = _choose(bounds, points, settings)
+        is_done = bounds.is_closed and passed >= settings.tests
+        if is_done or not batch or len(points) >= settings.max_cases:
+            is_closed = bounds.is_closed and (is_done or not batch)
+            return _finish(points, values, log, model, bounds, is_closed=is_closed)
+        answers = yield tuple(point for point, _ in batch)
+        held, claimed = _hold_out(model, batch, answers, log, bounds)
+        # the bound must have held for every case that was not yet known
+        covered = np.maximum(settings.certainty * claimed, bounds.tolerance / 2.0)
+        passed = passed + 1 if bounds.is_closed and np.all(held <= covered) else 0
+        surprises += [
+            _Surprise(place=np.array(point), ratio=ratio)
+            for (point, _), ratio in zip(batch, held / covered, strict=True)
+            if np.any(ratio > 1.0)
+        ]
+        points = (*points, *(point for point, _ in batch))
+        values = [*values, *answers]
+
+
+def list_first_design(dimension: int) -> tuple[Point, ...]:
+    """Cases of the first round: corners and centre, and what lies between.
+
+    Up to three parameters all of low, middle and high; beyond, the corners, the
+    centre and the centres of the faces. To both the centres of the 2^n parts.
+    """
+    corners = set(product((0.0, 1.0), repeat=dimension))
+    if dimension <= 3:
+        points = set(product((0.0, 0.5, 1.0), repeat=dimension))
+    else:
+        centre = (0.5,) * dimension
+        faces = {
+            (*centre[:axis], side, *centre[axis + 1 :])
+            for axis in range(dimension)
+            for side in (0.0, 1.0)
+        }
+        points = corners | faces | {centre}
+    return tuple(sorted(points | set(product((0.25, 0.75), repeat=dimension))))
+
+
+def _note_first(point: Point, value: Values | None) -> Addition:
+    return Addition(
+        point=point,
+        round=0,
+        reason="first design",
+        quantity=0,
+        predicted=math.nan,
+        claimed=math.nan,
+        found=math.nan if value is None else value[0],
+    )
+
+
+def _build_lattice(dimension: int) -> Floats:
+    axis = np.linspace(0.0, 1.0, _LATTICE[dimension])
+    return np.array(list(product(axis, repeat=dimension)))
+
+
+def _bound(
+    model: Surrogate,
+    values: Floats,
+    lattice: Floats,
+    settings: SearchSettings,
+    surprises: Sequence[_Surprise],
+) -> _Bounds:
+    """Largest mean plus ``certainty`` standard errors, and the places near it."""
+    best = values.max(axis=0)
+    scale = np.maximum(np.abs(best), settings.small_share * np.abs(best).max())
+    tolerance = settings.gap * np.maximum(scale, np.finfo(float).tiny)
+    around = [model.places[np.argmax(column)] for column in values.T]
+    looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
+
+    def reach(at: Floats) -> Floats:
+        mean, claim = model.predict(at)
+        stretch = _stretch(at, surprises, len(best))
+        result: Floats = mean + settings.certainty * stretch * claim
+        return result
+
+    allowed = reach(looked_at)
+    upper = np.maximum(best, allowed.max(axis=0))
+    spacing = 1.0 / (_LATTICE[lattice.shape[1]] - 1)
+    wanted: list[tuple[float, Point, int]] = []
+    for quantity in range(len(best)):
+        order = np.argsort(-allowed[:, quantity], kind="stable")
+        starts = looked_at[order[:_STARTS]]
+        tops, heights = _climb(starts, quantity, reach, spacing)
+        upper[quantity] = max(upper[quantity], heights.max())
+        places = [*tops, *looked_at[order[:_WANTED]]]
+        reached = [*heights, *allowed[order[:_WANTED], quantity]]
+        for place, height in zip(places, reached, strict=True):
+            excess = (height - best[quantity]) / tolerance[quantity] - 1.0
+            wanted.append((float(excess), _settle(place), quantity))
+    wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
+    return _Bounds(
+        best=best,
+        tolerance=tolerance,
+        upper=upper + _MARGIN * tolerance,
+        summits=tuple(_settle(place) for place in around),
+        wanted=tuple(wanted),
+    )
+
+
+def _stretch(at: Floats, surprises: Sequence[_Surprise], quantities: int) -> Floats:
+    """How much wider than the model's own claims are around what surprised it."""
+    stretch = np.ones((len(at), quantities))
+    for surprise in surprises:
+        distance = np.linalg.norm(at - surprise.place, axis=1)
+        share = np.exp(-((distance / REACH) ** 2))[:, None]
+        stretch = np.maximum(stretch, 1.0 + share * (surprise.ratio - 1.0))
+    return stretch
+
+
+def _surround(place: Floats) -> Floats:
+    """Finer lattice around the best case found."""
+    offsets = np.array(list(product((-0.0625, 0.0, 0.0625), repeat=len(place))))
+    result: Floats = np.clip(place + offsets, 0.0, 1.0)
+    return result
+
+
+def _climb(
+    starts: Floats, quantity: int, reach: Callable[[Floats], Floats], step: float
+) -> tuple[Floats, Floats]:
+    """Follow the bound uphill from some places, by halving steps along the axes."""
+    count, dimension = starts.shape
+    moves = np.concatenate(
+        [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
+    )
+    places = starts
+    while True:
+        step /= 2.0
+        for _ in range(dimension):  # one move an axis
+            tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
+            heights = reach(tried.reshape(-1, dimension))[:, quantity]
+            heights = heights.reshape(len(moves), count)
+            chosen = heights.argmax(axis=0)
+            places = tried[chosen, np.arange(count)]
+        if step <= _FINEST_STEP:
+            return places, heights.max(axis=0)
+
+
+def _settle(place: Floats) -> Point:
+    """Nearest point whose coordinates are multiples of the grain."""
+    return tuple(float(c) for c in np.round(place / _GRAIN) * _GRAIN)
+
+
+def _choose(
+    bounds: _Bounds, points: Sequence[Point], settings: SearchSettings
+) -> list[tuple[Point, int]]:
+    """Next cases: where a quantity could exceed; once none can, tests of that."""
+    room = settings.max_cases - len(points)
+    known = set(points)
+    if bounds.is_closed:
+        beside = [one for one in _list_neighbours(bounds) if one[0] not in known]
+        if beside:
+            return beside[:room]
+    most = min(settings.batch, room)
+    chosen = [] if bounds.is_closed else _pick(bounds, points, most, 0.0, _GRAIN)
+    # where none exceeds, or all that do lie on known cases: what could be wrong most
+    return chosen or _pick(bounds, points, most, -math.inf, _TEST_APART)
+
+
+def _pick(
+    bounds: _Bounds, points: Sequence[Point], most: int, least: float, apart: float
+) -> list[tuple[Point, int]]:
+    """Wanted cases above an excess, well apart from each other and from known ones."""
+    chosen: list[tuple[Point, int]] = []
+    for excess, point, quantity in bounds.wanted:
+        if excess <= least or len(chosen) >= most:
+            break
+        is_apart = all(math.dist(point, other) > _APART for other, _ in chosen)
+        if is_apart and all(math.dist(point, other) >= apart for other in points):
+            chosen.append((point, quantity))
+    return chosen
+
+
+def _list_neighbours(bounds: _Bounds) -> list[tuple[Point, int]]:
+    """Points just beside every maximum, along each axis: they tell if it is one."""
+    found: dict[Point, int] = {}
+    for quantity, place in enumerate(bounds.summits):
+        for axis, side in product(range(len(place)), (-_BESIDE, _BESIDE)):
+            value = place[axis] + side
+            if 0.0 <= value <= 1.0:
+                found.setdefault((*place[:axis], value, *place[axis + 1 :]), quantity)
+    return list(found.items())
+
+
+def _hold_out(
+    model: Surrogate,
+    batch: Sequence[tuple[Point, int]],
+    answers: Sequence[Values | None],
+    log: list[Addition],
+    bounds: _Bounds,
+) -> tuple[Floats, Floats]:
+    """Log a batch against what the model expected of it.
+
+    Returns the errors of the predictions and their claims, shape (batch, quantities);
+    a failed case has no error.
+    """
+    mean, claim = model.predict(np.array([point for point, _ in batch]))
+    number = log[-1].round + 1
+    errors = np.zeros_like(mean)
+    for k, ((point, quantity), answer) in enumerate(zip(batch, answers, strict=True)):
+        log.append(
+            Addition(
+                point=point,
+                round=number,
+                reason="test" if bounds.is_closed else "could exceed",
+                quantity=quantity,
+                predicted=float(mean[k, quantity]),
+                claimed=float(claim[k, quantity]),
+                found=math.nan if answer is None else answer[quantity],
+            )
+        )
+        if answer is not None:
+            errors[k] = np.abs(np.array(answer) - mean[k])
+    return errors, claim
+
+
+def _finish(
+    points: Sequence[Point],
+    values: Sequence[Values | None],
+    log: Sequence[Addition],
+    model: Surrogate | None,
+    bounds: _Bounds | None,
+    *,
+    is_closed: bool,
+) -> Maxima:
+    solved = [k for k, value in enumerate(values) if value is not None]
+    answers = [values[k] or () for k in solved]
+    governing = tuple(
+        min(solved, key=lambda k: (-(values[k] or ())[quantity], points[k]))
+        for quantity in range(len(answers[0]) if answers else 0)
+    )
+    maximum = tuple((values[k] or ())[q] for q, k in enumerate(governing))
+    upper = maximum if bounds is None else tuple(float(u) for u in bounds.upper)
+    return Maxima(
+        points=tuple(points),
+        values=tuple(values),
+        maximum=maximum,
+        upper_bound=upper,
+        governing=governing,
+        is_closed=is_closed,
+        log=tuple(log),
+        surrogate=model,
+    )

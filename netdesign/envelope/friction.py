@@ -1,0 +1,88 @@
+"""Cases that friction cannot change: known without a solve, after a test.
+
+Where the snow slips nowhere on the net, the friction limit is not reached and more
+friction leaves the solution as it is. That is a property of the solver's discrete
+problem too, but it is used only after it was seen to hold: the first chances are
+solved all the same, and one that disagrees ends the skipping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.envelope.adaptive import Point
+from netdesign.envelope.state import CaseEnd, SolvedState
+
+_AXIS = "friction_angle"
+_TESTS = 2  # chances that are solved before any is taken
+_AGREEMENT = 1e-6  # relative, of both end pulls
+
+
+class FrictionSkip:
+    """What one search knows about sticking snow."""
+
+    def __init__(self, axes: Sequence[str]) -> None:
+        """Take the names of the search's axes."""
+        self._axis = axes.index(_AXIS) if _AXIS in axes else None
+        # by the other coordinates: least friction known to stick, and its end
+        self._sticking: dict[Point, tuple[float, CaseEnd]] = {}
+        self._agrees = True
+        self.tested = 0
+        self.skipped = 0
+
+    def split(self, points: Sequence[Point]) -> list[list[Point]]:
+        """Waves of points, each with more friction than its like in the one before."""
+        if self._axis is None:
+            return [list(points)]
+        waves: list[list[Point]] = []
+        seen: dict[Point, int] = {}
+        for point in sorted(points, key=self._friction):
+            depth = seen.get(self._line(point), 0)
+            seen[self._line(point)] = depth + 1
+            if depth == len(waves):
+                waves.append([])
+            waves[depth].append(point)
+        return [sorted(wave) for wave in waves]
+
+    def needs_solve(self, point: Point) -> bool:
+        """No case with less friction answers for it, or the skip is still on test."""
+        if not self._is_chance(point):
+            return True
+        return not self._agrees or self.tested < _TESTS
+
+    def learn(self, point: Point, end: CaseEnd | None) -> None:
+        """Take the end of a case that was solved."""
+        if self._axis is None or end is None or end.state is None:
+            return
+        if self._is_chance(point):
+            self.tested += 1
+            known = self._sticking[self._line(point)][1].state
+            self._agrees = (
+                self._agrees and known is not None and _agree(known, end.state)
+            )
+        elif end.state.sticks:
+            known_friction, _ = self._sticking.get(self._line(point), (2.0, end))
+            if self._friction(point) < known_friction:
+                self._sticking[self._line(point)] = (self._friction(point), end)
+
+    def recall(self, point: Point) -> CaseEnd:
+        """End of a case that was not solved."""
+        self.skipped += 1
+        return self._sticking[self._line(point)][1]
+
+    def _is_chance(self, point: Point) -> bool:
+        if self._axis is None or self._line(point) not in self._sticking:
+            return False
+        return self._friction(point) > self._sticking[self._line(point)][0]
+
+    def _friction(self, point: Point) -> float:
+        return 0.0 if self._axis is None else point[self._axis]
+
+    def _line(self, point: Point) -> Point:
+        """The other coordinates."""
+        return tuple(c for axis, c in enumerate(point) if axis != self._axis)
+
+
+def _agree(one: SolvedState, other: SolvedState) -> bool:
+    pairs = ((one.foot, other.foot), (one.head, other.head))
+    return all(abs(a.x - b.x) + abs(a.y - b.y) <= _AGREEMENT * a.size for a, b in pairs)

@@ -1,0 +1,365 @@
+"""The envelope of one net row: its searched maxima, with forces and confirmation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+
+from netdesign.checks.result import Band
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solve import Settings
+from netdesign.envelope.adaptive import (
+    Maxima,
+    Point,
+    SearchSettings,
+    Values,
+    search_maxima,
+)
+from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
+from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.grid import Case
+from netdesign.envelope.parameters import Box, build_case, place_scene
+from netdesign.envelope.run import (
+    CaseResult,
+    CaseTask,
+    build_job,
+    build_task,
+    resolve_case,
+    run_cases,
+)
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.state import CaseEnd
+from netdesign.envelope.workers import Job
+from netdesign.structure.layout import SupportLayout
+
+# A confirmation is solved to this share of the accuracy, on finer meshes.
+_CONFIRMED_SHARE = 0.25
+_TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
+
+Conversation = Generator[list[Job], list[CaseEnd], "RowEnvelope"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowTask:
+    """What is searched: a scene, the ranges around it, and how.
+
+    Attributes
+    ----------
+    scene : Scene
+        Holds whatever the box leaves alone.
+    box : Box
+        Ranges.
+    layout : SupportLayout or None
+        Support of the net; None follows the net's own tensions per metre.
+    settings : SolverSettings
+        Of every case.
+    search : SearchSettings
+        When the search ends.
+    confirmed_by : Settings or None
+        How the governing cases are solved again; None leaves that out.
+    build : callable or None
+        Scene of a case, where the values of the box cannot be put into ``scene`` one
+        by one.
+    """
+
+    scene: Scene
+    box: Box
+    layout: SupportLayout | None
+    settings: SolverSettings
+    search: SearchSettings
+    confirmed_by: Settings | None
+    build: Callable[[Case], Scene] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Confirmation:
+    """A governing case solved again by another fidelity."""
+
+    member: str
+    screened: CaseResult
+    confirmed: CaseResult
+
+    @property
+    def difference(self) -> float | None:
+        """Confirmed over screened force, less 1 [-]; None without a result."""
+        if not self.confirmed.is_converged:
+            return None
+        screened = self.screened.member_forces[self.member].value
+        confirmed = self.confirmed.member_forces[self.member].value
+        return confirmed / screened - 1.0 if screened > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowEnvelope:
+    """End of a row's search. Forces in N per anchor, or N/m without a layout.
+
+    Attributes
+    ----------
+    task : RowTask
+        What was searched.
+    members : tuple of str
+        The quantities, in the order of ``maxima``.
+    results : tuple of CaseResult
+        Every case, in the order of ``maxima.points``.
+    maxima : Maxima
+        Maxima, upper bounds, log and model.
+    confirmations : tuple of Confirmation
+        One for each member that carries a force.
+    skipped, skips_tested : int
+        Cases known without a solve because the snow stuck with less friction
+        already, and how many of those were solved all the same as a test.
+    """
+
+    task: RowTask
+    members: tuple[str, ...]
+    results: tuple[CaseResult, ...]
+    maxima: Maxima
+    confirmations: tuple[Confirmation, ...]
+    skipped: int
+    skips_tested: int
+
+    @property
+    def gap(self) -> str:
+        """Why the maxima do not cover every case; "" if they do."""
+        failed = describe_gap(self.results)
+        if failed or self.maxima.is_closed:
+            return failed
+        return (
+            f"after {len(self.results)} cases a force between them could still exceed "
+            "the largest one by more than the gap asked for"
+        )
+
+    def hidden(self, member: str) -> float:
+        """How much larger a member's force may be between the cases [N]."""
+        place = self.members.index(member)
+        return max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
+
+    def force(self, member: str) -> Band:
+        """Largest force of a member at the cases, with its numerical error.
+
+        A confirmation that lies above the bound raises the upper end.
+        """
+        bands = [one.member_forces[member] for one in self.results if one.is_converged]
+        confirmed = [
+            one.confirmed.member_forces[member].high - self.hidden(member)
+            for one in self.confirmations
+            if one.confirmed.is_converged
+        ]
+        return Band(
+            low=max(band.low for band in bands),
+            value=max(band.value for band in bands),
+            high=max([*(band.high for band in bands), *confirmed]),
+        )
+
+    def bound(self, member: str) -> Band:
+        """Largest force of a member over the whole box, with everything unsure.
+
+        The band's upper end adds what may hide between the cases.
+        """
+        force = self.force(member)
+        return replace(force, high=force.high + self.hidden(member))
+
+    def upper_bound(self, member: str) -> float:
+        """Largest force with what may hide, without the numerical error [N]."""
+        return self.force(member).value + self.hidden(member)
+
+    def governing(self, member: str) -> CaseResult:
+        """Case of a member's largest force; carries the coincident forces."""
+        return find_extremes(self.results)[member].governing
+
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces by member, without what may hide between the cases."""
+        found = find_extremes(self.results)
+        return {
+            member: replace(one, force=self.force(member))
+            for member, one in found.items()
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wave:
+    """Where a search of several rows stands; ``gap`` is the largest left [-]."""
+
+    rows_open: int
+    cases_waiting: int
+    gap: float
+
+
+def refine_settings(settings: SolverSettings) -> SolverSettings:
+    """Settings of a confirmation: coarsest meshes left out, tighter accuracy.
+
+    A screening ends on the second mesh or a little above; this starts on the third
+    where there are enough, so that it ends on a finer one.
+    """
+    left_out = max(0, min(2, len(settings.levels) - 2))
+    accuracy = max(_TIGHTEST, _CONFIRMED_SHARE * settings.accuracy)
+    return replace(settings, accuracy=accuracy, levels=settings.levels[left_out:])
+
+
+def search_row(
+    task: RowTask, on_gap: Callable[[float], None] = lambda _: None
+) -> Conversation:
+    """Ask for the ends of jobs until the row's envelope is known.
+
+    Yields
+    ------
+    list of Job
+        To be answered with their ends, in the same order.
+
+    Returns
+    -------
+    RowEnvelope
+        The same for the same ends.
+
+    Verified by
+    -----------
+    tests/envelope/test_search.py
+    """
+    search = search_maxima(len(task.box.axes), task.search, on_gap)
+    skip = FrictionSkip(task.box.axes)
+    results: list[CaseResult] = []
+    points = next(search)
+    while True:
+        tasks = [build_point_task(task, point) for point in points]
+        ends = yield from _ask(points, tasks, skip)
+        answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
+        results += answered
+        try:
+            points = search.send([_read_values(result) for result in answered])
+        except StopIteration as end:
+            maxima: Maxima = end.value
+            break
+    members = next((tuple(r.member_forces) for r in results if r.is_converged), ())
+    confirmations = yield from _confirm(task, members, results, maxima)
+    return RowEnvelope(
+        task=task,
+        members=members,
+        results=tuple(results),
+        maxima=maxima,
+        confirmations=confirmations,
+        skipped=skip.skipped,
+        skips_tested=skip.tested,
+    )
+
+
+def search_rows(
+    tasks: Sequence[RowTask],
+    runner: Runner,
+    on_wave: Callable[[Wave], None] = lambda _: None,
+) -> list[RowEnvelope]:
+    """Search all rows together: each wave holds the next cases of every row.
+
+    Parameters
+    ----------
+    tasks : sequence of RowTask
+        One a row.
+    runner : Runner
+        Where cases are solved and kept; rows with the same net and snow share them.
+    on_wave : callable, optional
+        Called after each wave.
+
+    Returns
+    -------
+    list of RowEnvelope
+        In the order of the tasks; equal tasks share one.
+    """
+    distinct = list(dict.fromkeys(tasks))
+    finished: dict[RowTask, RowEnvelope] = {}
+    gaps = dict.fromkeys(distinct, math.inf)
+    open_rows = {
+        task: search_row(task, partial(gaps.__setitem__, task)) for task in distinct
+    }
+    asked = {task: next(talk) for task, talk in open_rows.items()}
+    while asked:
+        ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
+        answers = {task: [next(ends) for _ in jobs] for task, jobs in asked.items()}
+        asked = {}
+        for task, answer in answers.items():
+            try:
+                asked[task] = open_rows[task].send(answer)
+            except StopIteration as end:
+                finished[task] = end.value
+        waiting = sum(len(jobs) for jobs in asked.values())
+        gap = max((gaps[task] for task in asked), default=0.0)
+        on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
+    return [finished[task] for task in tasks]
+
+
+def run_grid(
+    task: RowTask, counts: Mapping[str, int | None], runner: Runner
+) -> list[CaseResult]:
+    """All cases of a tensor grid with so many samples of each axis."""
+    samples = [counts[name] or 2 for name in task.box.axes]
+    axes = [[k / (count - 1) for k in range(count)] for count in samples]
+    points = [tuple(point) for point in product(*axes)]
+    return run_cases([build_point_task(task, point) for point in points], runner)
+
+
+def build_point_task(
+    task: RowTask, point: Point, settings: Settings | None = None
+) -> CaseTask:
+    """Task of one point of a row's box; the row's settings unless others are given."""
+    values = task.box.place(point)
+    return build_task(
+        build_case(task.scene, values),
+        task.build or (lambda _: place_scene(task.scene, values)),
+        task.layout,
+        settings or task.settings,
+    )
+
+
+def _ask(
+    points: Sequence[Point], tasks: Sequence[CaseTask], skip: FrictionSkip
+) -> Generator[list[Job], list[CaseEnd], list[CaseEnd | None]]:
+    """Ends of some cases; those that friction cannot change are not solved."""
+    ends: dict[Point, CaseEnd | None] = {}
+    jobs = dict(zip(points, map(build_job, tasks), strict=True))
+    for wave in skip.split(points):
+        unknown = [point for point in wave if skip.needs_solve(point)]
+        wanted = [job for point in unknown if (job := jobs[point]) is not None]
+        solved = iter((yield wanted) if wanted else [])
+        for point in unknown:
+            ends[point] = None if jobs[point] is None else next(solved)
+            skip.learn(point, ends[point])
+        ends |= {point: skip.recall(point) for point in wave if point not in ends}
+    return [ends[point] for point in points]
+
+
+def _read_values(result: CaseResult) -> Values | None:
+    if not result.is_converged:
+        return None
+    return tuple(band.value for band in result.member_forces.values())
+
+
+def _confirm(
+    task: RowTask,
+    members: Sequence[str],
+    results: Sequence[CaseResult],
+    maxima: Maxima,
+) -> Generator[list[Job], list[CaseEnd], tuple[Confirmation, ...]]:
+    """Solve the governing cases again by the other fidelity, each once."""
+    if task.confirmed_by is None:
+        return ()
+    loaded = {
+        member: maxima.governing[place]
+        for place, member in enumerate(members)
+        if maxima.maximum[place] > 0.0
+    }
+    places = sorted(set(loaded.values()))
+    tasks = [
+        build_point_task(task, maxima.points[p], task.confirmed_by) for p in places
+    ]
+    jobs = [job for job in map(build_job, tasks) if job is not None]
+    ends = (yield jobs) if jobs else []
+    again = {
+        place: resolve_case(one, end)
+        for place, one, end in zip(places, tasks, ends, strict=True)
+    }
+    return tuple(
+        Confirmation(member=member, screened=results[place], confirmed=again[place])
+        for member, place in loaded.items()
+    )

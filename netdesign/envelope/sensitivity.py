@@ -1,0 +1,175 @@
+"""What drives a force, and where a verdict flips: read from the envelope's own model.
+
+The model is evaluated on a tensor rule, so that nothing is random. The parameters
+count as independent and uniform in their ranges: that is an assumption of the
+indices, not a statement about snow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.envelope.adaptive import Maxima, Point
+from netdesign.envelope.surrogate import Surrogate
+
+Floats = NDArray[np.float64]
+
+# Gauss points per axis: exact for the polynomials of degree 2 n - 1.
+_RULE = {1: 24, 2: 16, 3: 12, 4: 8, 5: 6, 6: 5}
+_ALONG = 65  # points of a line along one parameter
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensitivity:
+    """How one force answers to one parameter.
+
+    Attributes
+    ----------
+    axis : int
+        Which parameter.
+    low, high : float
+        Smallest and largest force along it through the governing case.
+    at_low, at_high : float
+        Forces at the ends of its range, the others as in the governing case.
+    first_order, total : float
+        Sobol indices [-]: share of the variance that it causes alone, and with all
+        others. 0 where the force does not vary at all.
+    """
+
+    axis: int
+    low: float
+    high: float
+    at_low: float
+    at_high: float
+    first_order: float
+    total: float
+
+
+def measure_sensitivity(maxima: Maxima, quantity: int) -> tuple[Sensitivity, ...]:
+    """Answer of a force to every parameter, in their order; () without a model.
+
+    Parameters
+    ----------
+    maxima : Maxima
+        End of a search.
+    quantity : int
+        Which force.
+
+    Verified by
+    -----------
+    tests/envelope/test_sensitivity.py
+    """
+    model = maxima.surrogate
+    if model is None:
+        return ()
+    dimension = model.places.shape[1]
+    first, total = _compute_indices(model, quantity)
+    governing = maxima.points[maxima.governing[quantity]]
+    found = []
+    for axis in range(dimension):
+        _, forces, _ = follow_axis(model, governing, axis, quantity)
+        found.append(
+            Sensitivity(
+                axis=axis,
+                low=float(forces.min()),
+                high=float(forces.max()),
+                at_low=float(forces[0]),
+                at_high=float(forces[-1]),
+                first_order=float(first[axis]),
+                total=float(total[axis]),
+            )
+        )
+    return tuple(found)
+
+
+def measure_unexplained(maxima: Maxima, quantity: int) -> float | None:
+    """Share of the variance that held-out cases deny the model [-].
+
+    The error of the indices: 0 for a model that predicts every case from the others.
+    None without a model; 0 where all cases give the same force.
+    """
+    model = maxima.surrogate
+    if model is None:
+        return None
+    values = np.array([v[quantity] for v in maxima.values if v is not None])
+    spread = float(np.var(values[: len(model.places)]))
+    error = float(np.mean(model.held_out[:, quantity] ** 2))
+    return min(1.0, error / spread) if spread > 0.0 else 0.0
+
+
+def find_crossings(
+    maxima: Maxima, quantity: int, axis: int, level: float
+) -> tuple[float, ...]:
+    """Shares of a parameter's range at which a force crosses a level.
+
+    Along the line through the governing case of the force; by linear interpolation
+    between close points of the model.
+
+    Parameters
+    ----------
+    maxima : Maxima
+        End of a search.
+    quantity, axis : int
+        Which force, along which parameter.
+    level : float
+        In the unit of the force, for instance the force at which a check is just met.
+    """
+    if maxima.surrogate is None:
+        return ()
+    governing = maxima.points[maxima.governing[quantity]]
+    shares, forces, _ = follow_axis(maxima.surrogate, governing, axis, quantity)
+    above = forces - level
+    flips = np.flatnonzero((above[:-1] > 0.0) != (above[1:] > 0.0))
+    return tuple(
+        float(
+            shares[k]
+            - above[k] * (shares[k + 1] - shares[k]) / (above[k + 1] - above[k])
+        )
+        for k in flips
+    )
+
+
+def follow_axis(
+    model: Surrogate, through: Point, axis: int, quantity: int, count: int = _ALONG
+) -> tuple[Floats, Floats, Floats]:
+    """Shares of a parameter, forces and their standard errors along it."""
+    shares = np.linspace(0.0, 1.0, count)
+    line = np.tile(np.array(through), (count, 1))
+    line[:, axis] = shares
+    mean, claim = model.predict(line)
+    return shares, mean[:, quantity], claim[:, quantity]
+
+
+def _compute_indices(model: Surrogate, quantity: int) -> tuple[Floats, Floats]:
+    """First-order and total Sobol indices by a tensor Gauss rule."""
+    dimension = model.places.shape[1]
+    nodes, weights = np.polynomial.legendre.leggauss(_RULE[dimension])
+    nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
+    grid = np.array(list(product(nodes, repeat=dimension)))
+    values = model.predict(grid).mean[:, quantity]
+    values = values.reshape((len(nodes),) * dimension)
+    values = values - _average(values, range(dimension), weights)
+    variance = float(_average(values**2, range(dimension), weights))
+    first, total = np.zeros(dimension), np.zeros(dimension)
+    if variance <= (1e-9 * np.abs(model.predict(grid[:1]).mean[0, quantity])) ** 2:
+        return first, total
+    for axis in range(dimension):
+        others = [other for other in range(dimension) if other != axis]
+        alone = _average(values, others, weights)
+        first[axis] = np.sum(weights * alone**2) / variance
+        without = _average(values, [axis], weights)
+        rest = _average(without**2, range(dimension - 1), weights)
+        total[axis] = 1.0 - float(rest) / variance
+    return np.clip(first, 0.0, 1.0), np.clip(total, 0.0, 1.0)
+
+
+def _average(values: Floats, axes: Iterable[int], weights: Floats) -> Floats:
+    """Mean over some axes under the rule's weights."""
+    for axis in sorted(axes, reverse=True):
+        values = np.tensordot(values, weights, axes=(axis, 0))
+    return np.asarray(values, dtype=np.float64)

@@ -1,0 +1,53 @@
+"""Opens workers and store for one run, and closes them however it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.state import CaseEnd
+from netdesign.envelope.store import CaseStore, StoreError
+from netdesign.envelope.workers import build_workers
+
+
+@contextmanager
+def open_runner(
+    *,
+    executor: str,
+    processes: int,
+    store: Path | None,
+    say: Callable[[str], None],
+    on_done: Callable[[CaseEnd], None],
+) -> Iterator[Runner]:
+    """Runner for the time of a ``with``.
+
+    Parameters
+    ----------
+    executor : str
+        "" for this machine, or ``dask://HOST:PORT``.
+    processes : int
+        On this machine.
+    store : Path or None
+        File of the finished cases; None keeps none.
+    say : callable
+        Takes what the user should know, for instance that there can be no store.
+    on_done : callable
+        Called after each case that was new.
+
+    Raises
+    ------
+    ClusterError
+        If the executor cannot be used.
+    """
+    with ExitStack() as stack:
+        workers = build_workers(executor, processes)
+        stack.callback(workers.close)
+        kept: CaseStore | None = None
+        if store is not None:
+            try:
+                kept = stack.enter_context(CaseStore(store, say))
+            except StoreError as error:
+                say(f"{error}; going on without it")
+        yield Runner(workers=workers, store=kept, on_done=on_done, say=say)

@@ -1,0 +1,155 @@
+"""What is kept of a solved case: end pulls, balances, shape; and how it is stored."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.coupling.solution import Balance, EndPull, Solution
+from netdesign.outcome import Outcome
+
+Floats = NDArray[np.float64]
+_SHAPE_ARRAYS = (
+    ("net_curve", "<f8"),
+    ("net_slides", "|b1"),
+    ("mesh_nodes", "<f8"),
+    ("mesh_edges", "<i8"),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SolvedState:
+    """A converged solution without what no envelope needs. SI units.
+
+    Attributes
+    ----------
+    method : str
+        ``steady``, ``transient`` or ``staggered``.
+    foot, head : EndPull
+        Pulls on the net's ends [N/m].
+    tension_max : float
+        Along the net [N/m].
+    balance : Balance
+        Tests that it passed.
+    elements, linear_solves : int
+        What it took.
+    net_curve, net_slides, mesh_nodes, mesh_edges
+        As in ``Solution``.
+    """
+
+    method: str
+    foot: EndPull
+    head: EndPull
+    tension_max: float
+    balance: Balance
+    elements: int
+    linear_solves: int
+    net_curve: Floats
+    net_slides: NDArray[np.bool_]
+    mesh_nodes: Floats
+    mesh_edges: NDArray[np.int64]
+
+    @property
+    def head_point(self) -> tuple[float, float]:
+        """Position of the net's head [m]."""
+        x, y = self.net_curve[:, -1]
+        return float(x), float(y)
+
+    @property
+    def sticks(self) -> bool:
+        """The snow slips nowhere on the net: more friction would change nothing."""
+        return not bool(self.net_slides.any())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CaseEnd:
+    """How one solve ended; ``state`` exists only if it converged."""
+
+    outcome: Outcome
+    reason: str = ""
+    state: SolvedState | None = None
+
+
+def keep_state(solution: Solution) -> SolvedState:
+    """Part of a solution that an envelope keeps."""
+    return SolvedState(
+        method=solution.method,
+        foot=solution.foot,
+        head=solution.head,
+        tension_max=solution.tension_max,
+        balance=solution.balance,
+        elements=solution.cost.elements,
+        linear_solves=solution.cost.linear_solves,
+        net_curve=np.asarray(solution.net_curve, dtype="<f8"),
+        net_slides=np.asarray(solution.net_slides, dtype="|b1"),
+        mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
+        mesh_edges=np.asarray(solution.mesh_edges, dtype="<i8"),
+    )
+
+
+def encode_end(end: CaseEnd) -> tuple[str, bytes]:
+    """Text and bytes from which ``decode_end`` makes the very same value."""
+    if end.state is None:
+        return json.dumps({"outcome": end.outcome.value, "reason": end.reason}), b""
+    state = end.state
+    arrays = [np.ascontiguousarray(getattr(state, name)) for name, _ in _SHAPE_ARRAYS]
+    numbers = {
+        "outcome": end.outcome.value,
+        "reason": end.reason,
+        "method": state.method,
+        "foot": asdict(state.foot),
+        "head": asdict(state.head),
+        "tension_max": state.tension_max,
+        "balance": asdict(state.balance),
+        "elements": state.elements,
+        "linear_solves": state.linear_solves,
+        "shapes": [array.shape for array in arrays],
+    }
+    shape = b"".join(
+        array.astype(kind).tobytes()
+        for array, (_, kind) in zip(arrays, _SHAPE_ARRAYS, strict=True)
+    )
+    return json.dumps(numbers), zlib.compress(shape, 1)
+
+
+def decode_end(text: str, shape: bytes) -> CaseEnd:
+    """The value that was encoded.
+
+    Raises
+    ------
+    ValueError, KeyError, TypeError, zlib.error
+        If the two are not what ``encode_end`` wrote.
+    """
+    numbers: dict[str, Any] = json.loads(text)
+    outcome, reason = Outcome(numbers["outcome"]), str(numbers["reason"])
+    if outcome is not Outcome.CONVERGED:
+        return CaseEnd(outcome=outcome, reason=reason)
+    state = SolvedState(
+        method=numbers["method"],
+        foot=EndPull(**numbers["foot"]),
+        head=EndPull(**numbers["head"]),
+        tension_max=numbers["tension_max"],
+        balance=Balance(**numbers["balance"]),
+        elements=numbers["elements"],
+        linear_solves=numbers["linear_solves"],
+        **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
+    )
+    return CaseEnd(outcome=outcome, reason=reason, state=state)
+
+
+def _decode_arrays(content: bytes, shapes: list[list[int]]) -> dict[str, Any]:
+    arrays: dict[str, Any] = {}
+    start = 0
+    for (name, kind), shape in zip(_SHAPE_ARRAYS, shapes, strict=True):
+        size = int(np.prod(shape)) * np.dtype(kind).itemsize
+        flat = np.frombuffer(content[start : start + size], dtype=kind)
+        arrays[name] = flat.reshape(shape)
+        start += size
+    if start != len(content):
+        raise ValueError("arrays: the length is wrong")
+    return arrays

@@ -1,0 +1,217 @@
+"""Finished cases on disk: solved once, used by every later run.
+
+One SQLite file. A case is known by its scene, its settings and the solver's own
+text, so that another version never answers for this one. Each case is one
+transaction in a write-ahead log: a killed run loses nothing that was finished.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sqlite3
+import sys
+import zlib
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import is_dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from netdesign import __version__
+from netdesign.envelope.state import CaseEnd, decode_end, encode_end
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Outcome
+
+_LAYOUT = 1  # of the tables
+_BUSY_S = 30.0  # how long another run may hold the file
+_LOOKED_UP = 500  # keys in one query
+_SOLVER_PARTS = ("numerics", "snow", "cable", "coupling")
+_FORGOTTEN = Outcome.WORKER_FAILED  # says nothing about the case itself
+
+
+class StoreError(NetDesignError):
+    """The store cannot be used; the run can go on without it."""
+
+
+def find_store() -> Path:
+    """File of the finished cases: ``NETDESIGN_STORE``, or one in the user's cache."""
+    given = os.environ.get("NETDESIGN_STORE")
+    if given:
+        return Path(given)
+    base = os.environ.get("XDG_CACHE_HOME") or (
+        os.environ.get("LOCALAPPDATA") if sys.platform == "win32" else None
+    )
+    return Path(base or Path.home() / ".cache") / "netdesign" / "cases.sqlite"
+
+
+@lru_cache(maxsize=1)
+def identify_solver() -> str:
+    """Version of the solver: its text, and the libraries that decide last digits."""
+    import numpy
+    import scipy
+
+    digest = hashlib.sha256()
+    root = Path(__file__).resolve().parent.parent
+    for part in _SOLVER_PARTS:
+        for path in sorted((root / part).rglob("*")):
+            if path.suffix in (".py", ".toml"):
+                digest.update(path.name.encode())
+                digest.update(path.read_bytes())
+    digest.update(f"numpy {numpy.__version__}, scipy {scipy.__version__}".encode())
+    return f"{__version__}+{digest.hexdigest()[:16]}"
+
+
+def name_case(scene: object, settings: object) -> str:
+    """Key of a case: equal for equal inputs, whoever asks."""
+    text = json.dumps([_describe(scene), _describe(settings)], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _describe(value: Any) -> Any:
+    """Plain values of a frozen dataclass, its name and those of its parts included."""
+    if is_dataclass(value) and not isinstance(value, type):
+        fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
+        return [type(value).__name__, {k: _describe(v) for k, v in fields.items()}]
+    if isinstance(value, tuple | list):
+        return [_describe(one) for one in value]
+    return value
+
+
+class CaseStore:
+    """Finished cases in one file; use it in a ``with``."""
+
+    def __init__(self, path: Path, say: Callable[[str], None]) -> None:
+        """Open or build the file.
+
+        Parameters
+        ----------
+        path : Path
+            The file; its folder is made.
+        say : callable
+            Takes what the user should know: a store that had to be set aside.
+
+        Raises
+        ------
+        StoreError
+            If there can be no file at that place.
+        """
+        self._path, self._say = path, say
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            fault = self._open()
+            if fault:
+                aside = _set_aside(path)
+                say(f"{path}: {fault}; set aside as {aside.name}, a new one is begun")
+                fault = self._open()
+        except (OSError, sqlite3.Error) as error:
+            raise StoreError(f"{path}: no store of cases here: {error}") from None
+        if fault:
+            raise StoreError(f"{path}: no store of cases here: {fault}")
+
+    def __enter__(self) -> CaseStore:
+        """Return the open store."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close the file."""
+        self._base.close()
+
+    def _open(self) -> str:
+        """Connect; why the file there cannot be used, or ""."""
+        self._base = sqlite3.connect(self._path, timeout=_BUSY_S, isolation_level=None)
+        try:
+            self._base.execute("PRAGMA journal_mode = WAL")
+            self._base.execute("PRAGMA synchronous = NORMAL")
+            fault = self._prepare()
+        except sqlite3.OperationalError:
+            self._base.close()
+            raise  # locked, read-only, full: the file itself may be sound
+        except sqlite3.DatabaseError as error:
+            fault = f"is damaged ({error})"
+        if fault:
+            self._base.close()
+        return fault
+
+    def _prepare(self) -> str:
+        base, version = self._base, identify_solver()
+        if base.execute("PRAGMA quick_check").fetchone() != ("ok",):
+            return "is damaged"
+        base.execute("BEGIN IMMEDIATE")
+        tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master")}
+        if not tables:
+            base.execute("CREATE TABLE origin (layout INTEGER, solver TEXT)")
+            base.execute("INSERT INTO origin VALUES (?, ?)", (_LAYOUT, version))
+            base.execute(
+                "CREATE TABLE cases (name TEXT PRIMARY KEY, numbers TEXT NOT NULL, "
+                "shape BLOB NOT NULL, seal TEXT NOT NULL) WITHOUT ROWID"
+            )
+        base.execute("COMMIT")
+        if tables and not {"origin", "cases"} <= tables:
+            return "is no store of cases"
+        layout, solver = base.execute("SELECT layout, solver FROM origin").fetchone()
+        if (layout, solver) != (_LAYOUT, version):
+            return f"belongs to version {solver} of the solver, this is {version}"
+        return ""
+
+    def find(self, names: Iterable[str]) -> dict[str, CaseEnd]:
+        """Known cases among the names; a damaged entry is told and left out."""
+        wanted = list(dict.fromkeys(names))
+        found: dict[str, CaseEnd] = {}
+        for start in range(0, len(wanted), _LOOKED_UP):
+            part = wanted[start : start + _LOOKED_UP]
+            marks = ", ".join("?" * len(part))
+            query = (
+                f"SELECT name, numbers, shape, seal FROM cases WHERE name IN ({marks})"
+            )
+            for name, numbers, shape, seal in self._base.execute(query, part):
+                end = _unseal(name, numbers, shape, seal)
+                if end is None:
+                    self._say(f"{self._path}: case {name[:12]} is damaged, solved anew")
+                    self._base.execute("DELETE FROM cases WHERE name = ?", (name,))
+                else:
+                    found[name] = end
+        return found
+
+    def keep(self, name: str, end: CaseEnd) -> None:
+        """Store one finished case, in a transaction of its own."""
+        if end.outcome is _FORGOTTEN:
+            return
+        numbers, shape = encode_end(end)
+        self._base.execute(
+            "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?)",
+            (name, numbers, shape, _seal(name, numbers, shape)),
+        )
+
+
+def _seal(name: str, numbers: str, shape: bytes) -> str:
+    return hashlib.sha256(f"{name} {numbers}".encode() + shape).hexdigest()
+
+
+def _unseal(name: str, numbers: str, shape: bytes, seal: str) -> CaseEnd | None:
+    """Case of an entry; None if anything in it was changed."""
+    with suppress(ValueError, KeyError, TypeError, zlib.error):
+        if _seal(name, numbers, shape) == seal:
+            return decode_end(numbers, shape)
+    return None
+
+
+def _set_aside(path: Path) -> Path:
+    """Move a file and its log out of the way, under a name that is free."""
+    number = 1
+    while (aside := path.with_name(f"{path.name}.aside-{number}")).exists():
+        number += 1
+    path.replace(aside)
+    for end in ("-wal", "-shm"):
+        beside = path.with_name(path.name + end)
+        if beside.exists():
+            beside.replace(aside.with_name(aside.name + end))
+    return aside

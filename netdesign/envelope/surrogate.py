@@ -1,0 +1,154 @@
+"""A model of the responses between the solved cases, and how far to trust it.
+
+Universal kriging: a quadratic trend plus a residual whose correlation falls with
+distance. Every solved case is also predicted from all the others; these held-out
+errors set the scale of what the model claims, more so nearby, so that a kink in one
+corner of the ranges widens the claims there. Theory: envelope/THEORY.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# Lengths as shares of a range. Beyond CORRELATION the residual of the trend is free;
+# within REACH a held-out error counts in full, far away by FAR_SHARE.
+CORRELATION = 1.0
+REACH = 0.35
+FAR_SHARE = 0.5
+_NUGGET = 1e-6  # rounding and mesh noise, as a share of the residual's variance
+
+
+class Prediction(NamedTuple):
+    """What the model says at some places."""
+
+    mean: Floats  # shape (n, quantities)
+    claim: Floats  # shape (n, quantities): one standard error, never negative
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Surrogate:
+    """Fitted model of several quantities on the unit cube.
+
+    Attributes
+    ----------
+    places : ndarray, shape (n, dimension)
+        Solved cases, each coordinate a share of its range.
+    held_out : ndarray, shape (n, quantities)
+        Error of each case predicted from all others, in the quantity's unit.
+    scores : ndarray, shape (n, quantities)
+        Size of those errors over what the model expected of them.
+    """
+
+    places: Floats
+    held_out: Floats
+    scores: Floats
+    _inverse: Floats
+    _trend: Floats
+    _trend_covariance: Floats
+    _trend_weights: Floats
+    _weights: Floats
+
+    def predict(self, at: Floats) -> Prediction:
+        """Mean and standard error at places of shape (n, dimension)."""
+        distances = _measure_distances(at, self.places)
+        near = _correlate(distances)
+        trend = _build_trend(at)
+        mean = trend @ self._trend_weights + near @ self._weights
+        carried = near @ self._inverse
+        lack = trend - carried @ self._trend
+        variance = (
+            1.0
+            - np.sum(carried * near, axis=1)
+            + np.sum((lack @ self._trend_covariance) * lack, axis=1)
+        )
+        spread = np.sqrt(np.maximum(variance, 0.0))
+        return Prediction(mean=mean, claim=self._scale(distances) * spread[:, None])
+
+    def _scale(self, distances: Floats) -> Floats:
+        """Largest held-out score around each place, faded with distance."""
+        share = np.maximum(np.exp(-((distances / REACH) ** 2)), FAR_SHARE)
+        columns = [
+            np.max(share * self.scores[:, quantity], axis=1)
+            for quantity in range(self.scores.shape[1])
+        ]
+        return np.stack(columns, axis=1)
+
+
+def fit_surrogate(places: Floats, values: Floats) -> Surrogate:
+    """Model through solved cases; more cases than trend terms are needed.
+
+    Parameters
+    ----------
+    places : ndarray, shape (n, dimension)
+        Distinct points of the unit cube [-].
+    values : ndarray, shape (n, quantities)
+        Responses there, each in a unit of its own.
+
+    Returns
+    -------
+    Surrogate
+        It passes through the values up to the noise that is allowed for.
+
+    Verified by
+    -----------
+    tests/envelope/test_surrogate.py
+    """
+    distances = _measure_distances(places, places)
+    inverse = _invert(_correlate(distances) + _NUGGET * np.eye(len(places)))
+    trend = _build_trend(places)
+    covariance = _invert(trend.T @ inverse @ trend)
+    trend_weights = covariance @ (trend.T @ (inverse @ values))
+    weights = inverse @ (values - trend @ trend_weights)
+    # Leaving case i out changes its prediction by (Q y)_i / Q_ii (Dubrule 1983).
+    carried = inverse @ trend
+    diagonal = np.diag(inverse - carried @ covariance @ carried.T)
+    diagonal = np.maximum(diagonal, 1e-12)[:, None]
+    return Surrogate(
+        places=places,
+        held_out=weights / diagonal,
+        scores=np.abs(weights) / np.sqrt(diagonal),
+        _inverse=inverse,
+        _trend=trend,
+        _trend_covariance=covariance,
+        _trend_weights=trend_weights,
+        _weights=weights,
+    )
+
+
+def count_trend_terms(dimension: int) -> int:
+    """Terms of the quadratic trend: the fewest cases that a model needs, less one."""
+    return (dimension + 1) * (dimension + 2) // 2
+
+
+def _invert(matrix: Floats) -> Floats:
+    return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+
+
+def _build_trend(at: Floats) -> Floats:
+    """Constant, linear and quadratic terms, shape (n, terms)."""
+    centred = 2.0 * at - 1.0
+    pairs = combinations_with_replacement(range(at.shape[1]), 2)
+    products = [centred[:, i] * centred[:, j] for i, j in pairs]
+    return np.column_stack([np.ones(len(at)), centred, *products])
+
+
+def _measure_distances(a: Floats, b: Floats) -> Floats:
+    square = (
+        np.sum(a * a, axis=1)[:, None] + np.sum(b * b, axis=1)[None] - 2.0 * a @ b.T
+    )
+    result: Floats = np.sqrt(np.maximum(square, 0.0))
+    return result
+
+
+def _correlate(distances: Floats) -> Floats:
+    """Matern 5/2: twice differentiable, so that a kink shows as held-out error."""
+    scaled = np.sqrt(5.0) * distances / CORRELATION
+    result: Floats = (1.0 + scaled + scaled**2 / 3.0) * np.exp(-scaled)
+    return result

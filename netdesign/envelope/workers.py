@@ -1,0 +1,266 @@
+"""Where cases are solved: in this process, in a pool, or on a Dask cluster.
+
+Each gives the same ends for the same jobs; only the order of arrival differs. A
+worker that dies costs the one case that kills it, by name.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from typing import Protocol
+
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import FailedSolution, WallSolution
+from netdesign.coupling.solve import Settings, solve_scene
+from netdesign.envelope.state import CaseEnd, keep_state
+from netdesign.envelope.store import identify_solver
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Outcome
+
+DIED = "a worker process ended abruptly"
+_AHEAD = 2  # jobs in the hands of a pool, for each of its processes
+_WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
+_REACH_S = 5.0  # how long a cluster may take to answer
+
+
+class ClusterError(NetDesignError):
+    """The cluster cannot be used as asked: a fault of the command line."""
+
+    exit_code = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """One case to solve."""
+
+    scene: Scene
+    settings: Settings
+
+
+Arrival = tuple[int, CaseEnd]  # place among the jobs, and its end
+
+
+class Workers(Protocol):
+    """What solves jobs; ends arrive in any order, each with its place."""
+
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs."""
+
+    def close(self) -> None:
+        """Let go of what was held; what still runs is stopped."""
+
+
+def solve_job(job: Job) -> CaseEnd:
+    """Solve one case; a failure comes back as an outcome, even that of a bug."""
+    try:
+        solution = solve_scene(job.scene, job.settings)
+        if isinstance(solution, FailedSolution):
+            return CaseEnd(outcome=solution.outcome, reason=solution.reason)
+        if isinstance(solution, WallSolution):
+            return CaseEnd(
+                outcome=Outcome.OUT_OF_VALIDITY,
+                reason="a rigid wall has no net whose forces could be followed",
+            )
+        history = solution.history
+        if history is not None and not history.plateau.reached:
+            return CaseEnd(
+                outcome=Outcome.PLATEAU_NOT_REACHED,
+                reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
+            )
+        return CaseEnd(outcome=Outcome.CONVERGED, state=keep_state(solution))
+    except Exception as error:  # a bug in one case must not hide the others
+        return CaseEnd(
+            outcome=Outcome.WORKER_FAILED, reason=f"{type(error).__name__}: {error}"
+        )
+
+
+class OwnProcess:
+    """Solves one job after the other, here."""
+
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs in their order."""
+        for place, job in enumerate(jobs):
+            yield place, solve_job(job)
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+class ProcessPool:
+    """Solves jobs in several processes; small waves before the first large one here.
+
+    Processes are started by the first wave that is worth it. They ignore Ctrl-C,
+    which is the parent's to handle, and are stopped by ``close`` at once.
+    """
+
+    def __init__(self, processes: int, *, worth: int = _WORTH_A_POOL) -> None:
+        """Keep the number of processes, and of jobs that are worth starting them."""
+        self._processes, self._worth = processes, worth
+        self._pool: ProcessPoolExecutor | None = None
+
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs; suspects of a crash are tried again one by one."""
+        if self._pool is None and len(jobs) < self._worth:
+            yield from OwnProcess().solve(jobs)
+            return
+        waiting = list(enumerate(jobs))[::-1]
+        while waiting:
+            suspects = yield from self._feed(waiting)
+            for place, job in suspects:
+                yield place, self._try_alone(job)
+
+    def _feed(
+        self, waiting: list[tuple[int, Job]]
+    ) -> Generator[Arrival, None, list[tuple[int, Job]]]:
+        """Hand out jobs until all are done or the pool breaks; jobs lost with it."""
+        held: dict[Future[CaseEnd], tuple[int, Job]] = {}
+        pool = self._start()
+        try:
+            while waiting or held:
+                while waiting and len(held) < _AHEAD * self._processes:
+                    held[pool.submit(solve_job, waiting[-1][1])] = waiting[-1]
+                    waiting.pop()
+                for future in wait(held, return_when=FIRST_COMPLETED).done:
+                    end = future.result()
+                    place, _ = held.pop(future)
+                    yield place, end
+        except BrokenProcessPool:
+            self.close()
+            return sorted(held.values(), key=lambda one: one[0])
+        return []
+
+    def _try_alone(self, job: Job) -> CaseEnd:
+        """Solve a job that may have killed its worker in a process of its own."""
+        pool = _start_pool(1)
+        try:
+            return pool.submit(solve_job, job).result()
+        except BrokenProcessPool:
+            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+        finally:
+            _stop(pool)
+
+    def _start(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            self._pool = _start_pool(self._processes)
+        return self._pool
+
+    def close(self) -> None:
+        """Stop the processes, whatever they do."""
+        pool, self._pool = self._pool, None
+        if pool is not None:
+            _stop(pool)
+
+
+class DaskCluster:
+    """Solves jobs on the workers of a running Dask scheduler (extra ``dask``)."""
+
+    def __init__(self, address: str) -> None:
+        """Connect to ``HOST:PORT``, with or without ``tcp://``.
+
+        Raises
+        ------
+        ClusterError
+            If the extra is not installed, nobody answers there, or the workers
+            have another version of the solver.
+        """
+        try:
+            from distributed import Client
+        except ImportError:
+            raise ClusterError(
+                f"--executor dask://{address}: needs the extra: "
+                "pip install 'netdesign[dask]'"
+            ) from None
+        try:
+            self._client = Client(
+                f"tcp://{address.removeprefix('tcp://')}",
+                timeout=_REACH_S,
+                set_as_default=False,
+            )
+            versions = self._client.run(identify_solver)
+        except (OSError, ValueError) as error:
+            raise ClusterError(
+                f"--executor dask://{address}: no Dask scheduler answers there "
+                f"({type(error).__name__}); start one, or leave the option out"
+            ) from None
+        others = {v for v in versions.values() if v != identify_solver()}
+        if others or not versions:
+            self.close()
+            fault = (
+                f"workers have {', '.join(sorted(others))}" if others else "no worker"
+            )
+            raise ClusterError(
+                f"--executor dask://{address}: {fault}; needed are workers with "
+                f"version {identify_solver()} of the solver"
+            )
+
+    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
+        """Solve all jobs; those lost with a worker are tried again one by one.
+
+        The scheduler gives up every job that waited with one that kills workers.
+        """
+        from distributed import KilledWorker, as_completed
+
+        places = {
+            self._client.submit(solve_job, job, pure=False): place
+            for place, job in enumerate(jobs)
+        }
+        suspects: list[int] = []
+        for future in as_completed(list(places), loop=self._client.loop):
+            try:
+                yield places[future], future.result()
+            except KilledWorker:
+                suspects.append(places[future])
+        for place in sorted(suspects):
+            yield place, self._try_alone(jobs[place])
+
+    def _try_alone(self, job: Job) -> CaseEnd:
+        from distributed import KilledWorker
+
+        try:
+            end: CaseEnd = self._client.submit(solve_job, job, pure=False).result()
+        except KilledWorker:
+            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+        return end
+
+    def close(self) -> None:
+        """Disconnect; what still runs for this client is cancelled."""
+        self._client.close()
+
+
+def build_workers(executor: str, processes: int) -> Workers:
+    """Workers by name: "" for a pool, "dask://HOST:PORT" for a cluster.
+
+    Raises
+    ------
+    ClusterError
+        For any other name, and where the cluster cannot be used.
+    """
+    if executor.startswith("dask://") and len(executor) > len("dask://"):
+        return DaskCluster(executor.removeprefix("dask://"))
+    if executor:
+        raise ClusterError(f"--executor {executor}: accepted is dask://HOST:PORT")
+    return OwnProcess() if processes == 1 else ProcessPool(processes)
+
+
+def _start_pool(processes: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(
+        processes, mp_context=multiprocessing.get_context("spawn"), initializer=_begin
+    )
+
+
+def _begin() -> None:
+    """First act of a worker."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _stop(pool: ProcessPoolExecutor) -> None:
+    """End a pool without waiting for the cases in hand."""
+    # The pool has no public way to stop a running call before Python 3.14.
+    for process in list((getattr(pool, "_processes", None) or {}).values()):
+        process.terminate()
+    pool.shutdown(wait=True, cancel_futures=True)

@@ -1,0 +1,290 @@
+"""The command as a user runs it: documents, exit codes, kills and interrupts."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+SCENE = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+[ground]
+law = "no-slip"
+[net]
+inclination_deg = 30
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+"""
+RANGES = ("--density", "250:450", "--friction", "15:45")
+PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
+MANY_KILLS, FEW_KILLS = 20, 2
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    path = tmp_path_factory.mktemp("scene") / "scene.toml"
+    path.write_text(SCENE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    """One store for the tests that do not ask how many cases are solved."""
+    return tmp_path_factory.mktemp("store") / "cases.sqlite"
+
+
+def environment(store):
+    return os.environ | {
+        "NETDESIGN_STORE": str(store),
+        "SOURCE_DATE_EPOCH": "1700000000",
+    }
+
+
+def run(*arguments, store, cwd=None):
+    return subprocess.run(
+        [*PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False,
+        env=environment(store), cwd=cwd, timeout=120,
+    )  # fmt: skip
+
+
+def document(*arguments, store):
+    result = run("envelope", *arguments, "--json", "--quiet", store=store)
+    assert result.returncode == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def without_run(found):
+    """What must not depend on how a run came about."""
+    counts = {k: v for k, v in found["cases"].items() if k not in ("solved", "reused")}
+    return found | {"cases": counts, "cost": None}
+
+
+def test_the_document_is_that_of_the_interface(scene, store):
+    found = document(scene, *RANGES, "--accuracy", "0.02", store=store)
+    assert found["schema"] == "netdesign.envelope/1"
+    assert found["ranges"] == {
+        "density_kg_m3": [250.0, 450.0],
+        "friction_deg": [15.0, 45.0],
+    }
+    assert [one["quantity"] for one in found["extremes"]] == [
+        "foot_size_kN_per_m", "head_size_kN_per_m", "tension_max_kN_per_m",
+    ]  # fmt: skip
+    for one in found["extremes"]:
+        assert one["max"] <= one["upper_bound"] <= one["max"] * 1.02 * (1 + 1e-6)
+        assert (
+            one["low"] <= one["max"] <= one["upper_bound"] <= one["high"] * (1 + 1e-12)
+        )
+        assert set(one["case"]) == {"density_kg_m3", "friction_deg", "inclination_deg"}
+        assert len(one["coincident"]) == 2
+        assert one["confirmation"]["difference_percent"] is not None
+        drivers = one["sensitivity"]["drivers"]
+        assert [driver["key"] for driver in drivers] == [
+            "density_kg_m3",
+            "friction_deg",
+        ]
+    assert set(found["cases"]) >= {"solved", "reused", "skipped", "failed"}
+    assert found["cases"]["failed"] == 0
+    assert len(found["log"]) == found["cases"]["asked"]
+
+
+def test_denser_snow_governs_and_is_the_driver(scene, store):
+    foot = document(scene, *RANGES, "--accuracy", "0.02", store=store)["extremes"][0]
+    assert foot["case"]["density_kg_m3"] == 450.0
+    density, friction = foot["sensitivity"]["drivers"]
+    assert density["total"] > 0.9 > 0.1 > friction["total"]
+
+
+def test_a_second_run_solves_nothing_and_says_the_same(scene, tmp_path):
+    store = tmp_path / "cases.sqlite"
+    first = document(scene, *RANGES, store=store)
+    second = document(scene, *RANGES, store=store)
+    assert first["cases"]["solved"] > 0
+    assert second["cases"]["solved"] == 0
+    assert (
+        second["cases"]["reused"] == first["cases"]["solved"] + first["cases"]["reused"]
+    )
+    assert without_run(second) == without_run(first)
+
+
+def test_no_cache_neither_reads_nor_writes_the_store(scene, tmp_path):
+    store = tmp_path / "cases.sqlite"
+    found = document(scene, "--density", "250:450", "--no-cache", store=store)
+    assert found["cases"]["reused"] <= 3  # equal cases of the same run
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_damaged_store_is_set_aside_said_so_and_costs_nothing(scene, tmp_path):
+    store = tmp_path / "cases.sqlite"
+    store.write_bytes(b"spoilt" * 999)
+    result = run("envelope", scene, "--density", "250:450", store=store)
+    assert result.returncode == 0
+    assert "set aside as cases.sqlite.aside-1" in result.stderr
+    assert "nowhere above" in result.stdout
+
+
+def test_a_place_without_a_store_is_said_and_costs_nothing(scene, tmp_path):
+    (tmp_path / "file").write_text("")
+    store = tmp_path / "file" / "cases.sqlite"
+    result = run("envelope", scene, "--density", "250:450", store=store)
+    assert result.returncode == 0
+    assert "going on without it" in result.stderr
+
+
+def test_a_grid_has_no_bound_and_lists_its_cases(scene, store):
+    found = document(
+        scene, "--density", "250:450:3", "--friction", "15:45:2", store=store
+    )
+    assert found["outcome"] == "sampled"
+    assert found["cases"]["asked"] == 6
+    assert all(one["upper_bound"] is None for one in found["extremes"])
+
+
+def test_a_grid_never_exceeds_the_bound_of_the_search(scene, store):
+    searched = document(scene, *RANGES, store=store)
+    grid = document(
+        scene, "--density", "250:450:4", "--friction", "15:45:4", store=store
+    )
+    for one, other in zip(searched["extremes"], grid["extremes"], strict=True):
+        assert other["max"] <= one["high"]
+
+
+def test_outputs_are_written_whole_and_never_over_others(scene, store, tmp_path):
+    arguments = ("envelope", scene, *RANGES, "--out", tmp_path / "o", "--quiet")
+    assert run(*arguments, store=store).returncode == 0
+    written = {path.name for path in (tmp_path / "o").iterdir()}
+    assert written == {"envelope.json", "maps.svg", "lines.svg", "drivers.svg"}
+    for path in (tmp_path / "o").glob("*.svg"):
+        assert path.read_text().startswith("<svg")
+    again = run(*arguments, store=store)
+    assert again.returncode == 2
+    assert "exists already" in again.stderr
+
+
+def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
+    result = run("envelope", scene, *RANGES, store=tmp_path / "cases.sqlite")
+    lines = result.stderr.splitlines()
+    assert re.fullmatch(
+        r"\d+ cases, gap [\d.e+-]+ %, [01] rows open, about \d+ s left", lines[-1]
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "told"),
+    [
+        (("--density", "450:250"), 2, "'450:250' is reversed"),
+        (("--density", "300:300"), 2, "'300:300' is empty"),
+        (("--density", "250-450"), 2, "accepted is low:high"),
+        ((), 2, "no range is given: accepted are --density"),
+        (("--density", "250:450:3", "--friction", "15:45"), 2, "give n in all of them"),
+        (("--density", "250:950"), 3, "snow density = 950.0: must lie above 0"),
+        (("--friction", "15:80"), 3, "friction"),
+        (("--glide", "1:50"), 3, "glide factor = 50.0: must lie between 1"),
+        (("--density", "250:300", "--executor", "slurm"), 2, "dask://HOST:PORT"),
+        (("--density", "250:300", "--accuracy", "0"), 2, "accuracy"),
+    ],
+)
+def test_bad_input_is_refused_by_name_and_nothing_is_written(
+    scene, tmp_path, arguments, code, told
+):
+    result = run(
+        "envelope", scene, *arguments, "--out", tmp_path / "o", store=tmp_path / "s"
+    )
+    assert result.returncode == code
+    assert told in result.stderr
+    assert result.stdout == ""
+    assert not (tmp_path / "o").exists()
+
+
+def test_an_unreachable_cluster_is_named_and_ends_with_2(scene, tmp_path):
+    pytest.importorskip("distributed", reason="the extra is absent: pip install "
+                        "'netdesign[dask]'")  # fmt: skip
+    result = run(
+        "envelope", scene, *RANGES, "--executor", "dask://127.0.0.1:9",
+        store=tmp_path / "s",
+    )  # fmt: skip
+    assert result.returncode == 2
+    assert "dask://127.0.0.1:9: no Dask scheduler answers there" in result.stderr
+
+
+def test_a_rigid_wall_is_refused(tmp_path, store):
+    walled = tmp_path / "wall.toml"
+    rigid = SCENE.replace(
+        "stiffness_kN_per_m = 8000\nslack = 0.05\n", 'kind = "rigid"\n'
+    )
+    walled.write_text(rigid)
+    result = run("envelope", walled, "--density", "250:450", store=store)
+    assert result.returncode == 3
+    assert "rigid wall" in result.stderr
+
+
+# --- kills and interrupts ------------------------------------------------------------
+
+
+def start(scene, store, out):
+    return subprocess.Popen(
+        [*PROGRAM, "envelope", str(scene), *RANGES, "--inclination", "25:35",
+         "--out", str(out), "--force"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env=environment(store), start_new_session=True,
+    )  # fmt: skip
+
+
+def outputs(folder):
+    """All outputs; of the document without what tells of the run itself."""
+    found = {path.name: path.read_text() for path in folder.iterdir()}
+    found["envelope.json"] = without_run(json.loads(found["envelope.json"]))
+    return found
+
+
+def kill_and_continue(scene, tmp_path, kills):
+    """Outputs of a run killed again and again, each time a little later."""
+    store = tmp_path / "killed.sqlite"
+    for k in range(kills):
+        process = start(scene, store, tmp_path / "killed")
+        try:
+            process.communicate(timeout=0.9 + 0.43 * (k % 5))
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+    last = start(scene, store, tmp_path / "killed")
+    assert last.wait(timeout=120) == 0
+    last.communicate()
+    return outputs(tmp_path / "killed")
+
+
+@pytest.mark.parametrize(
+    "kills", [FEW_KILLS, pytest.param(MANY_KILLS, marks=pytest.mark.slow)]
+)
+def test_a_killed_run_continues_to_the_same_bytes(scene, tmp_path, kills):
+    whole = start(scene, tmp_path / "whole.sqlite", tmp_path / "whole")
+    assert whole.wait(timeout=120) == 0
+    whole.communicate()
+    assert kill_and_continue(scene, tmp_path, kills) == outputs(tmp_path / "whole")
+
+
+def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_path):
+    store = tmp_path / "cases.sqlite"
+    process = start(scene, store, tmp_path / "o")
+    while "cases" not in process.stderr.readline():  # the first wave is over
+        assert process.poll() is None
+    asked = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)
+    _, rest = process.communicate(timeout=30)
+    assert time.monotonic() - asked < 2.0
+    assert process.returncode == 130
+    assert f"to continue: netdesign envelope {scene}" in rest
+    assert "Traceback" not in rest
+    assert not (tmp_path / "o").exists()
+    again = run("envelope", scene, *RANGES, "--inclination", "25:35", "--json",
+                "--quiet", store=store)  # fmt: skip
+    assert json.loads(again.stdout)["cases"]["reused"] >= 9

@@ -1,0 +1,74 @@
+"""Made-up responses over the unit cube, and a search driven by them."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+
+import numpy as np
+
+from netdesign.envelope.adaptive import Maxima, SearchSettings, search_maxima
+
+Response = Callable[[np.ndarray], np.ndarray]
+
+
+def drive(response: Response, dimension: int, **settings: float) -> Maxima:
+    """End of a search whose questions the response answers; NaN is a failed case."""
+    search = search_maxima(dimension, SearchSettings(**settings))
+    points = next(search)
+    while True:
+        values = [response(np.array(point)) for point in points]
+        answers = [
+            None if np.isnan(value).any() else tuple(map(float, value))
+            for value in values
+        ]
+        try:
+            points = search.send(answers)
+        except StopIteration as end:
+            return end.value
+
+
+def true_maxima(response: Response, dimension: int, samples: int = 21) -> np.ndarray:
+    """Largest values on a dense grid."""
+    axis = np.linspace(0.0, 1.0, samples)
+    grid = itertools.product(axis, repeat=dimension)
+    return np.max([response(np.array(place)) for place in grid], axis=0)
+
+
+def smooth(seed: int) -> Response:
+    """Three quantities: a random quadratic and a sine wave, about half as large."""
+    rng = np.random.default_rng(seed)
+    slope, bend = rng.normal(size=(3, 3)), rng.normal(size=(3, 3, 3))
+    wave, phase = rng.uniform(0.5, 3.0, (3, 3)), rng.uniform(0.0, 6.0, 3)
+    return lambda u: (
+        10.0 + 2.5 * slope @ u + 1.2 * (bend @ u) @ u + 1.5 * np.sin(wave @ u + phase)
+    )
+
+
+def valley(seed: int) -> Response:
+    """The larger of two planes: a kink that the maximum does not lie on."""
+    rng = np.random.default_rng(seed)
+    slopes, base = rng.normal(size=(2, 3, 3)), 0.3 * rng.normal(size=(2, 3))
+    return lambda u: 10.0 + 3.0 * np.maximum(slopes[0] @ u + base[0], slopes[1] @ u)
+
+
+def ridge(seed: int) -> Response:
+    """The smaller of two planes: the maximum may lie on the kink, inside the box.
+
+    As steep as a stick/slip switch makes a guy's force, and twice that.
+    """
+    rng = np.random.default_rng(seed)
+    slopes, base = rng.normal(size=(2, 2, 3)), 0.3 * rng.normal(size=(2, 2))
+    return lambda u: 10.0 + np.minimum(slopes[0] @ u + base[0], slopes[1] @ u)
+
+
+def peak(seed: int, width: float) -> Response:
+    """A tilted plane and an interior peak, ``width`` wide at half its height."""
+    rng = np.random.default_rng(seed)
+    top, height = rng.uniform(0.0, 1.0, (3, 3)), rng.uniform(1.0, 10.0, 3)
+    slope, sigma = 1.5 * rng.normal(size=(3, 3)), width / 2.3548
+    return lambda u: (
+        10.0
+        + slope @ u
+        + height * np.exp(-np.sum((u - top) ** 2, axis=1) / (2.0 * sigma**2))
+    )

@@ -1,0 +1,189 @@
+"""Searches over made-up responses whose maxima are known; no solver."""
+
+import math
+
+import numpy as np
+import pytest
+from synthetic import drive, peak, ridge, smooth, true_maxima, valley
+
+from netdesign.envelope.adaptive import (
+    RESOLVED_SHARE,
+    SearchSettings,
+    list_first_design,
+    search_maxima,
+)
+from netdesign.errors import ModelError
+
+FEW = range(6)
+MANY = range(6, 60)
+
+
+def assert_covers(found, truth):
+    """The bound holds and the maximum is one of the cases."""
+    assert np.all(truth <= np.array(found.upper_bound) * (1.0 + 1e-9))
+    for quantity, place in enumerate(found.governing):
+        assert found.values[place][quantity] == found.maximum[quantity]
+
+
+@pytest.mark.parametrize("seed", FEW)
+@pytest.mark.parametrize("family", [smooth, valley])
+def test_bound_holds_and_is_closed(family, seed):
+    response = family(seed)
+    found = drive(response, 3)
+    assert found.is_closed
+    assert_covers(found, true_maxima(response, 3))
+    gaps = np.array(found.upper_bound) - np.array(found.maximum)
+    assert np.all(gaps <= 0.005 * np.array(found.maximum) * (1 + 1e-6))
+
+
+@pytest.mark.parametrize("seed", FEW)
+def test_smooth_responses_take_few_cases(seed):
+    assert len(drive(smooth(seed), 3).points) <= 80
+
+
+@pytest.mark.parametrize("seed", FEW)
+def test_a_ridge_inside_the_box_is_found(seed):
+    response = ridge(seed)
+    assert_covers(drive(response, 3), true_maxima(response, 3))
+
+
+@pytest.mark.parametrize("seed", FEW)
+def test_a_peak_as_narrow_as_is_resolved_is_never_missed(seed):
+    response = peak(seed, RESOLVED_SHARE)
+    found = drive(response, 3)
+    assert found.is_closed
+    assert_covers(found, true_maxima(response, 3))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", MANY)
+def test_no_family_is_missed_at_length(seed):
+    for response in (
+        smooth(seed), valley(seed), ridge(seed), peak(seed, RESOLVED_SHARE),
+    ):  # fmt: skip
+        found = drive(response, 3)
+        truth = true_maxima(response, 3)
+        if found.is_closed:
+            assert_covers(found, truth)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3, 4, 5, 6])
+def test_every_number_of_parameters_is_searched(dimension):
+    """A bowl with its top inside: 10 less the squares of the distances."""
+    top = np.linspace(0.3, 0.6, dimension)
+    found = drive(lambda u: np.array([10.0 - np.sum((u - top) ** 2)]), dimension)
+    assert found.is_closed
+    assert found.maximum[0] == pytest.approx(10.0, rel=5e-3)
+    assert found.upper_bound[0] >= 10.0
+
+
+def test_foot_tension_that_is_not_monotonic_in_friction():
+    """Physics.md section 7: 369 at 0, 341 near 20, 345.6 where all sticks."""
+
+    def foot(u):
+        phi = 45.0 * u[0]
+        if phi < 20.0:
+            return np.array([341.0 + 28.0 * ((20.0 - phi) / 20.0) ** 2])
+        return np.array([341.0 + 4.6 * min((phi - 20.0) / 12.0, 1.0) ** 2])
+
+    found = drive(foot, 1)
+    assert found.maximum == (369.0,)
+    assert found.points[found.governing[0]] == (0.0,)
+    assert found.upper_bound[0] <= 369.0 * 1.005
+
+
+def test_an_interior_peak_between_equal_ends_is_found():
+    found = drive(lambda u: np.array([1.0 + math.exp(-(((u[0] - 0.4) / 0.2) ** 2))]), 1)
+    assert found.maximum[0] == pytest.approx(2.0, rel=5e-3)
+
+
+def test_a_constant_response_ends_with_no_gap():
+    found = drive(lambda _: np.array([5.0, 0.0]), 3)
+    assert found.is_closed
+    assert found.maximum == (5.0, 0.0)
+    assert found.upper_bound == pytest.approx((5.0, 0.0), abs=0.03 * 5e-3 * 5.0)
+
+
+def test_same_answers_give_the_same_search():
+    one, other = drive(ridge(3), 3), drive(ridge(3), 3)
+    assert one.points == other.points
+    assert one.upper_bound == other.upper_bound
+    assert [a.reason for a in one.log] == [a.reason for a in other.log]
+
+
+def test_the_log_says_why_each_case_was_solved_and_what_was_expected():
+    found = drive(valley(1), 3)
+    assert [one.point for one in found.log] == list(found.points)
+    first = list_first_design(3)
+    for place, one in enumerate(found.log):
+        value = found.values[place][one.quantity]
+        assert one.found == value
+        if place < len(first):
+            assert one.reason == "first design"
+            assert math.isnan(one.predicted)
+        else:
+            assert one.reason in ("could exceed", "test")
+            assert one.claimed >= 0.0
+    rounds = [one.round for one in found.log]
+    assert rounds == sorted(rounds)
+    assert found.log[-1].reason == "test"
+
+
+def test_failed_cases_are_kept_apart_and_never_govern():
+    def response(u):
+        value = smooth(2)(u)
+        return value * math.nan if u[0] == 1.0 and u[1] > 0.5 else value
+
+    found = drive(response, 3)
+    failed = [k for k, value in enumerate(found.values) if value is None]
+    assert failed
+    assert not set(failed) & set(found.governing)
+    assert all(math.isnan(found.log[k].found) for k in failed)
+
+
+def test_nothing_solved_gives_nothing():
+    found = drive(lambda _: np.array([math.nan]), 3)
+    assert (found.maximum, found.upper_bound, found.governing) == ((), (), ())
+    assert not found.is_closed
+    assert found.surrogate is None
+
+
+def test_too_few_answers_leave_the_search_open():
+    """Nine of ten trend terms can be fitted: no model, no bound, no pass."""
+    solved = set(list_first_design(3)[:10])
+    found = drive(lambda u: np.array([u[0] if tuple(u) in solved else math.nan]), 3)
+    assert not found.is_closed
+
+
+def test_the_limit_on_cases_leaves_the_gap_open_and_says_so():
+    found = drive(ridge(4), 3, max_cases=36, gap=1e-4)
+    assert len(found.points) <= 36
+    assert not found.is_closed
+
+
+def test_first_design_holds_corners_centre_and_the_parts_between():
+    assert list_first_design(1) == ((0.0,), (0.25,), (0.5,), (0.75,), (1.0,))
+    for dimension in (2, 3, 4, 5, 6):
+        points = list_first_design(dimension)
+        assert len(set(points)) == len(points)
+        assert {(0.5,) * dimension, (0.0,) * dimension, (1.0,) * dimension} <= set(
+            points
+        )
+        assert (0.25,) * dimension in points
+    assert len(list_first_design(3)) == 3**3 + 2**3
+    assert len(list_first_design(6)) == 2**6 + 1 + 12 + 2**6
+
+
+@pytest.mark.parametrize("dimension", [0, 7])
+def test_other_numbers_of_parameters_are_refused(dimension):
+    with pytest.raises(ModelError, match="takes 1 to 6"):
+        next(search_maxima(dimension, SearchSettings()))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"gap": 0.0}, {"gap": math.nan}, {"certainty": 0.5}, {"tests": 0}, {"batch": 0}],
+)
+def test_settings_that_would_certify_anything_are_refused(wrong):
+    with pytest.raises(ModelError, match=next(iter(wrong))):
+        SearchSettings(**wrong)

@@ -1,0 +1,101 @@
+"""The skip of cases that friction cannot change, on made-up ends."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.coupling.solution import EndPull
+from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.state import CaseEnd
+from netdesign.envelope.workers import solve_job
+from netdesign.outcome import Outcome
+
+AXES = ("density", "friction_angle")
+LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
+
+
+@pytest.fixture(scope="module")
+def end():
+    """One real end; what matters of it is changed by ``sticking``."""
+    from test_store import solve_one
+
+    return solve_one()
+
+
+def sticking(end, *, sticks=True, foot=1e5):
+    slides = end.state.net_slides.copy()
+    slides[:] = not sticks
+    pull = EndPull(x=foot, y=0.0, error=1.0)
+    return CaseEnd(
+        outcome=Outcome.CONVERGED,
+        state=replace(end.state, net_slides=slides, foot=pull),
+    )
+
+
+def after_two_tests(end, **second):
+    """Skip that was tested twice, the second time with an end of its own."""
+    skip = FrictionSkip(AXES)
+    for line, other in ((0.1, {}), (0.2, second)):
+        skip.learn((line, 0.0), sticking(end))
+        assert skip.needs_solve((line, 1.0))
+        skip.learn((line, 1.0), sticking(end, **other))
+    return skip
+
+
+def test_nothing_is_skipped_before_two_tests(end):
+    skip = after_two_tests(end)
+    assert skip.tested == 2
+    skip.learn(LOW, sticking(end))
+    assert not skip.needs_solve(HIGH)
+    assert skip.recall(HIGH).state.sticks
+    assert skip.skipped == 1
+
+
+def test_a_test_that_disagrees_ends_the_skipping(end):
+    skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
+    skip.learn(LOW, sticking(end))
+    assert skip.needs_solve(HIGH)
+
+
+def test_sliding_snow_answers_for_nothing(end):
+    skip = after_two_tests(end)
+    skip.learn(LOW, sticking(end, sticks=False))
+    assert skip.needs_solve(MIDDLE)
+    skip.learn(MIDDLE, sticking(end))
+    assert not skip.needs_solve(HIGH)
+    assert skip.needs_solve(LOW)  # less friction than what is known to stick
+
+
+def test_another_line_and_a_failed_case_answer_for_nothing(end):
+    skip = after_two_tests(end)
+    skip.learn(LOW, CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt"))
+    skip.learn((0.4, 0.0), sticking(end))
+    assert skip.needs_solve(HIGH)
+
+
+def test_waves_go_up_in_friction_on_each_line():
+    skip = FrictionSkip(AXES)
+    waves = skip.split([HIGH, LOW, (0.7, 0.5), MIDDLE])
+    assert waves == [[LOW, (0.7, 0.5)], [MIDDLE], [HIGH]]
+
+
+def test_without_a_range_of_friction_all_is_solved(end):
+    skip = FrictionSkip(("density",))
+    skip.learn((0.1,), sticking(end))
+    assert skip.needs_solve((0.1,))
+    assert skip.split([(0.5,), (0.1,)]) == [[(0.5,), (0.1,)]]
+
+
+def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
+    """What the skip relies on, on the real thing: rough ground, an upright net."""
+    from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+    from netdesign.envelope.workers import Job
+
+    settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+    ends = [
+        solve_job(Job(scene=a_scene(friction_deg=phi, slack=0.05), settings=settings))
+        for phi in (30.0, 45.0)
+    ]
+    assert all(end.state.sticks for end in ends)
+    low, high = (end.state for end in ends)
+    assert (low.foot, low.head) == (high.foot, high.head)

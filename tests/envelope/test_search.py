@@ -1,0 +1,168 @@
+"""The envelope of a row on the real solver, coarse; and of many rows together."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from small_scene import COARSE, LAYOUT, build_scene
+
+from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.envelope.adaptive import SearchSettings
+from netdesign.envelope.grid import Case, Interval
+from netdesign.envelope.parameters import Box
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.search import (
+    RowTask,
+    refine_settings,
+    run_grid,
+    search_rows,
+)
+from netdesign.envelope.state import CaseEnd
+from netdesign.outcome import Outcome
+
+SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
+BOX = Box(
+    intervals=(
+        ("density", Interval(low=250.0, high=400.0)),
+        (
+            "friction_angle",
+            Interval(low=math.radians(15.0), high=math.radians(45.0)),
+        ),
+    )
+)
+TASK = RowTask(
+    scene=SCENE,
+    box=BOX,
+    layout=LAYOUT,
+    settings=COARSE,
+    search=SearchSettings(gap=0.01),
+    confirmed_by=None,
+)
+
+
+@pytest.fixture(scope="module")
+def runner():
+    return Runner()
+
+
+@pytest.fixture(scope="module")
+def found(runner):
+    finer = refine_settings(replace(COARSE, levels=MESH_LEVELS[:4]))
+    (one,) = search_rows([replace(TASK, confirmed_by=finer)], runner)
+    return one
+
+
+@pytest.fixture(scope="module")
+def grid():
+    return run_grid(TASK, {"density": 7, "friction_angle": 9}, Runner())
+
+
+def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
+    assert found.gap == ""
+    for result in grid:
+        for member, band in result.member_forces.items():
+            assert band.value <= found.bound(member).high
+            place = found.members.index(member)
+            bound = found.maxima.upper_bound[place]
+            assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
+
+
+def test_the_maximum_is_that_of_its_governing_case_with_all_coincident_forces(found):
+    for place, member in enumerate(found.members):
+        governing = found.governing(member)
+        assert governing.member_forces[member].value == found.maxima.maximum[place]
+        assert set(governing.member_forces) == set(found.members)
+
+
+def test_the_band_holds_numerical_error_and_what_hides(found):
+    for place, member in enumerate(found.members):
+        band = found.bound(member)
+        hidden = found.maxima.upper_bound[place] - found.maxima.maximum[place]
+        largest = max(r.member_forces[member].high for r in found.results)
+        assert band.high >= largest + hidden - 1e-9
+        assert band.value == found.maxima.maximum[place]
+
+
+def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
+    assert {one.member for one in found.confirmations} == {
+        member for member in found.members if found.bound(member).value > 0.0
+    }
+    for one in found.confirmations:
+        assert one.confirmed.case == one.screened.case
+        assert one.confirmed.solution.elements > one.screened.solution.elements
+        forces = [
+            r.member_forces[one.member].value for r in (one.confirmed, one.screened)
+        ]
+        assert one.difference == pytest.approx(forces[0] / forces[1] - 1.0)
+        assert abs(one.difference) < 0.1
+        assert (
+            found.bound(one.member).high >= one.confirmed.member_forces[one.member].high
+        )
+
+
+def test_rows_that_share_net_and_snow_share_cases(found):
+    other = replace(LAYOUT, post_spacing=2.5)
+    runner = Runner()
+    one, two = search_rows([TASK, replace(TASK, layout=other)], runner)
+    foot = one.members.index("foot_anchor")
+    assert one.maxima.maximum[foot] / two.maxima.maximum[foot] == pytest.approx(1.4)
+    assert runner.counts.reused >= len(one.results) - 15
+
+
+def test_rows_together_end_as_each_alone(found):
+    other = replace(TASK, scene=build_scene(
+        Case(density=300.0, friction_angle=0.5, inclination=0.3)))  # fmt: skip
+    together = search_rows([TASK, other], Runner())
+    alone = [search_rows([task], Runner())[0] for task in (TASK, other)]
+    for one, two in zip(together, alone, strict=True):
+        assert one.maxima.points == two.maxima.points
+        assert one.maxima.upper_bound == two.maxima.upper_bound
+
+
+class Spoilt:
+    """Workers in whose hands every case with much friction fails."""
+
+    def solve(self, jobs):
+        from netdesign.envelope.workers import solve_job
+
+        for place, job in enumerate(jobs):
+            if (
+                job.scene.net.friction_angle > 0.7
+                and job.scene.snowpack.density > 390.0
+            ):
+                yield place, CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt")
+            else:
+                yield place, solve_job(job)
+
+    def close(self):
+        pass
+
+
+def test_a_failed_case_leaves_a_gap_by_name():
+    (found,) = search_rows([TASK], Runner(workers=Spoilt()))
+    assert "failed (spoilt)" in found.gap
+    assert all(found.governing(m).is_converged for m in found.members)
+
+
+def test_an_open_gap_is_told():
+    closest = SearchSettings(gap=1e-4, max_cases=14)
+    (found,) = search_rows([replace(TASK, search=closest)], Runner())
+    assert not found.maxima.is_closed
+    assert "could still exceed the largest one" in found.gap
+
+
+def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
+    (found,) = search_rows([replace(TASK, layout=None)], Runner())
+    assert found.members == ("foot", "head", "rope")
+    foot, head, rope = found.maxima.maximum
+    assert rope >= max(foot, head) * (1.0 - 1e-12)
+    governing = found.governing("foot")
+    assert governing.solution.foot.size == foot
+
+
+def test_progress_is_told_after_each_wave():
+    waves = []
+    search_rows([TASK], Runner(), waves.append)
+    assert waves[-1].rows_open == 0
+    assert [wave.rows_open for wave in waves[:-1]] == [1] * (len(waves) - 1)
+    assert any(math.isfinite(wave.gap) for wave in waves)

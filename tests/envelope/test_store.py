@@ -1,0 +1,203 @@
+import math
+import sqlite3
+from dataclasses import fields, replace
+from functools import cache
+
+import numpy as np
+import pytest
+from small_scene import COARSE, build_scene
+
+from netdesign.coupling.scene import SolverSettings
+from netdesign.envelope import store as module
+from netdesign.envelope.grid import Case
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.state import CaseEnd, SolvedState, decode_end, encode_end
+from netdesign.envelope.store import CaseStore, StoreError, find_store, name_case
+from netdesign.envelope.workers import Job, solve_job
+from netdesign.outcome import Outcome
+
+CASE = Case(density=300.0, friction_angle=math.radians(30), inclination=0.5)
+SCENE = build_scene(CASE)
+JOB = Job(scene=SCENE, settings=COARSE)
+
+
+@cache
+def solve_one() -> CaseEnd:
+    return solve_job(JOB)
+
+
+def assert_same(one, other):
+    assert (one.outcome, one.reason) == (other.outcome, other.reason)
+    for field in fields(SolvedState):
+        left, right = (getattr(end.state, field.name) for end in (one, other))
+        if isinstance(left, np.ndarray):
+            assert left.dtype == right.dtype
+            assert np.array_equal(left, right)
+        else:
+            assert left == right, field.name
+
+
+@pytest.fixture
+def said():
+    return []
+
+
+@pytest.fixture
+def opened(tmp_path, said):
+    """Open the store of this test, as often as wanted."""
+    return lambda: CaseStore(tmp_path / "cases.sqlite", said.append)
+
+
+def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
+    assert_same(decode_end(*encode_end(solve_one())), solve_one())
+
+
+def test_a_failure_survives_too():
+    failed = CaseEnd(outcome=Outcome.NO_EQUILIBRIUM, reason="the post ü would pull")
+    assert decode_end(*encode_end(failed)) == failed or (
+        decode_end(*encode_end(failed)).reason == failed.reason
+    )
+
+
+def test_what_is_kept_is_found_by_a_later_run(opened, said):
+    with opened() as one:
+        one.keep("a", solve_one())
+    with opened() as other:
+        found = other.find(["a", "b"])
+    assert set(found) == {"a"}
+    assert_same(found["a"], solve_one())
+    assert said == []
+
+
+def test_many_names_are_looked_up_at_once(opened):
+    failed = CaseEnd(outcome=Outcome.DIVERGED, reason="x")
+    with opened() as one:
+        for k in range(1203):
+            one.keep(str(k), failed)
+        assert len(one.find([str(k) for k in range(2000)])) == 1203
+
+
+def test_a_case_lost_with_its_worker_is_not_kept(opened):
+    with opened() as one:
+        one.keep("a", CaseEnd(outcome=Outcome.WORKER_FAILED, reason="died"))
+        assert one.find(["a"]) == {}
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        Job(scene=build_scene(replace(CASE, density=math.nextafter(300.0, 400.0))),
+            settings=COARSE),
+        Job(scene=SCENE, settings=replace(COARSE, accuracy=0.05)),
+        Job(scene=SCENE, settings=replace(COARSE, levels=SolverSettings().levels)),
+        Job(scene=replace(SCENE, net_contact="one-sided"), settings=COARSE),
+    ],
+)  # fmt: skip
+def test_everything_that_could_change_the_result_changes_the_name(other):
+    assert name_case(other.scene, other.settings) != name_case(SCENE, COARSE)
+
+
+def test_equal_inputs_have_equal_names():
+    assert name_case(build_scene(CASE), replace(COARSE)) == name_case(SCENE, COARSE)
+
+
+def test_a_store_of_another_version_is_set_aside_and_said_so(
+    opened, said, tmp_path, monkeypatch
+):
+    with opened() as one:
+        one.keep("a", solve_one())
+    monkeypatch.setattr(module, "identify_solver", lambda: "9.9+feed")
+    with opened() as other:
+        assert other.find(["a"]) == {}
+        other.keep("a", solve_one())
+    (text,) = said
+    assert "belongs to version" in text
+    assert "9.9+feed" in text
+    assert "cases.sqlite.aside-1" in text
+    assert (tmp_path / "cases.sqlite.aside-1").exists()
+    with opened() as again:
+        assert set(again.find(["a"])) == {"a"}
+
+
+@pytest.mark.parametrize(
+    "content", [b"no database at all, " * 300, b"SQLite format 3\0"]
+)
+def test_a_damaged_store_is_set_aside_and_rebuilt(opened, said, tmp_path, content):
+    (tmp_path / "cases.sqlite").write_bytes(content)
+    with opened() as one:
+        one.keep("a", solve_one())
+        assert set(one.find(["a"])) == {"a"}
+    assert len(said) == 1
+    assert "set aside as cases.sqlite.aside-1" in said[0]
+    assert (tmp_path / "cases.sqlite.aside-1").read_bytes() == content
+
+
+def test_a_database_of_something_else_is_left_as_it_was(opened, said, tmp_path):
+    base = sqlite3.connect(tmp_path / "cases.sqlite")
+    base.execute("CREATE TABLE mine (x)")
+    base.commit()
+    base.close()
+    with opened() as one:
+        assert one.find(["a"]) == {}
+    assert "is no store of cases" in said[0]
+    kept = sqlite3.connect(tmp_path / "cases.sqlite.aside-1")
+    assert kept.execute("SELECT name FROM sqlite_master").fetchall() == [("mine",)]
+    kept.close()
+
+
+def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
+    with opened() as one:
+        one.keep("a", solve_one())
+        one.keep("b", solve_one())
+    base = sqlite3.connect(tmp_path / "cases.sqlite")
+    base.execute(
+        "UPDATE cases SET numbers = replace(numbers, '\"x\": ', '\"x\": 1') "
+        "WHERE name = 'a'"
+    )
+    base.commit()
+    base.close()
+    with opened() as other:
+        assert set(other.find(["a", "b"])) == {"b"}
+    assert len(said) == 1
+    assert "case a is damaged" in said[0]
+
+
+def test_no_file_possible_is_an_error_that_names_the_place(tmp_path, said):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(StoreError, match=r"file.cases\.sqlite: no store of cases here"):
+        CaseStore(tmp_path / "file" / "cases.sqlite", said.append)
+
+
+def test_two_runs_share_a_store_at_the_same_time(opened):
+    with opened() as one, opened() as other:
+        one.keep("a", solve_one())
+        other.keep("b", solve_one())
+        assert set(one.find(["a", "b"])) == {"a", "b"} == set(other.find(["a", "b"]))
+
+
+def test_the_place_is_the_users_choice(monkeypatch, tmp_path):
+    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "mine.sqlite"))
+    assert find_store() == tmp_path / "mine.sqlite"
+    monkeypatch.delenv("NETDESIGN_STORE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert find_store() == tmp_path / "netdesign" / "cases.sqlite"
+
+
+def test_a_runner_solves_equal_cases_once_and_known_ones_never(opened):
+    with opened() as kept:
+        first, second = Runner(store=kept), Runner(store=kept)
+        ends = first.solve([JOB, JOB])
+        assert (first.counts.solved, first.counts.reused) == (1, 1)
+        assert_same(ends[0], ends[1])
+        assert_same(second.solve([JOB])[0], ends[0])
+        assert (second.counts.solved, second.counts.reused) == (0, 1)
+
+
+def test_a_store_that_breaks_under_way_costs_its_use_not_the_run(opened, said):
+    with opened() as kept:
+        kept._base.close()
+        runner = Runner(store=kept, say=said.append)
+        (end,) = runner.solve([JOB])
+    assert end.outcome is Outcome.CONVERGED
+    assert runner.store is None
+    assert "going on without it" in said[0]

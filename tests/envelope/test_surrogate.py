@@ -1,0 +1,52 @@
+import numpy as np
+import pytest
+
+from netdesign.envelope.surrogate import count_trend_terms, fit_surrogate
+
+RNG = np.random.default_rng(5)
+PLACES = RNG.uniform(0.0, 1.0, (24, 3))
+KINKED = np.column_stack([np.abs(PLACES @ [1.0, -2.0, 0.5]), np.exp(PLACES[:, 0])])
+
+
+def test_a_quadratic_is_met_everywhere():
+    def quadratic(at):
+        return (1.0 + at @ [2.0, -1.0, 3.0] + at[:, 0] * at[:, 1] - 4 * at[:, 2] ** 2)[
+            :, None
+        ]
+
+    model = fit_surrogate(PLACES, quadratic(PLACES))
+    elsewhere = RNG.uniform(0.0, 1.0, (50, 3))
+    mean, claim = model.predict(elsewhere)
+    assert mean == pytest.approx(quadratic(elsewhere), abs=1e-8)
+    assert claim == pytest.approx(0.0, abs=1e-8)
+    assert model.held_out == pytest.approx(0.0, abs=1e-8)
+
+
+def test_held_out_errors_are_those_of_models_without_the_case():
+    """The short cut of the module against its definition."""
+    model = fit_surrogate(PLACES, KINKED)
+    for k in range(len(PLACES)):
+        others = np.arange(len(PLACES)) != k
+        without = fit_surrogate(PLACES[others], KINKED[others])
+        error = KINKED[k] - without.predict(PLACES[[k]]).mean[0]
+        assert model.held_out[k] == pytest.approx(error, rel=1e-3, abs=1e-5)
+
+
+def test_known_cases_are_met_and_claims_grow_away_from_them():
+    model = fit_surrogate(PLACES, KINKED)
+    mean, claim = model.predict(PLACES)
+    assert mean == pytest.approx(KINKED, abs=1e-3)
+    _, far = model.predict(np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]))
+    assert np.all(far.min(axis=0) > 10.0 * claim.max(axis=0))
+    assert np.all(claim >= 0.0)
+
+
+def test_a_kink_widens_the_claims_beside_it_most():
+    line = np.linspace(0.0, 1.0, 17)[:, None]
+    model = fit_surrogate(line, np.abs(line - 0.25))
+    _, claim = model.predict(np.array([[0.28125], [0.96875 - 0.0625]]))
+    assert claim[0, 0] > 1.5 * claim[1, 0]
+
+
+def test_terms_of_the_trend_are_counted():
+    assert [count_trend_terms(n) for n in (1, 2, 3, 6)] == [3, 6, 10, 28]

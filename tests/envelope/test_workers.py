@@ -1,0 +1,172 @@
+"""One process, a pool and a cluster give the same ends; what dies is named."""
+
+import math
+import multiprocessing
+import os
+
+import pytest
+from small_scene import COARSE, build_scene
+
+from netdesign.coupling.scene import Scene
+from netdesign.envelope.grid import Case
+from netdesign.envelope.state import encode_end
+from netdesign.envelope.workers import (
+    DIED,
+    ClusterError,
+    DaskCluster,
+    Job,
+    OwnProcess,
+    ProcessPool,
+    build_workers,
+    solve_job,
+)
+from netdesign.outcome import Outcome
+
+
+class DyingScene(Scene):
+    """Takes its whole process down as soon as somebody solves it."""
+
+    @property
+    def flow_law(self):
+        os._exit(9)
+
+
+class FaultyScene(Scene):
+    """Raises what no case may raise: a bug."""
+
+    @property
+    def flow_law(self):
+        message = "spoilt"
+        raise ZeroDivisionError(message)
+
+
+def job(density, kind=Scene):
+    case = Case(density=density, friction_angle=math.radians(30), inclination=0.5)
+    return Job(scene=build_scene(case, kind), settings=COARSE)
+
+
+JOBS = [job(density) for density in (250.0, 300.0, 350.0, 400.0, 450.0)]
+
+
+def collect(workers, jobs):
+    arrived = list(workers.solve(jobs))
+    assert sorted(place for place, _ in arrived) == list(range(len(jobs)))
+    return [end for _, end in sorted(arrived, key=lambda one: one[0])]
+
+
+@pytest.fixture(scope="module")
+def alone():
+    return collect(OwnProcess(), JOBS)
+
+
+@pytest.mark.parametrize("processes", [1, 2, 3])
+def test_a_pool_gives_the_same_bytes_as_one_process(alone, processes):
+    pool = ProcessPool(processes, worth=1)
+    try:
+        ends = collect(pool, JOBS)
+    finally:
+        pool.close()
+    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
+    assert multiprocessing.active_children() == []
+
+
+def test_a_worker_that_dies_costs_one_case_by_name(alone):
+    jobs = [*JOBS[:2], job(300.0, DyingScene), *JOBS[2:]]
+    pool = ProcessPool(2, worth=1)
+    try:
+        ends = collect(pool, jobs)
+    finally:
+        pool.close()
+    lost = ends.pop(2)
+    assert (lost.outcome, lost.reason, lost.state) == (
+        Outcome.WORKER_FAILED, DIED, None,
+    )  # fmt: skip
+    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
+    assert multiprocessing.active_children() == []
+
+
+def test_a_bug_in_one_case_is_its_outcome():
+    end = solve_job(job(300.0, FaultyScene))
+    assert (end.outcome, end.reason) == (
+        Outcome.WORKER_FAILED, "ZeroDivisionError: spoilt",
+    )  # fmt: skip
+
+
+def test_small_waves_start_no_processes(alone):
+    pool = ProcessPool(2, worth=len(JOBS) + 1)
+    assert len(collect(pool, JOBS)) == len(alone)
+    assert multiprocessing.active_children() == []
+    pool.close()
+
+
+def test_an_interrupt_leaves_no_process_behind():
+    pool = ProcessPool(2, worth=1)
+    arriving = pool.solve(JOBS)
+    next(arriving)
+    arriving.close()
+    pool.close()
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.parametrize("name", ["dask://", "dask", "slurm://x", "tcp://host:1"])
+def test_unknown_executors_are_refused_with_what_is_accepted(name):
+    with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT") as caught:
+        build_workers(name, 1)
+    assert name in str(caught.value)
+    assert ClusterError.exit_code == 2
+
+
+def test_workers_go_by_the_number_of_processes():
+    assert isinstance(build_workers("", 1), OwnProcess)
+    assert isinstance(build_workers("", 2), ProcessPool)
+
+
+# --- a Dask cluster of two processes on loopback -------------------------------------
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    distributed = pytest.importorskip(
+        "distributed", reason="the extra is absent: pip install 'netdesign[dask]'"
+    )
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
+        dashboard_address="127.0.0.1:0", silence_logs=50,
+    ) as running:  # fmt: skip
+        yield running.scheduler_address.removeprefix("tcp://")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
+    workers = build_workers(f"dask://{cluster}", 1)
+    try:
+        ends = collect(workers, JOBS)
+    finally:
+        workers.close()
+    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
+    workers = DaskCluster(cluster)
+    try:
+        ends = collect(workers, [job(300.0, DyingScene), *JOBS])
+    finally:
+        workers.close()
+    assert (ends[0].outcome, ends[0].reason) == (Outcome.WORKER_FAILED, DIED)
+    assert [encode_end(end) for end in ends[1:]] == [encode_end(end) for end in alone]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_an_unreachable_cluster_is_named():
+    pytest.importorskip("distributed", reason="the extra is absent")
+    with pytest.raises(ClusterError, match=r"dask://127\.0\.0\.1:9: no Dask scheduler"):
+        DaskCluster("127.0.0.1:9")
+
+
+def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(ClusterError, match=r"pip install 'netdesign\[dask\]'"):
+        DaskCluster("127.0.0.1:9")

@@ -1,0 +1,139 @@
+"""A site searched instead of sampled, on two coarse meshes."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from test_check_site import ROWS, RUN, build_row, build_site, resist
+
+from netdesign.check_site import judge_site
+from netdesign.checks import load_standard
+from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.store import CaseStore
+from netdesign.envelope.workers import ProcessPool
+from netdesign.outcome import Verdict
+from netdesign.site_cases import count_cases, search_site
+from netdesign.study import read_document, write_document
+
+RANGES = Ranges(
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
+    inclination=Interval(low=math.radians(30), high=math.radians(30)),
+)
+SITE = build_site(*ROWS, ranges=RANGES)
+
+
+@pytest.fixture(scope="module")
+def standard():
+    return load_standard("nf-p-95-304-style")
+
+
+@pytest.fixture(scope="module")
+def envelopes():
+    return search_site(SITE, RUN)
+
+
+def judge(standard, envelopes, site=SITE):
+    results = [one.results for one in envelopes]
+    return judge_site(site, results, standard, RUN, envelopes=envelopes)
+
+
+def on_row(check):
+    """Force on the worst support of the row over the solved one."""
+    effects = check.action
+    ratio = effects.loaded_width_m / effects.post_spacing_m
+    return ratio * effects.lateral_factor
+
+
+def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
+    assert not RANGES.is_grid
+    counted = replace(RANGES, density=replace(RANGES.density, count=3))
+    assert counted.is_grid
+    single = Interval(low=300.0, high=300.0)
+    fixed = Ranges(density=single, friction_angle=single, inclination=single)
+    assert fixed.is_grid
+    assert count_cases(build_site(*ROWS, ranges=counted)) == 2 * 3 * 3
+
+
+def test_the_study_holds_bounds_log_and_confirmations(standard, envelopes):
+    study = judge(standard, envelopes)
+    assert study.verdict is Verdict.PASS
+    for row in study.rows:
+        record = row.envelope
+        assert record.is_closed
+        assert len(row.cases) == record.cases == len(record.log)
+        for bound, extreme in zip(record.bounds, row.extremes, strict=True):
+            assert bound.quantity == extreme.quantity
+            assert bound.max_kN == extreme.max_kN
+            assert extreme.upper_bound_kN == bound.upper_bound_kN
+            assert extreme.high_kN >= bound.upper_bound_kN - 1e-9
+            if bound.max_kN > 0.0:
+                assert bound.confirmation.confirmed_kN <= extreme.high_kN
+    assert read_document(write_document(study)) == study
+
+
+def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
+    """A resistance between the largest case and the bound's end proves nothing."""
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.demand_high_kN > check.demand_kN
+    band = envelopes[0].bound("foot_anchor")
+    factor = on_row(check) * check.action_factor * check.resistance_factor
+    between = 0.5 * (band.value + band.high) * factor
+    row = build_row("R1", resistances=resist(foot_anchor__tendon=between))
+    site = build_site(row, ranges=RANGES)
+    again = judge(standard, envelopes[:1], site)
+    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.verdict is Verdict.NOT_PROVEN
+
+
+def test_critical_values_are_where_the_check_flips(standard, envelopes):
+    """A foot anchor that is just strong enough in the middle of the densities."""
+    middle = sorted(r.member_forces["foot_anchor"].value for r in envelopes[0].results)
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    level = middle[len(middle) // 2]
+    given = level * on_row(check) * check.action_factor * check.resistance_factor
+    row = build_row("R1", resistances=resist(foot_anchor__tendon=given))
+    site = build_site(row, ranges=RANGES)
+    bounds = judge(standard, envelopes[:1], site).rows[0].envelope.bounds
+    flips = [f for f in bounds[0].flips if f.key == "density_kg_m3"]
+    (flip,) = [f for f in flips if f.check == "foot_anchor.tendon"]
+    assert 270.0 < flip.value < 400.0
+    line = next(one for one in bounds[0].lines if one.key == "density_kg_m3")
+    below = [
+        f for v, f in zip(line.values, line.force_kN, strict=True) if v < flip.value
+    ]
+    above = [
+        f for v, f in zip(line.values, line.force_kN, strict=True) if v > flip.value
+    ]
+    assert max(below) <= level / 1e3 <= min(above)
+
+
+def test_an_open_gap_never_passes(standard, envelopes):
+    opened = [
+        replace(one, maxima=replace(one.maxima, is_closed=False)) for one in envelopes
+    ]
+    study = judge(standard, opened)
+    assert study.verdict is Verdict.NOT_PROVEN
+    assert all(
+        check.verdict is not Verdict.PASS
+        for row in study.rows
+        for check in row.checks
+        if check.mode != "inclination" and check.action_kN
+    )
+
+
+def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_path):
+    expected = write_document(judge(standard, envelopes))
+    with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
+        for _ in range(2):
+            found = search_site(SITE, RUN, Runner(store=store))
+            assert write_document(judge(standard, found)) == expected
+    pool = ProcessPool(2, worth=1)
+    try:
+        found = search_site(SITE, RUN, Runner(workers=pool))
+    finally:
+        pool.close()
+    assert write_document(judge(standard, found)) == expected
