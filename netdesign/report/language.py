@@ -130,7 +130,7 @@ def _list_labels(language: Language) -> dict[str, str]:
     """Names of the inputs, as the site workbook has them."""
     return {
         field.label: field.wordings[language].label
-        for plan in SHEETS
+        for plan in reversed(SHEETS)  # a net row's fields count more than a type's
         for field in plan.fields
         if language in field.wordings
     }
