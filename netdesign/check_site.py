@@ -23,6 +23,7 @@ from netdesign.envelope_record import record_envelope
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.rowcheck.effects import RowEffects, find_effects
 from netdesign.rowcheck.guideline_record import record_guideline
+from netdesign.rowcheck.independent_record import record_independent
 from netdesign.rowcheck.member_checks import RowTask, check_row, record_point
 from netdesign.rowcheck.probe import Probe
 from netdesign.rowcheck.support_record import record_anchors, record_head
@@ -134,14 +135,22 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
     effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get("foot_anchor")
+    head = record_head(row, governing) if governing else []
     unproven = [
         f"{check.id}: {check.reason}"
         for check in checks
         if check.verdict != Verdict.PASS
     ]
+    independent = record_independent(governing, head) if governing else []
+    held = [Verdict.NOT_PROVEN for one in independent if not one.is_met]
+    unproven += [
+        f"The independent check {one.name} is not met."
+        for one in independent
+        if not one.is_met
+    ]
     return RowStudy(
         id=row.id,
-        verdict=merge_verdicts(check.verdict for check in checks),
+        verdict=merge_verdicts([*(check.verdict for check in checks), *held]),
         checks=checks,
         extremes=[
             _record_extreme(extremes[member], envelope)
@@ -153,7 +162,8 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         drawing=_draw(row, governing),
         reasons=unproven,
         anchors=record_anchors(governing, effects) if governing else [],
-        head=record_head(row, governing) if governing else [],
+        head=head,
+        independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         notes=_list_row_notes(row, effects),
         envelope=(

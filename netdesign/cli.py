@@ -23,6 +23,8 @@ from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
 from netdesign.commands.glide import glide
 from netdesign.commands.paper import paper
+from netdesign.commands.report import DEFAULT_FOLDER, report
+from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.solving import open_rows, solving_options
 from netdesign.commands.standards import standards
@@ -32,11 +34,11 @@ from netdesign.outcome import Verdict
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.report.language import Language
     from netdesign.site.model import Site
     from netdesign.study import Study
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
-DEFAULT_FOLDER = "netdesign-out"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
@@ -64,6 +66,7 @@ cli.add_command(doctor)
 cli.add_command(envelope)
 cli.add_command(glide)
 cli.add_command(paper)
+cli.add_command(report)
 cli.add_command(standards)
 
 
@@ -98,9 +101,7 @@ cli.add_command(standards)
     type=click.Path(path_type=Path, file_okay=False),
     help=f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].",
 )
-@click.option("--html/--no-html", default=True, help="Write report.html.")
-@click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
-@click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
+@report_options
 @click.option("--explain", is_flag=True, help="Print what would flip each check.")
 @click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
@@ -117,9 +118,12 @@ def check(
     executor: str,
     cache: bool,
     out: Path | None,
+    language: Language,
+    detail: Literal["summary", "full"],
     html: bool,
     excel: bool,
     csv: bool,
+    pdf: bool,
     explain: bool,
     as_json: bool,
     dry_run: bool,
@@ -147,7 +151,7 @@ def check(
     from netdesign.output import require_free, write_files
     from netdesign.report.files import (
         STUDY_FILE,
-        list_reports,
+        ReportStyle,
         name_files,
         render_files,
     )
@@ -174,7 +178,7 @@ def check(
         announce(site, run, as_json=as_json)
         return
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
-    kinds = list_reports(html=html, excel=excel, csv=csv)
+    kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
@@ -186,8 +190,9 @@ def check(
             )
             for profile in profiles
         ]
-    write_files(render_files(studies, names))
-    _show(studies, as_json=as_json, explain=explain)
+    style = ReportStyle(language=language, detail=detail)
+    write_files(render_files(studies, names, style))
+    _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
 
@@ -282,40 +287,6 @@ def solve(
 
 
 @cli.command()
-@click.argument("study_file", type=click.Path(path_type=Path))
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    default=DEFAULT_FOLDER,
-    show_default=True,
-    help="Folder of the outputs.",
-)
-@click.option("--html/--no-html", default=True, help="Write report.html.")
-@click.option("--excel/--no-excel", default=True, help="Write report.xlsx.")
-@click.option("--csv/--no-csv", default=False, help="Write cases.csv, all cases.")
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
-def report(
-    study_file: Path, *, out: Path, html: bool, excel: bool, csv: bool, force: bool
-) -> None:
-    """Render the reports of a stored study again, without solving.
-
-    \b
-    netdesign report netdesign-out/study.json --out again
-    """
-    from netdesign.output import require_free, write_files
-    from netdesign.report.files import list_reports, name_files, render_files
-    from netdesign.study import load_study
-
-    study = load_study(study_file)
-    kinds = list_reports(html=html, excel=excel, csv=csv)
-    names = name_files(out, [study.profile.id], kinds)
-    require_free(names[0], overwrite=force)
-    write_files(render_files([study], names))
-    _report_places(names, quiet=False)
-    sys.exit(_exit_code([study]))
-
-
-@cli.command()
 @click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
 def verify(*, as_json: bool) -> None:
     """Run the verification pack: closed forms, invariants, other codes.
@@ -394,18 +365,22 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
         return open_site(path, **reading)
 
 
-def _show(studies: Sequence[Study], *, as_json: bool, explain: bool) -> None:
+def _show(
+    studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
+) -> None:
     from netdesign.study import write_document
 
     if not as_json:
         from rich.console import Console
 
+        from netdesign.report.language import load_words
         from netdesign.report.terminal import print_changes, print_summary
 
+        words = load_words(language)
         for study in studies:
-            print_summary(study, Console())
+            print_summary(study, Console(), words)
             if explain:
-                print_changes(study, Console())
+                print_changes(study, Console(), words)
     elif len(studies) == 1:
         click.echo(write_document(studies[0]))
     else:

@@ -343,6 +343,16 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class IndependentRecord:
+    """One law that the drawn case must obey whatever the mesh."""
+
+    name: str  # "global_balance", "end_direction", "capstan_ratio", ...
+    value: float | None  # a share or a ratio [-]
+    limit: float | None  # None where nothing bounds it
+    is_met: bool
+
+
+@dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
 
@@ -359,6 +369,7 @@ class RowStudy:
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     guideline: GuidelineRecord | None = None
     notes: list[str] = field(default_factory=list)
+    independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
 
 

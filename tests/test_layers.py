@@ -81,6 +81,7 @@ THIRD_PARTY = {
     "pydantic_core": ("checks.schema",),
     "jinja2": ("report.page",),
     "markupsafe": ("report.html", "report.page"),
+    "weasyprint": ("report.pdf",),
     "matplotlib": ("report.*", "site.drawing"),
     "pandas": ("report.case_table",),
     "click": ("cli", "commands.*"),
@@ -92,6 +93,7 @@ THIRD_PARTY = {
 
 # Slow to import: only inside functions, so that help is there at once.
 ONLY_INSIDE_FUNCTIONS = {"openpyxl", "defusedxml", "xlsxwriter", "jinja2"} | {
+    "weasyprint",
     "matplotlib",
     "pandas",
     "rich",

@@ -208,8 +208,7 @@ def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
     from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 
     pictures = [
-        draw(record, "envelope") if record else ""
-        for draw in (draw_maps, draw_lines, draw_drivers)
+        draw(record) if record else "" for draw in (draw_maps, draw_lines, draw_drivers)
     ]
     return [part.encode() for part in (f"{text}\n", *pictures)]
 

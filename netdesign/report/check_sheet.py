@@ -12,21 +12,22 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.check_view import (
+    CheckView,
     describe_resistance,
     find_utilisation_band,
-    view_check,
 )
 from netdesign.report.table import Cell, Column
 from netdesign.report.tables import CASE_COLUMNS
+from netdesign.report.translation import translate_view
+from netdesign.report.view import ReportView
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
     number_format,
     show_number,
     show_text,
 )
 from netdesign.report.workbook import A3, Book, count_lines
-from netdesign.study import CheckRecord, RowStudy, Study
+from netdesign.study import CheckRecord, Study
 
 HEAD_ROW = 3  # zero-based; the first check is one below
 _NOTES = (
@@ -35,7 +36,6 @@ _NOTES = (
     "PASS: μ high is at most 1. FAIL: μ low exceeds 1. Otherwise NOT PROVEN. "
     '"Set by the study": the verdict has another reason than the ratio, see Reason.',
 )
-_WORD = {verdict: words.word for verdict, words in VERDICTS.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,22 +113,24 @@ _FIELDS = (
 )
 
 
-def add_check_sheet(book: Book, study: Study) -> None:
+def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Checks" and the defined names that the summary counts by."""
     sheet = book.add_sheet("Checks", "Checks", paper=A3)
+    book.link_back(sheet, (0, 3))
     for line, note in enumerate(_NOTES, 1):
-        sheet.write_string(line, 0, note, book.text(italic=True))
-    columns = [field.column for field in _FIELDS]
+        sheet.write_string(line, 0, book.words(note), book.text(italic=True))
+    columns = [translate_view(field.column, book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
         sheet.set_column(f"{field.letter}:{field.letter}", field.width)
     line = HEAD_ROW + 1
-    for number, row in enumerate(study.rows, 1):
-        for check in row.checks:
-            _CheckLine(book, sheet, line).write(number, row, check)
+    for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
+        for check, words in zip(row.checks, shown.checks, strict=True):
+            _CheckLine(book, sheet, line).write((number, row.id), check, words)
             line += 1
     if line == HEAD_ROW + 1:
-        sheet.write_string(line, 0, "none: no check was made", book.text())
+        text = book.words("none: no check was made")
+        sheet.write_string(line, 0, text, book.text())
     last = max(line, HEAD_ROW + 2)
     _finish(book, sheet, last)
 
@@ -141,8 +143,8 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         ("check_utilisation_high", _RATIOS[2]),
         ("check_verdict", _VERDICT),
     ):
-        area = f"=Checks!${field.letter}${first}:${field.letter}${last}"
-        book.workbook.define_name(name, area)
+        area = f"${field.letter}${first}:${field.letter}${last}"
+        book.workbook.define_name(name, f"={book.refer('Checks', area)}")
     column = ord(_VERDICT.letter) - ord("A")
     book.colour_verdicts(sheet, (first - 1, column, last - 1, column))
     column = ord(_RATIOS[1].letter) - ord("A")
@@ -158,9 +160,12 @@ class _CheckLine:
     def __init__(self, book: Book, sheet: Any, line: int) -> None:
         self._book, self._sheet, self._line = book, sheet, line
 
-    def write(self, number: int, row: RowStudy, check: CheckRecord) -> None:
-        """Write texts and inputs as values, everything derived as formulas."""
-        view = view_check(check)
+    def write(self, row: tuple[int, str], check: CheckRecord, view: CheckView) -> None:
+        """Write texts and inputs as values, everything derived as formulas.
+
+        ``row`` is number and id of the net row, ``view`` the check in words.
+        """
+        number, name = row
         self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
         self._write_numbers(check)
         self._write_verdict(check)
@@ -169,7 +174,7 @@ class _CheckLine:
             self._put_number(field, getattr(case, field.quantity) if case else None)
         fields = (*_LEAD[1:], *_TAIL)
         texts = (
-            show_text(row.id),
+            show_text(name),
             view.title,
             show_text(check.clause),
             describe_resistance(check),
@@ -209,12 +214,15 @@ class _CheckLine:
 
     def _write_verdict(self, check: CheckRecord) -> None:
         is_set = decide_by_ratio(*_recalculate_band(check)) is not check.verdict
-        word = _WORD[check.verdict]
+        word = self._book.word(check.verdict)
+        passes, fails, open_ = map(
+            self._book.word, (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
+        )
         self._put(_SET, Cell(text=word if is_set else MISSING))
         low, high, given = (self._at(f) for f in (_RATIOS[0], _RATIOS[2], _SET))
         formula = (
             f'=IF({given}<>"{MISSING}",{given},IF(ISNUMBER({high}),'
-            f'IF({high}<=1,"PASS",IF({low}>1,"FAIL","NOT PROVEN")),"NOT PROVEN"))'
+            f'IF({high}<=1,"{passes}",IF({low}>1,"{fails}","{open_}")),"{open_}"))'
         )
         form = self._book.text(bold=True)
         self._sheet.write_formula(self._at(_VERDICT), formula, form, word)

@@ -17,7 +17,7 @@ _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _SHADES = 6  # steps of a legend
 
 
-def draw_maps(record: EnvelopeRecord, name: str) -> str:
+def draw_maps(record: EnvelopeRecord) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
@@ -45,10 +45,10 @@ def draw_maps(record: EnvelopeRecord, name: str) -> str:
                 chart.ring(frame.x(at[0]), frame.y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, f"{name}: forces over density and friction")
+    return chart.write(height, "Forces over density and friction")
 
 
-def draw_lines(record: EnvelopeRecord, name: str) -> str:
+def draw_lines(record: EnvelopeRecord) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
@@ -70,10 +70,10 @@ def draw_lines(record: EnvelopeRecord, name: str) -> str:
             )
             _paint_line(chart, frame, one, bound)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, f"{name}: forces along each quantity, with the bound")
+    return chart.write(height, "Forces along each quantity, with the bound")
 
 
-def draw_drivers(record: EnvelopeRecord, name: str) -> str:
+def draw_drivers(record: EnvelopeRecord) -> str:
     """SVG of what drives each force: tornado about the governing case."""
     bounds = [bound for bound in _list_loaded(record) if bound.drivers]
     if not bounds:
@@ -83,7 +83,7 @@ def draw_drivers(record: EnvelopeRecord, name: str) -> str:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
         top += 14.0
         top += _paint_tornado(chart, bound, top)
-    return chart.write(top, f"{name}: what drives each force")
+    return chart.write(top, "What drives each force")
 
 
 def _paint_map(
@@ -92,13 +92,20 @@ def _paint_map(
     """Cells around the points of the map, clipped to its frame."""
     xs = _edges(one.density_kg_m3)
     ys = _edges(one.friction_deg)
-    for row, forces in enumerate(one.force_kN):
-        bottom, top = frame.y(ys[row]), frame.y(ys[row + 1])
-        for column, force in enumerate(forces):
-            left, right = frame.x(xs[column]), frame.x(xs[column + 1])
-            fill = shade(force, low, high)
+    cells = []
+    for column in range(len(one.density_kg_m3)):
+        left, right = frame.x(xs[column]), frame.x(xs[column + 1])
+        fills = [shade(forces[column], low, high) for forces in one.force_kN]
+        start = 0
+        for row in range(1, len(fills) + 1):  # cells of one shade are one tile
+            if row < len(fills) and fills[row] == fills[start]:
+                continue
+            bottom, top = frame.y(ys[start]), frame.y(ys[row])
             # a little overlap: no white lines between cells
-            chart.rectangle(left, top, right - left + 0.2, bottom - top + 0.2, fill)
+            size = (right - left + 0.2, bottom - top + 0.2)
+            cells.append((left, top, *size, fills[start]))
+            start = row
+    chart.tiles(cells)
     chart.text(
         frame.left + frame.width,
         frame.top - 3.0,

@@ -10,6 +10,7 @@ from netdesign.report.table import (
     number_column,
     text_cell,
     text_column,
+    word_cell,
 )
 from netdesign.report.words import MISSING, name_heading, name_member, show_number
 from netdesign.study import BoundRecord, EnvelopeRecord, RowStudy
@@ -66,7 +67,7 @@ def _bound_row(bound: BoundRecord) -> tuple[Cell, ...]:
         by = again.reason or f"{again.method}, {again.elements} triangles"
     difference = again.difference_percent if again else None
     return (
-        Cell(text=name_member(bound.quantity)),
+        word_cell(name_member(bound.quantity)),
         number_cell("max_kN", bound.max_kN),
         number_cell("max_kN", bound.upper_bound_kN),
         Cell(text=f"{100.0 * gap:.2f}", number=100.0 * gap),
@@ -75,7 +76,7 @@ def _bound_row(bound: BoundRecord) -> tuple[Cell, ...]:
             text=MISSING if difference is None else f"{difference:+.2f}",
             number=difference,
         ),
-        text_cell(by),
+        word_cell(by),
         text_cell(_name_case(bound.case)),
     )
 
@@ -97,8 +98,8 @@ def build_drivers(row: RowStudy) -> Table:
         ),
         rows=tuple(
             (
-                Cell(text=name_member(bound.quantity)),
-                Cell(text=name_heading(one.key)),
+                word_cell(name_member(bound.quantity)),
+                word_cell(name_heading(one.key)),
                 number_cell("max_kN", one.at_low_kN),
                 number_cell("max_kN", one.at_high_kN),
                 Cell(text=f"{one.first_order:.3f}", number=one.first_order),

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from netdesign.errors import NetDesignError
 from netdesign.report import tables
 from netdesign.report.check_sheet import add_check_sheet
-from netdesign.report.summary_sheet import add_summary_sheet
+from netdesign.report.language import Words
+from netdesign.report.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.table import Cell, Column, Table
+from netdesign.report.translation import translate_view
 from netdesign.report.view import ReportView, build_view
 from netdesign.report.workbook import Book
+from netdesign.report.workbook_charts import add_case_chart, add_force_chart
 from netdesign.study import Study
 
+_FIRST_LINE = 4  # of a table below its caption and headings, zero-based
 _NO_TIME = datetime(1980, 1, 1)
 SHEETS = (
     "Summary",
@@ -25,12 +31,21 @@ SHEETS = (
     "Support",
     "Guideline",
     "Quality",
+    "Assumptions",
+    "Profile",
     "Provenance",
 )
 
 
-def render_workbook(study: Study) -> bytes:
+def render_workbook(study: Study, words: Words | None = None) -> bytes:
     """Workbook of a study; the same study gives the same bytes.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    words : Words, optional
+        Language; English if not given.
 
     Raises
     ------
@@ -39,7 +54,8 @@ def render_workbook(study: Study) -> bytes:
     """
     import xlsxwriter
 
-    view = build_view(study)
+    words = words or Words()
+    view = translate_view(build_view(study), words)
     buffer = io.BytesIO()
     options = {
         "in_memory": True,
@@ -50,7 +66,7 @@ def render_workbook(study: Study) -> bytes:
     with xlsxwriter.Workbook(buffer, options) as workbook:
         workbook.set_properties(
             {
-                "title": "Anchor check of snow nets",
+                "title": words("Anchor check of snow nets"),
                 "subject": view.running_title,
                 "author": view.prepared,
                 "created": _read_time(study.provenance.started),
@@ -58,56 +74,97 @@ def render_workbook(study: Study) -> bytes:
         )
         workbook.set_size(2400, 1400)
         workbook.set_calc_mode("auto")
-        _add_sheets(Book(workbook, view.running_title), study, view)
+        book = Book(workbook, view.running_title, words)
+        _add_sheets(book, study, view)
         names = tuple(sheet.get_name() for sheet in workbook.worksheets())
-        if names != SHEETS:
+        if names != tuple(book.name(sheet) for sheet in SHEETS):
             raise NetDesignError(f"the workbook is incomplete: it has only {names}")
     return buffer.getvalue()
 
 
 def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_summary_sheet(book, study, view)
-    inputs = [("Ranges", view.ranges)]
-    inputs += [(row.id, row.inputs) for row in view.rows]
-    book.add_table_sheet(
-        "Inputs",
-        "Inputs",
-        [tables.stack_tables("As typed and as understood, with the cell", inputs)],
-    )
-    add_check_sheet(book, study)
-    extremes = [(row.id, row.extremes) for row in view.rows]
-    cases = [(row.id, tables.build_cases(row)) for row in study.rows]
-    changes = [(row.id, row.changes) for row in view.rows]
-    anchors = [(row.id, row.anchors) for row in view.rows]
-    guideline = [(row.id, row.guideline) for row in view.rows]
-    for name, title, parts in (
-        ("Envelope", "Largest force of each member", extremes),
-        ("Cases", "All cases", cases),
-        ("Changes", "What would flip the checks", changes),
-        ("Support", "Forces on the ground in the drawn case", anchors),
-        ("Guideline", "Independent check by the guideline", guideline),
-    ):
-        caption = parts[0][1].caption if parts else title
-        stacked = tables.stack_tables(caption, parts) if parts else _say_none(caption)
-        book.add_table_sheet(name, title, [stacked])
+    _add_inputs(book, view)
+    add_check_sheet(book, study, view)
+    _add_row_tables(book, study, view)
     book.add_table_sheet("Quality", "Solver quality", [view.quality, view.outcomes])
-    book.add_table_sheet(
-        "Provenance",
-        "Provenance",
-        [view.provenance, view.profile, _list_notes(view)],
-    )
+    book.add_table_sheet("Assumptions", "Assumptions", [view.assumptions])
+    book.add_table_sheet("Profile", "Limit profile", [view.profile])
+    notes = _list_notes(book, view)
+    book.add_table_sheet("Provenance", "Provenance", [view.provenance, notes])
+    link_sheets(book, SHEETS[1:])
 
 
-def _list_notes(view: ReportView) -> Table:
+def _add_inputs(book: Book, view: ReportView) -> None:
+    inputs = [(book.words("Ranges"), view.ranges)]
+    inputs += [(row.id, row.inputs) for row in view.rows]
+    caption = "As typed and as understood, with the cell"
+    book.add_table_sheet("Inputs", "Inputs", [_stack(book, caption, inputs)])
+
+
+def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
+    """Sheets on which the same table of every net row stands."""
+    cases = [
+        (shown.id, translate_view(tables.build_cases(row), book.words))
+        for row, shown in zip(study.rows, view.rows, strict=True)
+    ]
+    for name, title, parts in (
+        ("Envelope", "Largest force of each member", _list_parts(view, "extremes")),
+        ("Cases", "All cases", cases),
+        ("Changes", "What would flip the checks", _list_parts(view, "changes")),
+        (
+            "Support",
+            "Forces on the ground in the drawn case",
+            _list_parts(view, "anchors"),
+        ),
+        (
+            "Guideline",
+            "Independent check by the guideline",
+            _list_parts(view, "guideline"),
+        ),
+    ):
+        caption = parts[0][1].caption if parts else book.words(title)
+        stacked = _stack(book, caption, parts)
+        sheet = book.add_table_sheet(name, title, [stacked])
+        bottom = _FIRST_LINE + len(stacked.rows) - 1
+        if name == "Envelope" and stacked.rows:
+            add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
+        if name == "Cases" and stacked.rows:
+            add_case_chart(book, sheet, _span(parts), bottom)
+
+
+def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:
+    return [(row.id, getattr(row, table)) for row in view.rows]
+
+
+def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[str, int, int]]:
+    """First and last line of each net row in a stacked table."""
+    spans, first = [], _FIRST_LINE
+    for name, table in parts:
+        if table.rows:
+            spans.append((name, first, first + len(table.rows) - 1))
+        first += len(table.rows)
+    return spans
+
+
+def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
+    caption = book.words(caption)
+    heading = Column(heading=book.words("Net row"))
+    if not parts:
+        empty = book.words("none")
+        return Table(caption=caption, columns=(heading,), rows=(), empty=empty)
+    stacked = tables.stack_tables(caption, parts)
+    columns = (heading, *stacked.columns[1:])
+    return replace(stacked, columns=columns, empty=parts[0][1].empty)
+
+
+def _list_notes(book: Book, view: ReportView) -> Table:
     return Table(
-        caption="Notes of the importer",
-        columns=(Column(heading="Note"),),
+        caption=book.words("Notes of the importer"),
+        columns=(Column(heading=book.words("Note")),),
         rows=tuple((Cell(text=note),) for note in view.notes),
+        empty=book.words("none"),
     )
-
-
-def _say_none(title: str) -> Table:
-    return Table(caption=title, columns=(Column(heading="Net row"),), rows=())
 
 
 def _read_time(started: str) -> datetime:

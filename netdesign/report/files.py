@@ -3,16 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
+from netdesign.report.language import Language, load_words
 from netdesign.study import Study, write_document
 
 STUDY_FILE = "study.json"
 
 
-def list_reports(*, html: bool, excel: bool, csv: bool) -> list[str]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportStyle:
+    """How the reports are written; the numbers do not depend on it."""
+
+    language: Language = "en"
+    detail: Literal["summary", "full"] = "full"
+
+
+def list_reports(*, html: bool, excel: bool, csv: bool, pdf: bool = False) -> list[str]:
     """Names of the wanted reports."""
-    wanted = {"report.html": html, "report.xlsx": excel, "cases.csv": csv}
+    wanted = {
+        "report.html": html,
+        "report.pdf": pdf,
+        "report.xlsx": excel,
+        "cases.csv": csv,
+    }
     return [name for name, is_wanted in wanted.items() if is_wanted]
 
 
@@ -33,26 +49,31 @@ def name_files(
 
 
 def render_files(
-    studies: Sequence[Study], paths: Sequence[Sequence[Path]]
+    studies: Sequence[Study],
+    paths: Sequence[Sequence[Path]],
+    style: ReportStyle | None = None,
 ) -> dict[Path, bytes]:
     """Contents of all files; what to render follows from their suffix."""
     return {
-        path: _render(study, path.suffix)
+        path: _render(study, path.suffix, style or ReportStyle())
         for study, of_study in zip(studies, paths, strict=True)
         for path in of_study
     }
 
 
-def _render(study: Study, suffix: str) -> bytes:
+def _render(study: Study, suffix: str, style: ReportStyle) -> bytes:
     """One file; modules of formats that are not wanted are not imported."""
-    if suffix == ".html":
+    words = load_words(style.language)
+    if suffix in (".html", ".pdf"):
         from netdesign.report.html import render_html
+        from netdesign.report.pdf import render_pdf
 
-        return render_html(study).encode()
+        page = render_html(study, words, style.detail)
+        return page.encode() if suffix == ".html" else render_pdf(page)
     if suffix == ".xlsx":
         from netdesign.report.excel import render_workbook
 
-        return render_workbook(study)
+        return render_workbook(study, words)
     if suffix == ".csv":
         from netdesign.report.case_table import render_cases
 

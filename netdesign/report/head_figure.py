@@ -4,71 +4,57 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from itertools import accumulate, pairwise
 
-from netdesign.report.figures import (
-    ACCENT,
-    INK,
-    TEXT_PT,
-    WIDTH_IN,
-    use_style,
-    write_svg,
-)
+from netdesign.report.figures import ACCENT, INK, TEXT_PT
+from netdesign.report.plain_svg import WIDTH
+from netdesign.report.sketch import Point, Sketch
 from netdesign.report.words import name_member, show_with_unit
 from netdesign.study import HeadForce
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-_HEIGHT_IN = 2.4
-_MARGIN = 0.15  # of the polygon's size
+_TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
+_GAP = 6.0  # from a force to its name [pt]
 
 
-def draw_head(forces: Sequence[HeadForce], name: str) -> str:
-    """SVG of the polygon, each force starting where the one before ends.
-
-    Parameters
-    ----------
-    forces : sequence of HeadForce
-        On the post head; at least two.
-    name : str
-        Of the drawing, for ids.
-    """
-    from matplotlib.figure import Figure
-
-    with use_style(name):
-        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
-        axes = figure.add_subplot()
-        axes.set_aspect("equal")
-        axes.axis("off")
-        xs, ys = [0.0], [0.0]
-        for force in forces:
-            xs.append(xs[-1] + force.x_kN)
-            ys.append(ys[-1] + force.y_kN)
-            _draw_force(axes, (xs[-2], ys[-2]), (xs[-1], ys[-1]), force)
-        margin = _MARGIN * max(max(xs) - min(xs), max(ys) - min(ys))
-        axes.set_xlim(min(xs) - 6.0 * margin, max(xs) + 6.0 * margin)
-        axes.set_ylim(min(ys) - margin, max(ys) + margin)
-    return write_svg(figure, name, "Force polygon of the post head")
-
-
-def _draw_force(
-    axes: Axes,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    force: HeadForce,
-) -> None:
-    is_net = force.member == "net"  # its text stands to the left, the others' right
-    colour = ACCENT if is_net else INK
-    axes.annotate(
-        "", xy=end, xytext=start, arrowprops={"arrowstyle": "->", "color": colour}
+def draw_head(forces: Sequence[HeadForce]) -> str:
+    """SVG of the polygon of at least two forces, each starting where one ends."""
+    corners, height = _place_corners(forces)
+    count = len(forces)
+    middle = (
+        sum(x for x, _ in corners[:count]) / count,
+        sum(y for _, y in corners[:count]) / count,
     )
-    size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
-    axes.text(
-        0.5 * (start[0] + end[0]),
-        0.5 * (start[1] + end[1]),
-        f"  {name_member(force.member)} {size}  ",
-        fontsize=TEXT_PT,
-        color=colour,
-        horizontalalignment="right" if is_net else "left",
-    )
+    sketch = Sketch()
+    for force, (start, end) in zip(forces, pairwise(corners), strict=True):
+        colour = ACCENT if force.member == "net" else INK
+        sketch.arrow(start, end, stroke=colour, width=1.2)
+        at, anchor = _place_name(start, end, middle)
+        size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
+        text = f"{name_member(force.member)} {size}"
+        sketch.words(at, text, anchor=anchor, fill=colour)
+    return sketch.write(height, "Force polygon of the post head")
+
+
+def _place_corners(forces: Sequence[HeadForce]) -> tuple[list[Point], float]:
+    """Corners on paper, and its height [pt]."""
+    xs = list(accumulate((force.x_kN for force in forces), initial=0.0))
+    ys = list(accumulate((force.y_kN for force in forces), initial=0.0))
+    wide, tall = max(xs) - min(xs), max(ys) - min(ys)
+    scale = min(_TALLEST / max(tall, 1e-9), _WIDEST / max(wide, 1e-9))
+    left = (WIDTH - wide * scale) / 2
+    corners = [
+        (left + (x - min(xs)) * scale, _EDGE + (max(ys) - y) * scale)
+        for x, y in zip(xs, ys, strict=True)
+    ]
+    return corners, tall * scale + 2 * _EDGE
+
+
+def _place_name(start: Point, end: Point, middle: Point) -> tuple[Point, str]:
+    """Place beside a force, outside the polygon, and where its text begins."""
+    x, y = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    length = math.dist(start, end) or 1.0
+    nx, ny = (end[1] - start[1]) / length, (start[0] - end[0]) / length
+    if nx * (x - middle[0]) + ny * (y - middle[1]) < 0:
+        nx, ny = -nx, -ny
+    at = (x + nx * _GAP, y + ny * _GAP + TEXT_PT / 3)
+    return at, "start" if nx > 0 else "end"

@@ -3,47 +3,65 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
+from netdesign.report.language import Words
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
+from netdesign.report.translation import Translate, translate_drawing, translate_view
 from netdesign.report.view import ReportView, build_view
 from netdesign.study import RowStudy, Study
 
 if TYPE_CHECKING:
     from markupsafe import Markup
 
+Detail = Literal["summary", "full"]
+
 _PAGE_SECTIONS = (
     "verdict",
     "identification",
     "summary",
+    "scope",
+    "assumptions",
     "ranges",
     "profile",
     "notes",
     "quality",
+    "checklist",
     "provenance",
 )
+_SUMMARY_SECTIONS = ("drawing", "checks", "changes")
 _ROW_SECTIONS = (
-    "drawing",
-    "checks",
+    *_SUMMARY_SECTIONS,
     "worked",
-    "changes",
-    "support",
-    "guideline",
-    "extremes",
+    "uncertainty",
     "envelope",
+    "extremes",
     "failed",
+    "support",
+    "independent",
     "inputs",
 )
 
 
-def render_html(study: Study) -> str:
+def render_html(
+    study: Study, words: Words | None = None, detail: Detail = "full"
+) -> str:
     """Page of a study: complete, or an error.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    words : Words, optional
+        Language; English if not given.
+    detail : str
+        ``summary`` leaves out what only a reviewer of a net row needs.
 
     Raises
     ------
@@ -52,45 +70,56 @@ def render_html(study: Study) -> str:
     """
     from markupsafe import Markup
 
-    environment = build_environment()
+    words = words or Words()
+    environment = build_environment(words)
     environment.filters["subscripts"] = _write_subscripts
     view = build_view(study)
+    shown = translate_view(view, words)
+    is_full = detail == "full"
     page = environment.get_template("report.html").render(
-        view=view,
+        view=shown,
+        is_full=is_full,
+        language=words.language,
         css=load_style("report.css"),
         running_title=Markup(_quote_css(view.running_title)),
         figures=[
-            _draw_row(row, row_view.anchor)
+            _draw_row(row, row_view.anchor, words, is_full=is_full)
             for row, row_view in zip(study.rows, view.rows, strict=True)
         ],
     )
-    require_sections(page, list_sections(view))
+    require_sections(page, list_sections(view, detail))
     return page
 
 
-def list_sections(view: ReportView) -> list[str]:
+def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
     """Ids of all sections that a page of ``view`` must have."""
-    of_rows = [f"{row.anchor}-{name}" for row in view.rows for name in _ROW_SECTIONS]
+    wanted = _ROW_SECTIONS if detail == "full" else _SUMMARY_SECTIONS
+    of_rows = [f"{row.anchor}-{name}" for row in view.rows for name in wanted]
     return [*_PAGE_SECTIONS, *of_rows]
 
 
-def _draw_row(row: RowStudy, anchor: str) -> dict[str, Markup]:
+def _draw_row(
+    row: RowStudy, anchor: str, words: Translate, *, is_full: bool
+) -> dict[str, Markup]:
+    """Drawings of a net row by name; "" where there is nothing to draw."""
     from markupsafe import Markup, escape
 
-    section = draw_section(row.drawing, f"{anchor}-s") if row.drawing else ""
-    record = row.envelope
-    measured = draw_monitoring(row.monitoring, f"{anchor}-r")
-    head = draw_head(row.head, f"{anchor}-h") if len(row.head) > 1 else ""
-    return {
-        "head": Markup(head),
-        "section": Markup(section),
-        "envelope": Markup("" if record else draw_envelope(row, f"{anchor}-e")),
-        "maps": Markup(draw_maps(record, f"{anchor}-m") if record else ""),
-        "lines": Markup(draw_lines(record, f"{anchor}-l") if record else ""),
-        "drivers": Markup(draw_drivers(record, f"{anchor}-d") if record else ""),
-        "monitoring": Markup(measured),
-        "monitoring_note": escape(describe_monitoring(row.monitoring)),
+    record = row.envelope if is_full else None
+    drawn = {
+        "section": draw_section(row.drawing, anchor) if row.drawing else "",
+        "envelope": draw_envelope(row) if is_full and not record else "",
+        "maps": draw_maps(record) if record else "",
+        "lines": draw_lines(record) if record else "",
+        "drivers": draw_drivers(record) if record else "",
+        "head": draw_head(row.head) if is_full and len(row.head) > 1 else "",
+        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r") if is_full else "",
     }
+    figures = {
+        name: Markup(translate_drawing(svg, words)) for name, svg in drawn.items()
+    }
+    measured = bool(drawn["monitoring"])
+    note = escape(words(describe_monitoring(row.monitoring)) if measured else "")
+    return {**figures, "monitoring_note": note}
 
 
 def _write_subscripts(symbols: str) -> Markup:

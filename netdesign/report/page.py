@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from netdesign.resources import find_resource
@@ -11,17 +12,28 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 
-def build_environment() -> jinja2.Environment:
-    """Templates in which all text is escaped and a missing value is an error."""
+def build_environment(words: Callable[[str], str] = str) -> jinja2.Environment:
+    """Templates in which all text is escaped and a missing value is an error.
+
+    Parameters
+    ----------
+    words : callable
+        Puts a text of ours into another language; templates call it ``t``.
+    """
     import jinja2
 
-    return jinja2.Environment(
+    def translate(text: str, **gaps: object) -> str:
+        return words(text).format(**gaps) if gaps else words(text)
+
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(find_resource("templates")),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.globals["t"] = translate
+    return environment
 
 
 def load_style(*names: str) -> Markup:

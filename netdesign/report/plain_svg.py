@@ -61,6 +61,17 @@ class Chart:
             f'height="{height:.2f}" fill="{fill}"/>'
         )
 
+    def tiles(self, cells: Iterable[tuple[float, float, float, float, str]]) -> None:
+        """Many filled rectangles: left, top, width, height [pt] and fill of each.
+
+        Those of one fill are one path: a map has hundreds.
+        """
+        paths: dict[str, str] = {}
+        for left, top, width, height, fill in cells:
+            tile = f"M{left:.1f} {top:.1f}h{width:.1f}v{height:.1f}h{-width:.1f}z"
+            paths[fill] = paths.get(fill, "") + tile
+        self.shapes += [f'<path fill="{fill}" d="{d}"/>' for fill, d in paths.items()]
+
     def line(
         self,
         points: Iterable[tuple[float, float]],
@@ -70,7 +81,7 @@ class Chart:
         dash: str = "",
     ) -> None:
         """Open line through points [pt]."""
-        path = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         dashes = f' stroke-dasharray="{dash}"' if dash else ""
         self.shapes.append(
             f'<polyline points="{path}" fill="none" stroke="{stroke}" '
@@ -79,7 +90,7 @@ class Chart:
 
     def area(self, points: Iterable[tuple[float, float]], fill: str) -> None:
         """Filled polygon [pt]."""
-        path = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         self.shapes.append(f'<polygon points="{path}" fill="{fill}"/>')
 
     def ring(self, x: float, y: float, stroke: str) -> None:
@@ -101,28 +112,25 @@ class Chart:
         """One line of text; y is its base line [pt]."""
         weight = ' font-weight="bold"' if bold else ""
         self.shapes.append(
-            f'<text x="{x:.2f}" y="{y:.2f}" text-anchor="{anchor}"{weight}>'
+            f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{weight}>'
             f"{escape(words)}</text>"
         )
 
     def axes(self, frame: Frame, *, y_ticks: bool = True, x_ticks: bool = True) -> None:
         """Lines at the left and below, with few round ticks."""
-        bottom = frame.top + frame.height
-        right = frame.left + frame.width
-        corners = [(frame.left, frame.top), (frame.left, bottom), (right, bottom)]
-        self.line(corners, stroke=GREY, width=0.5)
+        left, bottom = frame.left, frame.top + frame.height
+        path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
         for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
             x = frame.x(value)
-            self.line([(x, bottom), (x, bottom + _TICK)], stroke=GREY, width=0.5)
+            path += f"M{x:.1f} {bottom:.1f}v{_TICK}"
             self.text(x, bottom + _TICK + TEXT_PT, f"{value:g}", anchor="middle")
         for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
             y = frame.y(value)
-            self.line(
-                [(frame.left - _TICK, y), (frame.left, y)], stroke=GREY, width=0.5
-            )
-            self.text(
-                frame.left - _TICK - 1.5, y + TEXT_PT / 3, f"{value:g}", anchor="end"
-            )
+            path += f"M{left:.1f} {y:.1f}h-{_TICK}"
+            self.text(left - _TICK - 1.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+        self.shapes.append(
+            f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
+        )
 
     def write(self, height: float, title: str) -> str:
         """SVG element of the chart, the same bytes each time."""
@@ -160,7 +168,7 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
 def shade(value: float, low: float, high: float) -> str:
     """Grey for a value, white at the low end; prints without colour."""
     share = (value - low) / (high - low) if high > low else 0.0
-    level = round(250 - 170 * min(1.0, max(0.0, share)))
+    level = 250 - 5 * round(34 * min(1.0, max(0.0, share)))
     return f"#{level:02x}{level:02x}{level:02x}"
 
 

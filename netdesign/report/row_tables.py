@@ -9,8 +9,9 @@ from netdesign.report.table import (
     name_columns,
     number_cell,
     number_column,
-    text_cell,
+    share_cell,
     text_column,
+    word_cell,
 )
 from netdesign.report.words import (
     MISSING,
@@ -21,8 +22,17 @@ from netdesign.report.words import (
     show_band,
     show_with_unit,
 )
-from netdesign.study import ChangeRecord, CheckRecord, RowStudy
+from netdesign.study import ChangeRecord, CheckRecord, RowStudy, SpreadRecord
 
+_LAWS = {
+    "global_balance": "Force missing from the global balance, over the weight",
+    "end_direction": "Sine of the angle between an end's pull and the net there",
+    "friction_excess": "Shear on the net beyond the friction limit, over the weight",
+    "capstan_ratio": "Largest over smallest tension of the net; the limit is what "
+    "friction can hold around its curve",
+    "tension_share": "Smallest over largest tension of the net, which does not push",
+    "head_balance": "Sum of the forces on the post head, over the largest",
+}
 _FORCES = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN", "direction_deg")
 _GUIDELINE = (
     "height_vertical_m",
@@ -51,9 +61,9 @@ def build_anchors(row: RowStudy) -> Table:
         ),
         rows=tuple(
             (
-                Cell(text=name_member(anchor.anchor)),
-                Cell(
-                    text=name_member(anchor.member)
+                word_cell(name_member(anchor.anchor)),
+                word_cell(
+                    name_member(anchor.member)
                     if anchor.size_kN
                     else f"{name_member(anchor.member)}, slack"
                 ),
@@ -76,7 +86,7 @@ def build_head(row: RowStudy) -> Table:
         ),
         rows=tuple(
             (
-                Cell(text=name_member(force.member)),
+                word_cell(name_member(force.member)),
                 number_cell("force_x_kN", force.x_kN),
                 number_cell("force_y_kN", force.y_kN),
             )
@@ -99,7 +109,7 @@ def build_guideline(row: RowStudy) -> Table:
     if record is None:
         return Table(caption=caption, columns=columns, rows=(), empty=empty)
     solved = (
-        Cell(text=f"Coupled solve: {name_case(record.case)}"),
+        word_cell(f"Coupled solve: {name_case(record.case)}"),
         given_cell(record.case.density_kg_m3),
         *(
             number_cell(
@@ -114,7 +124,7 @@ def build_guideline(row: RowStudy) -> Table:
     )
     cases = tuple(
         (
-            text_cell(f"{case.name}: {case.reason}" if case.reason else case.name),
+            word_cell(f"{case.name}: {case.reason}" if case.reason else case.name),
             number_cell("density_kg_m3", case.density_kg_m3),
             *(number_cell(key, getattr(case, key)) for key in _GUIDELINE),
         )
@@ -124,23 +134,63 @@ def build_guideline(row: RowStudy) -> Table:
 
 
 def build_spreads(check: CheckRecord | None) -> Table:
-    """Parts of the interval of one check's utilisation."""
-    headings = ("Part", "Utilisation", "In the verdict", "Remark")
+    """Uncertainty budget of one check: its parts as utilisation, kN and per cent."""
     spreads = check.spreads if check else []
     title = f": {name_check(check)}" if check else ""
     return Table(
         caption=f"Where the interval of the utilisation comes from{title}",
-        columns=name_columns(headings, numbers=("Utilisation",)),
+        columns=(
+            *name_columns(("Part", "Utilisation"), numbers=("Utilisation",)),
+            number_column("demand_kN", "Demand, low [kN]"),
+            number_column("demand_kN", "Demand, high [kN]"),
+            number_column("change_percent", "Below [%]"),
+            number_column("change_percent", "Above [%]"),
+            *name_columns(("In the verdict", "Remark"), numbers=()),
+        ),
+        rows=tuple(_spread_row(check, spread) for spread in spreads) if check else (),
+        empty="none: no check of this row has a utilisation",
+    )
+
+
+def _spread_row(check: CheckRecord, spread: SpreadRecord) -> tuple[Cell, ...]:
+    ends = (spread.low, spread.high)
+    used, resistance = check.utilisation, check.resistance_kN
+    demands = [_scale(end, resistance) for end in ends]
+    changes = [_compare(end, used) for end in ends]
+    return (
+        word_cell(spread.source),
+        word_cell(show_band("utilisation", *ends)),
+        *(number_cell("demand_kN", demand) for demand in demands),
+        *(number_cell("change_percent", change) for change in changes),
+        word_cell("yes" if spread.in_verdict else "no, for comparison"),
+        word_cell(spread.note),
+    )
+
+
+def _scale(value: float | None, scale: float | None) -> float | None:
+    return None if value is None or scale is None else value * scale
+
+
+def _compare(value: float | None, base: float | None) -> float | None:
+    return 100.0 * (value / base - 1.0) if value is not None and base else None
+
+
+def build_independent(row: RowStudy) -> Table:
+    """Laws that the drawn case must obey whatever the mesh."""
+    headings = ("Check", "Value", "Limit", "Met")
+    return Table(
+        caption="Independent of the mesh, in the drawn case",
+        columns=name_columns(headings, numbers=("Value", "Limit")),
         rows=tuple(
             (
-                text_cell(spread.source),
-                Cell(text=show_band("utilisation", spread.low, spread.high)),
-                Cell(text="yes" if spread.in_verdict else "no, for comparison"),
-                text_cell(spread.note),
+                word_cell(_LAWS.get(one.name, one.name)),
+                share_cell(one.value),
+                share_cell(one.limit),
+                word_cell("yes" if one.is_met else "NO"),
             )
-            for spread in spreads
+            for one in row.independent
         ),
-        empty="none: no check of this row has a utilisation",
+        empty="none: the study holds none for this row",
     )
 
 
@@ -152,18 +202,32 @@ def build_changes(row: RowStudy) -> Table:
         columns=name_columns(headings, numbers=("Now", "Solves")),
         rows=tuple(
             (
-                Cell(text=name_check(check)),
-                Cell(text=VERDICTS[check.verdict].word),
-                Cell(text=describe_change(change)),
+                word_cell(name_check(check)),
+                word_cell(VERDICTS[check.verdict].word),
+                word_cell(describe_change(change)),
                 Cell(text=_show(change.now, change.unit), number=None),
                 given_cell(change.solves),
-                text_cell(change.note),
+                word_cell(change.note),
             )
             for check in row.checks
             for change in check.changes
         ),
         empty="none: no check of this row fails, is unproven or is close to its limit",
     )
+
+
+def list_flips(check: CheckRecord | None) -> tuple[str, ...]:
+    """Changes that flip one check, in short; none where no change alone does."""
+    changes = check.changes if check else []
+    return tuple(describe_flip(c) for c in changes if c.bound is not None)
+
+
+def describe_flip(change: ChangeRecord) -> str:
+    """One change and today's value: ``post spacing at most 1.42 m, now 4 m``."""
+    text = describe_change(change)
+    if change.now is None:
+        return text
+    return f"{text}, now {_show(change.now, change.unit)}"
 
 
 def describe_change(change: ChangeRecord) -> str:

@@ -1,26 +1,21 @@
-"""Frame of the section drawing: the slope's axes turned upright, and its limits."""
+"""Frame of the section drawing: the slope's axes turned upright, on paper."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from netdesign.report.figures import WIDTH_IN
+from netdesign.report.plain_svg import WIDTH
 from netdesign.study import Drawing
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Point = tuple[float, float]
 
-# Symbols are measured in heights of the net's head, room for labels in inches.
+# Symbols are measured in heights of the net's head, room for labels in points.
 LONGEST_ARROW, ROD = 0.46, 0.16
-LINE_IN = 0.34  # height of a label of two lines
-_LEFT_IN, _RIGHT_IN, _EDGE_IN = 1.25, 1.5, 0.12
-_TALLEST_IN = 3.8
+LABEL = 24.5  # height of a label of two lines
+_LEFT, _RIGHT, _EDGE = 92.0, 108.0, 9.0
+_TALLEST = 274.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,15 +43,30 @@ class Frame:
         return lowest + 0.45 * self.unit
 
     def turn(self, point: Point) -> Point:
-        """Point of the slope's axes in upright axes."""
+        """Point of the slope's axes in upright axes [m]."""
         x, y = point
         sin, cos = math.sin(self.slope), math.cos(self.slope)
         return x * cos + y * sin, y * cos - x * sin
 
-    def turn_all(self, points: Sequence[Point]) -> tuple[list[float], list[float]]:
-        """Upright coordinates, all x and all y."""
-        turned = [self.turn(point) for point in points]
-        return [x for x, _ in turned], [y for _, y in turned]
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Paper:
+    """A frame on paper: metres of the slope become points, y downwards."""
+
+    frame: Frame
+    scale: float  # points per metre
+    height: float  # of the paper [pt]
+    left: float  # upright x at the left edge [m]
+    top: float  # upright y at the upper edge [m]
+
+    def at(self, point: Point) -> Point:
+        """Place of a point of the slope's axes."""
+        x, y = self.frame.turn(point)
+        return (x - self.left) * self.scale, (self.top - y) * self.scale
+
+    def all_at(self, points: Sequence[Point]) -> list[Point]:
+        """Places of several points."""
+        return [self.at(point) for point in points]
 
 
 def move(start: Point, along: Point, length: float) -> Point:
@@ -64,8 +74,8 @@ def move(start: Point, along: Point, length: float) -> Point:
     return start[0] + along[0] * length, start[1] + along[1] * length
 
 
-def set_limits(figure: Figure, axes: Axes, frame: Frame) -> float:
-    """Fit paper and drawing to each other; returns metres per inch."""
+def fit_paper(frame: Frame) -> Paper:
+    """Fit paper and drawing to each other."""
     drawing, unit = frame.drawing, frame.unit
     corners = [
         (frame.top_end, 0.0),
@@ -75,15 +85,16 @@ def set_limits(figure: Figure, axes: Axes, frame: Frame) -> float:
         (drawing.post_base_m[0], -(LONGEST_ARROW + 0.1) * unit),
         (drawing.downhill_anchor_m[0], -(ROD + 0.1) * unit),
     ]
-    xs, ys = frame.turn_all(corners)
+    turned = [frame.turn(corner) for corner in corners]
+    xs, ys = [x for x, _ in turned], [y for _, y in turned]
     wide, tall = max(xs) - min(xs), max(ys) - min(ys)
-    room_x = WIDTH_IN - _LEFT_IN - _RIGHT_IN
-    room_y = _TALLEST_IN - 2 * _EDGE_IN - LINE_IN
-    scale = max(wide / room_x, tall / room_y)
-    height = tall / scale + 2 * _EDGE_IN + LINE_IN
-    figure.set_size_inches(WIDTH_IN, height)
-    left = min(xs) - (_LEFT_IN + (room_x - wide / scale) / 2) * scale
-    bottom = min(ys) - (_EDGE_IN + LINE_IN) * scale
-    axes.set_xlim(left, left + WIDTH_IN * scale)
-    axes.set_ylim(bottom, bottom + height * scale)
-    return scale
+    room_x = WIDTH - _LEFT - _RIGHT
+    room_y = _TALLEST - 2 * _EDGE - LABEL
+    scale = min(room_x / wide, room_y / tall)
+    return Paper(
+        frame=frame,
+        scale=scale,
+        height=tall * scale + 2 * _EDGE + LABEL,
+        left=min(xs) - (_LEFT + (room_x - wide * scale) / 2) / scale,
+        top=max(ys) + _EDGE / scale,
+    )

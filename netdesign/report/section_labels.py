@@ -5,120 +5,91 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 from netdesign.report.figures import ACCENT, GREY, INK, TEXT_PT
-from netdesign.report.section_frame import LINE_IN, Frame, Point, move
+from netdesign.report.plain_svg import WIDTH
+from netdesign.report.section_frame import LABEL, Paper, Point
+from netdesign.report.sketch import Sketch
 from netdesign.report.words import show_with_unit
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+SLIP_DASH = "2.2 1.5"  # of the net where the snow slips on it
+_LINE = 11.0  # from one line of a label to the next [pt]
+_LEGEND = (
+    ("net, snow sticks", INK, 1.8, ""),
+    ("net, snow slips", INK, 1.8, SLIP_DASH),
+    ("force on the ground", ACCENT, 1.5, ""),
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A force by name, and where on the drawing it belongs."""
+    """A force by name, and where on the paper it belongs [pt]."""
 
     name: str
     force: str
-    at: Point  # upright axes
+    at: Point
 
 
-def place_labels(axes: Axes, labels: Sequence[Label], scale: float) -> None:
+def place_labels(sketch: Sketch, labels: Sequence[Label]) -> None:
     """Labels hang left below their anchors; those that would touch move down."""
-    ceiling = math.inf
-    gap = 0.07 * scale
-    for label in sorted(labels, key=lambda label: -label.at[1]):
+    ceiling = -math.inf
+    for label in sorted(labels, key=lambda label: label.at[1]):
         x, y = label.at
-        top = min(y, ceiling)
-        if top < y:
-            axes.plot([x, x], [y, top - 0.1 * scale], color=GREY, lw=0.4, zorder=1)
-        for line, (text, colour) in enumerate(
-            ((label.name, INK), (label.force, ACCENT))
-        ):
-            axes.text(
-                x - gap,
-                top - line * LINE_IN / 2.2 * scale,
-                text,
-                color=colour,
-                ha="right",
-                va="top",
-            )
-        ceiling = top - LINE_IN * scale
+        top = max(y, ceiling)
+        if top > y:
+            sketch.line([(x, y), (x, top + 7.0)], stroke=GREY, width=0.4)
+        base = top + TEXT_PT
+        sketch.words((x - 5.0, base), label.name, anchor="end")
+        sketch.words((x - 5.0, base + _LINE), label.force, anchor="end", fill=ACCENT)
+        ceiling = top + LABEL
 
 
-def draw_scale_bar(axes: Axes, scale: float) -> None:
-    """Bar of a round length near one inch; ``scale`` in metres per inch."""
-    length = max(step for step in (0.5, 1, 2, 5, 10) if step <= max(0.5, 0.9 * scale))
-    right, bottom = axes.get_xlim()[1] - 0.15 * scale, axes.get_ylim()[0] + 0.2 * scale
-    left = right - length
-    axes.plot([left, right], [bottom] * 2, color=INK, lw=1.6, solid_capstyle="butt")
-    text = f"{length:g} m"
-    axes.text((left + right) / 2, bottom + 0.06 * scale, text, ha="center", va="bottom")
+def draw_scale_bar(sketch: Sketch, paper: Paper) -> None:
+    """Bar of a round length near one inch."""
+    inch = 72.0 / paper.scale
+    length = max(step for step in (0.5, 1, 2, 5, 10) if step <= max(0.5, 0.9 * inch))
+    right, bottom = WIDTH - 11.0, paper.height - 14.0
+    left = right - length * paper.scale
+    sketch.line([(left, bottom), (right, bottom)], width=1.6)
+    middle = ((left + right) / 2, bottom - 4.5)
+    sketch.words(middle, f"{length:g} m", anchor="middle")
 
 
-def draw_legend(axes: Axes) -> None:
+def draw_legend(sketch: Sketch) -> None:
     """Explain the lines."""
-    from matplotlib.lines import Line2D
-
-    handles = [
-        Line2D([], [], **style_net(True), label="net, snow sticks"),
-        Line2D([], [], **style_net(False), label="net, snow slips"),
-        Line2D([], [], color=ACCENT, lw=1.5, label="force on the ground"),
-    ]
-    axes.legend(
-        handles=handles,
-        loc="upper right",
-        frameon=False,
-        fontsize=TEXT_PT,
-        handlelength=2.6,
-        labelspacing=0.6,
-        borderaxespad=0.8,
-    )
+    left = WIDTH - 98.0
+    for place, (text, stroke, width, dash) in enumerate(_LEGEND):
+        y = 12.0 + 13.0 * place
+        ends = [(left, y), (left + 19.0, y)]
+        sketch.line(ends, stroke=stroke, width=width, dash=dash)
+        sketch.words((left + 25.0, y + 2.6), text)
 
 
-def draw_dimensions(axes: Axes, frame: Frame) -> None:
+def draw_dimensions(sketch: Sketch, paper: Paper) -> None:
     """Thickness of the snow at its cut end, angle of the slope at the low end."""
-    from matplotlib.patches import Arc
-
-    drawing, unit = frame.drawing, frame.unit
+    frame, drawing, unit = paper.frame, paper.frame.drawing, paper.frame.unit
     x = frame.top_end - 0.08 * unit
-    ends = [frame.turn((x, 0.0)), frame.turn((x, drawing.snow_thickness_m))]
-    line = {"arrowstyle": "|-|,widthA=0.25,widthB=0.25", "color": GREY, "lw": 0.5}
-    axes.annotate(
-        "", xy=ends[0], xytext=ends[1], arrowprops={**line, "shrinkA": 0, "shrinkB": 0}
-    )
-    middle = frame.turn((x - 0.05 * unit, drawing.snow_thickness_m / 2))
+    ends = paper.all_at([(x, 0.0), (x, drawing.snow_thickness_m)])
+    sketch.line(ends, stroke=GREY, width=0.5)
+    reach = 0.03 * unit
+    for y in (0.0, drawing.snow_thickness_m):
+        tick = paper.all_at([(x - reach, y), (x + reach, y)])
+        sketch.line(tick, stroke=GREY, width=0.5)
+    at = paper.at((x - 0.05 * unit, drawing.snow_thickness_m / 2))
     text = f"d = {show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}"
-    axes.text(*middle, text, ha="right", va="center")
-
-    corner, radius = frame.turn((frame.low_end - 0.42 * unit, 0.0)), 0.34 * unit
-    axes.plot(
-        [corner[0], corner[0] + 1.15 * radius], [corner[1]] * 2, color=GREY, lw=0.5
-    )
-    arc = Arc(
-        corner,
-        2 * radius,
-        2 * radius,
-        theta1=-drawing.slope_deg,
-        theta2=0,
-        color=GREY,
-        lw=0.5,
-    )
-    axes.add_patch(arc)
-    half = -frame.slope / 2
-    at = move(corner, (math.cos(half), math.sin(half)), 1.15 * radius)
-    text = f"ψ = {show_with_unit('slope_deg', drawing.slope_deg)}"
-    axes.text(*at, text, ha="left", va="center")
+    sketch.words((at[0] - 2.0, at[1]), text, anchor="end")
+    _draw_angle(sketch, paper)
 
 
-def style_net(is_sticking: bool) -> dict[str, Any]:
-    """Give the line of the net: broken where the snow slips."""
-    dashes = "solid" if is_sticking else (0, (1.1, 0.7))
-    return {
-        "color": INK,
-        "linewidth": 1.8,
-        "linestyle": dashes,
-        "dash_capstyle": "butt",
-        "solid_capstyle": "butt",
-    }
+def _draw_angle(sketch: Sketch, paper: Paper) -> None:
+    frame = paper.frame
+    x, y = paper.at((frame.low_end - 0.42 * frame.unit, 0.0))
+    radius = 0.34 * frame.unit * paper.scale
+    sketch.line([(x, y), (x + 1.15 * radius, y)], stroke=GREY, width=0.5)
+    steps = [frame.slope * k / 12 for k in range(13)]
+    arc = [(x + radius * math.cos(a), y + radius * math.sin(a)) for a in steps]
+    sketch.line(arc, stroke=GREY, width=0.5)
+    half = frame.slope / 2
+    at = (x + 1.15 * radius * math.cos(half), y + 1.15 * radius * math.sin(half) + 2.6)
+    text = f"ψ = {show_with_unit('slope_deg', frame.drawing.slope_deg)}"
+    sketch.words(at, text)

@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from netdesign.report.words import name_heading, show_given, show_number, show_text
+from netdesign.report.words import (
+    name_heading,
+    show_given,
+    show_number,
+    show_share,
+    show_text,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -14,6 +20,7 @@ class Cell:
 
     text: str
     number: float | None = None
+    is_words: bool = False  # a text of ours: the reports translate it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,9 +64,19 @@ def text_cell(text: str) -> Cell:
     return Cell(text=show_text(text))
 
 
+def word_cell(text: str) -> Cell:
+    """Words of this program; what somebody typed is a ``text_cell``."""
+    return Cell(text=show_text(text), is_words=True)
+
+
 def number_cell(key: str, value: float | None) -> Cell:
     """Number of the quantity ``key``, with its decimals."""
     return Cell(text=show_number(key, value), number=value)
+
+
+def share_cell(value: float | None) -> Cell:
+    """Pure number of any size, three significant digits."""
+    return Cell(text=show_share(value), number=value)
 
 
 def given_cell(value: float | str) -> Cell:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import fields
+from typing import Any
 
 from netdesign.outcome import Outcome
 from netdesign.report.table import (
@@ -15,6 +19,7 @@ from netdesign.report.table import (
     number_column,
     text_cell,
     text_column,
+    word_cell,
 )
 from netdesign.report.words import (
     VERDICTS,
@@ -28,6 +33,7 @@ from netdesign.study import CasePoint, CaseRecord, RowStudy, Study
 # Fields of a CaseRecord; the keys of its member forces without their unit.
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _COUNTS = ("Cases", "Without result")
+DEFAULT = "default"  # cell of an input that nobody typed
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 
 
@@ -58,9 +64,9 @@ def build_extremes(row: RowStudy) -> Table:
         ),
         rows=tuple(
             (
-                Cell(text=name_member(extreme.quantity)),
+                word_cell(name_member(extreme.quantity)),
                 number_cell("max_kN", extreme.max_kN),
-                Cell(text=show_band("max_kN", extreme.low_kN, extreme.high_kN)),
+                word_cell(show_band("max_kN", extreme.low_kN, extreme.high_kN)),
                 *_case(extreme.case),
                 *(
                     number_cell(f"{member}_kN", extreme.coincident_kN.get(member))
@@ -95,7 +101,7 @@ def build_failed(row: RowStudy) -> Table:
         caption="Cases that gave no numbers; no largest force includes them",
         columns=(text_column("Case"), text_column("Outcome"), text_column("Reason")),
         rows=tuple(
-            (Cell(text=name_case(case.case)), text_cell(case.outcome), _explain(case))
+            (Cell(text=name_case(case.case)), word_cell(case.outcome), _explain(case))
             for case in list_failed(row)
         ),
         empty="none: every case converged" if row.cases else "none: no case was run",
@@ -104,8 +110,8 @@ def build_failed(row: RowStudy) -> Table:
 
 def _explain(case: CaseRecord) -> Cell:
     if case.outcome is Outcome.CONVERGED:
-        return text_cell(case.reason)
-    return text_cell(f"{case.outcome.sentence} {case.reason}")
+        return word_cell(case.reason)
+    return word_cell(f"{case.outcome.sentence} {case.reason}")
 
 
 def build_cases(row: RowStudy) -> Table:
@@ -124,7 +130,7 @@ def build_cases(row: RowStudy) -> Table:
             (
                 *_case(case.case),
                 *(number_cell(key, getattr(case, key)) for key in keys),
-                text_cell(case.outcome),
+                word_cell(case.outcome),
                 _explain(case),
             )
             for case in row.cases
@@ -140,11 +146,11 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
         columns=name_columns(headings, numbers=("Understood as",)),
         rows=tuple(
             (
-                text_cell(echo.label),
+                word_cell(echo.label),
                 text_cell(echo.text),
                 given_cell(echo.value),
                 text_cell(echo.unit),
-                text_cell(echo.cell),
+                word_cell(echo.cell) if echo.cell == DEFAULT else text_cell(echo.cell),
             )
             for echo in inputs
         ),
@@ -160,10 +166,10 @@ def build_profile(study: Study, status: str = "") -> Table:
         rows=tuple(
             (
                 text_cell(value.clause),
-                text_cell(value.text),
+                word_cell(value.text),
                 given_cell(value.value),
                 text_cell(value.unit),
-                text_cell(value.status),
+                word_cell(value.status),
                 text_cell(value.source),
             )
             for value in study.profile.values
@@ -223,9 +229,9 @@ def build_outcomes(study: Study) -> Table:
         columns=name_columns(("Outcome", "Cases", "Meaning"), numbers=("Cases",)),
         rows=tuple(
             (
-                text_cell(outcome),
+                word_cell(outcome),
                 given_cell(counts[outcome]),
-                Cell(text=outcome.sentence),
+                word_cell(outcome.sentence),
             )
             for outcome in Outcome
             if counts[outcome]
@@ -240,7 +246,9 @@ def build_provenance(study: Study) -> Table:
     verdict = VERDICTS[study.verdict]
     pairs = {
         "Command": made.command,
+        "Command for this document again": "netdesign report study.json",
         "Exit code": f"{verdict.exit_code} ({verdict.word})",
+        "Results, SHA-256": hash_results(study),
         "Program": f"netdesign {made.version}",
         "Started": made.started,
         "Site file": made.site_file,
@@ -256,8 +264,24 @@ def build_provenance(study: Study) -> Table:
     return Table(
         caption="Origin of every number of this report",
         columns=(text_column("Item"), text_column("Value")),
-        rows=tuple((text_cell(name), text_cell(text)) for name, text in pairs.items()),
+        rows=tuple((word_cell(name), text_cell(text)) for name, text in pairs.items()),
     )
+
+
+def hash_results(study: Study) -> str:
+    """SHA-256 of verdict and net rows: equal for equal results, whenever made."""
+    content = {
+        "verdict": study.verdict,
+        "profile": study.profile.sha256,
+        "rows": study.rows,
+    }
+    text = json.dumps(content, default=_list_fields, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _list_fields(value: Any) -> dict[str, Any]:
+    """Fields of a dataclass, as deep as they are; quicker than a copy of all."""
+    return {one.name: getattr(value, one.name) for one in fields(value)}
 
 
 def stack_tables(caption: str, parts: Sequence[tuple[str, Table]]) -> Table:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from netdesign.report.row_tables import describe_change
+from netdesign.report.row_tables import describe_flip
+from netdesign.report.translation import translate_view
 from netdesign.report.view import ReportView, RowView, build_view
 from netdesign.report.words import (
     MISSING,
@@ -13,7 +15,7 @@ from netdesign.report.words import (
     name_check,
     show_text,
 )
-from netdesign.study import Study
+from netdesign.study import ChangeRecord, Study
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,11 +25,13 @@ _LEGEND = "Design values in kN. Case: density kg/m3 / friction deg / inclination
 _STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
 
 
-def print_summary(study: Study, console: Console) -> None:
+def print_summary(
+    study: Study, console: Console, words: Callable[[str], str] = str
+) -> None:
     """Print one line per net row, then reasons and assumed values.
 
     Colour, width and destination are those of ``console``; texts of the site
-    are never read as markup.
+    are never read as markup. ``words`` puts ours into another language.
 
     Raises
     ------
@@ -37,7 +41,7 @@ def print_summary(study: Study, console: Console) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    view = build_view(study)
+    view = translate_view(build_view(study), words)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for heading in (
         "Net row",
@@ -45,47 +49,54 @@ def print_summary(study: Study, console: Console) -> None:
         "Governing check",
         "Utilisation (low to high)",
     ):
-        table.add_column(heading, overflow="fold", no_wrap=heading == "Verdict")
+        no_wrap = heading == "Verdict"
+        table.add_column(words(heading), overflow="fold", no_wrap=no_wrap)
     for heading in ("Demand", "Resistance"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("Case", no_wrap=True)
+        table.add_column(words(heading), justify="right", no_wrap=True)
+    table.add_column(words("Case"), no_wrap=True)
+    none = words("none: no check was made")
     for row in view.rows:
-        table.add_row(*_list_cells(row))
+        table.add_row(*_list_cells(row, none))
     if view.rows:
         console.print(table)
-        console.print(_LEGEND, style="dim", soft_wrap=True)
-    for line in _list_lines(view):
+        console.print(words(_LEGEND), style="dim", soft_wrap=True)
+    for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
-    overall = Text("Verdict: ").append_text(_word(view.verdict))
+    overall = Text(f"{words('Verdict')}: ").append_text(_word(view.verdict))
     console.print(overall.append(f" - {view.verdict.meaning}"), soft_wrap=True)
 
 
-def print_changes(study: Study, console: Console) -> None:
+def print_changes(
+    study: Study, console: Console, words: Callable[[str], str] = str
+) -> None:
     """Print for every failing, unproven or close check what would flip it."""
     from rich.text import Text
 
     for row in study.rows:
         for check in row.checks:
+            place = f"{row.id} {words(name_check(check))}"
+            place += f" ({words(VERDICTS[check.verdict].word)})"
             for change in check.changes:
-                words = VERDICTS[check.verdict].word
-                passes = "passes with " if change.bound is not None else ""
-                text = f"{row.id} {name_check(check)} ({words}): {passes}"
-                text += describe_change(change)
-                if change.now is not None:
-                    text += f", now {change.now:.6g} {change.unit}"
-                text += f"; {change.solves} solves" if change.solves else ""
-                text += f" ({change.note})" if change.note else ""
+                text = f"{place}: {_describe_change(change, words)}"
                 console.print(Text(show_text(text)), soft_wrap=True)
     if not any(check.changes for row in study.rows for check in row.checks):
-        console.print("No check fails, is unproven or is close to its limit.")
+        console.print(words("No check fails, is unproven or is close to its limit."))
 
 
-def _list_cells(row: RowView) -> list[Text]:
+def _describe_change(change: ChangeRecord, words: Callable[[str], str]) -> str:
+    passes = f"{words('passes with')} " if change.bound is not None else ""
+    text = f"{passes}{words(describe_flip(change))}"
+    if change.solves:
+        text += f"; {change.solves} {words('solves')}"
+    return f"{text} ({words(change.note)})" if change.note else text
+
+
+def _list_cells(row: RowView, none: str) -> list[Text]:
     from rich.text import Text
 
     check = row.governing
     if check is None:
-        texts = ["none: no check was made", *[MISSING] * 4]
+        texts = [none, *[MISSING] * 4]
     else:
         ratio = check.utilisation
         texts = [
@@ -98,13 +109,13 @@ def _list_cells(row: RowView) -> list[Text]:
     return [Text(row.id), _word(row.verdict), *map(Text, texts)]
 
 
-def _list_lines(view: ReportView) -> list[str]:
+def _list_lines(view: ReportView, words: Callable[[str], str]) -> list[str]:
     lines = [f"{row.id}: {reason}" for row in view.rows for reason in row.reasons]
-    lines = lines or ["Reasons: none"]
+    lines = lines or [words("Reasons: none")]
     lines += [f"{label}: {text}" for label, text in view.counts]
-    title = "Assumed, confirm in your copy of the standard"
-    notes = [f"Note: {note}" for note in view.notes]
-    return [*lines, f"{title}: {view.assumed_line}", *notes]
+    title = words("Assumed: confirm in your copy of the standard")
+    notes = [f"{words('Note')}: {note}" for note in view.notes]
+    return [*lines, f"{title}: {view.assumed_line or words('none')}", *notes]
 
 
 def _word(verdict: VerdictWords) -> Text:

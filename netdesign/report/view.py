@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report import envelope_tables, row_tables, tables
+from netdesign.report import basis_tables, envelope_tables, row_tables, tables
 from netdesign.report.check_view import (
     SEVERITY,
     CheckView,
@@ -29,6 +29,7 @@ from netdesign.report.words import (
     VerdictWords,
     name_case,
     name_member,
+    show_quantity,
     show_text,
 )
 from netdesign.study import ProfileRecord, RowStudy, Study
@@ -59,6 +60,8 @@ class RowView:
     head: Table
     spreads: Table
     changes: Table
+    flips: tuple[str, ...]  # the same for the governing check, in short
+    independent: Table
     guideline: Table
     guideline_sentence: str
     notes: tuple[str, ...]
@@ -71,12 +74,17 @@ class ReportView:
     identification: tuple[tuple[str, str], ...]
     prepared: str
     checked: str
+    revision: str
+    date: str
     running_title: str
     verdict: VerdictWords
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
     assumed: Table
     assumed_line: str
+    scope: tuple[str, ...]
+    assumptions: Table
+    checklist: Table
     rows: tuple[RowView, ...]
     ranges: Table
     profile_title: str
@@ -103,6 +111,8 @@ def build_view(study: Study) -> ReportView:
         identification=_identify(study),
         prepared=_name_person(project.author),
         checked=_name_person(project.checker),
+        revision=show_text(project.revision),
+        date=show_text(study.provenance.started[:10]),
         running_title=" · ".join(
             text for text in (project.number, project.name, project.revision) if text
         ),
@@ -111,6 +121,9 @@ def build_view(study: Study) -> ReportView:
         counts=_count_all(study),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
+        scope=basis_tables.SCOPE,
+        assumptions=basis_tables.build_assumptions(study),
+        checklist=basis_tables.build_checklist(study),
         rows=rows,
         ranges=tables.build_inputs(study.range_inputs, "Ranges of the envelope"),
         profile_title=show_text(f"{study.profile.title}, {study.profile.edition}"),
@@ -160,6 +173,8 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         head=row_tables.build_head(row),
         spreads=row_tables.build_spreads(shown),
         changes=row_tables.build_changes(row),
+        flips=row_tables.list_flips(governing),
+        independent=row_tables.build_independent(row),
         guideline=row_tables.build_guideline(row),
         guideline_sentence=row.guideline.sentence if row.guideline else "",
         notes=tuple(show_text(note) for note in row.notes),
@@ -214,5 +229,6 @@ def _count_all(study: Study) -> tuple[tuple[str, str], ...]:
 
 
 def _list_assumed(profile: ProfileRecord) -> str:
-    names = [v.id for v in profile.values if v.status == tables.ASSUMED]
-    return ", ".join(show_text(name) for name in names) or "none"
+    assumed = [v for v in profile.values if v.status == tables.ASSUMED]
+    names = [f"{v.id} = {show_quantity(v.value, v.unit)}" for v in assumed]
+    return ", ".join(show_text(name) for name in names)

@@ -94,6 +94,17 @@ def show_given(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else MISSING
 
 
+def show_quantity(value: float | str, unit: str) -> str:
+    """What somebody chose, with its unit if it has one."""
+    text = value if isinstance(value, str) else show_given(value)
+    return show_text(text if unit in ("", MISSING) else f"{text} {unit}")
+
+
+def show_share(value: float | None) -> str:
+    """Pure number of any size: ``3.8e-16``, ``1.08``."""
+    return MISSING if value is None else f"{value:.3g}"
+
+
 def show_with_unit(key: str, value: float | None) -> str:
     """Write number and unit; the sign of a missing number has no unit."""
     shown = show_number(key, value)

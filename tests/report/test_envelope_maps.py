@@ -77,22 +77,22 @@ def shapes(svg, tag):
 
 @pytest.mark.parametrize("draw", DRAWINGS)
 def test_drawings_are_sound_xml_with_the_same_bytes_each_time(draw):
-    svg = draw(RECORD, "row-1")
+    svg = draw(RECORD)
     assert ET.fromstring(svg).tag == f"{NS}svg"
-    assert draw(RECORD, "row-1") == svg
+    assert draw(RECORD) == svg
     assert "Foot anchor [kN]" in svg
     assert "Downhill guy" not in svg  # carries nothing anywhere
 
 
 @pytest.mark.parametrize("draw", DRAWINGS)
 def test_nothing_to_draw_gives_nothing(draw):
-    assert draw(replace(RECORD, bounds=[]), "row-1") == ""
+    assert draw(replace(RECORD, bounds=[])) == ""
 
 
 def test_the_ring_stands_at_the_governing_case_in_the_map_of_its_inclination():
     """Governing: the densest snow, least friction, at 35 degrees: the right map."""
-    (ring,) = shapes(draw_maps(RECORD, "m"), "circle")
-    labels = {one.text: one for one in shapes(draw_maps(RECORD, "m"), "text")}
+    (ring,) = shapes(draw_maps(RECORD), "circle")
+    labels = {one.text: one for one in shapes(draw_maps(RECORD), "text")}
     right_end = float(labels["θ = 35°"].attrib["x"])  # set to the panel's right end
     assert float(ring.attrib["cx"]) == pytest.approx(right_end, abs=0.02)
     assert float(ring.attrib["cx"]) > float(labels["θ = 25°"].attrib["x"])
@@ -105,7 +105,7 @@ def test_darker_is_larger():
 
 
 def test_the_bound_is_drawn_above_the_force():
-    lines = shapes(draw_lines(RECORD, "l"), "polyline")
+    lines = shapes(draw_lines(RECORD), "polyline")
     bound, force = (
         [float(pair.split(",")[1]) for pair in line.attrib["points"].split()]
         for line in lines[:2]

@@ -1,4 +1,5 @@
 import io
+import zipfile
 from dataclasses import replace
 
 import pytest
@@ -8,6 +9,7 @@ from reading import read_rows, read_workbook, recalculate
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.check_view import find_utilisation_band
 from netdesign.report.excel import SHEETS, render_workbook
+from netdesign.report.language import load_words
 from netdesign.report.words import VERDICTS
 
 LIMIT = 1e-12  # relative: one rounding of a product, with room
@@ -67,14 +69,21 @@ def test_cached_values_equal_the_study(content):
 def test_recalculation_equals_the_study(content, tmp_path):
     fresh = recalculate_or_skip(content, tmp_path)
     assert_equals_study(fresh, STUDY)
-    cached, live = (
-        read_rows(read_workbook(book)["Summary"], "No.") for book in (content, fresh)
-    )
-    for one, other in zip(cached, live, strict=True):
-        for heading, value in one.items():
-            is_ratio = isinstance(value, float)
-            expected = pytest.approx(value, rel=LIMIT) if is_ratio else value
-            assert other[heading] == expected, heading
+    cached, live = read_workbook(content), read_workbook(fresh)
+    formulas = read_workbook(content, formulas=True)
+    count = 0
+    for sheet in formulas:
+        for line in sheet.iter_rows():
+            for cell in line:
+                if cell.data_type != "f":
+                    continue
+                count += 1
+                value = cached[sheet.title][cell.coordinate].value
+                is_number = isinstance(value, float)
+                expected = pytest.approx(value, rel=LIMIT) if is_number else value
+                shown = live[sheet.title][cell.coordinate].value
+                assert shown == expected, (sheet.title, cell.coordinate)
+    assert count > 150
 
 
 def test_verdicts_follow_an_edited_cell(content, tmp_path):
@@ -120,7 +129,9 @@ def test_only_our_formulas_exist(content):
     for sheet in book:
         for line in sheet.iter_rows():
             for cell in line:
-                assert cell.hyperlink is None
+                if cell.hyperlink is not None:  # only inside the workbook
+                    assert cell.hyperlink.target is None
+                    assert cell.hyperlink.location.startswith("'")
                 if cell.data_type == "f":
                     assert sheet.title in ("Checks", "Summary")
                     assert cell.value != FORMULA
@@ -141,6 +152,43 @@ def test_sheets_are_ready_to_read_and_print(content):
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )
+
+
+def test_summary_leads_to_every_sheet_and_back(content):
+    book = read_workbook(content)
+    targets = {
+        cell.hyperlink.location.split("!")[0].strip("'")
+        for line in book["Summary"].iter_rows()
+        for cell in line
+        if cell.hyperlink
+    }
+    assert targets == set(SHEETS[1:])
+    for sheet in list(book)[1:]:
+        back = [c.hyperlink for line in sheet.iter_rows() for c in line if c.hyperlink]
+        assert [link.location for link in back] == ["'Summary'!A1"]
+
+
+def test_charts_follow_the_cells(content):
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        charts = [parts.read(n).decode() for n in parts.namelist() if "/charts/" in n]
+    references = "".join(charts)
+    assert len(charts) == 3
+    for area in ("Summary!$G$6:$G$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
+        assert area in references
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_workbook_in_other_languages_calculates_the_same(language, tmp_path):
+    words = load_words(language)
+    content = render_workbook(STUDY, words)
+    fresh = read_workbook(recalculate_or_skip(content, tmp_path))
+    sheet, head = fresh[words("Checks")], words("No.")
+    for line, check in zip(read_rows(sheet, head), expected_checks(STUDY), strict=True):
+        assert line[words("Verdict")] == words(VERDICTS[check.verdict].word)
+        used = check.utilisation
+        assert line["μ"] == ("-" if used is None else pytest.approx(used, rel=LIMIT))
+    overall = fresh[words("Summary")]["C3"].value
+    assert overall == words(VERDICTS[STUDY.verdict].word)
 
 
 def test_numbers_are_numbers_with_a_format(content):

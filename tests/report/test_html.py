@@ -47,12 +47,12 @@ def test_ids_are_unique(page):
 def test_every_section_is_there(page):
     expected = html.list_sections(build_view(build_study()))
     assert set(expected) <= set(PageReader(page).ids)
-    assert len(expected) == 8 + 3 * 10
+    assert len(expected) == 11 + 3 * 11
 
 
 def test_a_missing_section_raises(monkeypatch):
-    def list_more(view):
-        return [*list_sections(view), "row-1-history"]
+    def list_more(view, detail):
+        return [*list_sections(view, detail), "row-1-history"]
 
     list_sections = html.list_sections
     monkeypatch.setattr(html, "list_sections", list_more)
@@ -83,7 +83,7 @@ def test_empty_parts_say_none():
         verdict=Verdict.NOT_PROVEN,
     )
     page = html.render_html(study)
-    assert page.count('<p class="none">none') == 16
+    assert page.count('<p class="none">none') == 17
     assert "NOT PROVEN" in page
 
 
@@ -95,8 +95,43 @@ def test_study_without_rows_has_a_page():
 def test_first_page_lists_the_assumed_values(page):
     card = page[page.index('id="verdict"') : page.index('id="identification"')]
     assert "Assumed: confirm in your copy of the standard" in card
-    assert "Partial factor of a tendon" in card
+    assert "factor.action = 1.5, factor.tendon = 1.35" in card
     assert "FAIL" in card
+
+
+def test_card_says_what_would_flip_the_governing_check(page):
+    card = page[page.index('id="verdict"') : page.index('id="identification"')]
+    assert "It passes with any one of these alone:" in card
+    assert "type =1+1 has 900 kN, now 480 kN" in card
+    assert "snow density" not in card  # no density flips it
+
+
+def test_assumptions_say_status_and_origin(page):
+    lines = PageReader(page).tables["assumptions"][0]
+    assert ["Slack", "2 %", "default", f"Couloir 1, =1+1, Ridge {SCRIPT}"] in lines
+    statuses = {line[2] for line in lines[1:]}
+    assert statuses == {"model", "setting", "default", "assumed"}
+
+
+def test_checklist_counts_what_the_study_holds(page):
+    answers = [line[2] for line in PageReader(page).tables["checklist"][0][1:]]
+    assert "2 of 5 values are assumed" in answers
+    assert "80 solved, 1 without a result" in answers
+
+
+def test_summary_is_shorter_and_keeps_the_verdicts(page):
+    short = html.render_html(build_study(), detail="summary")
+    reader = PageReader(short)
+    assert len(short) < 0.6 * len(page)
+    assert set(reader.ids) >= {"verdict", "row-3-drawing", "row-3-checks", "profile"}
+    assert "row-1-worked" not in reader.ids
+    assert reader.tables["summary"] == PageReader(page).tables["summary"]
+
+
+def test_drawings_need_no_style_sheet(page):
+    """Ratio bars keep their colours where CSS does not reach into SVG."""
+    bars = page.split('<svg class="bar"')[1:]
+    assert all("fill=" in bar.split("</svg>")[0] for bar in bars)
 
 
 def test_tables_have_captions_and_scopes(page):

@@ -1,6 +1,8 @@
 """Page, workbook, view and terminal say the same, check by check."""
 
 import io
+import json
+import re
 
 import pytest
 from build_study import build_study
@@ -9,11 +11,14 @@ from rich.console import Console
 
 from netdesign.report.excel import render_workbook
 from netdesign.report.html import render_html
+from netdesign.report.language import load_words
 from netdesign.report.terminal import print_summary
 from netdesign.report.view import build_view
 from netdesign.report.words import VERDICTS, show_number
+from netdesign.study import write_document
 
 STUDY = build_study()
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +91,64 @@ def test_verdicts_agree(page, book):
     assert book["Summary"]["C3"].value == overall
     assert lines[-1].startswith(f"Verdict: {overall}")
     assert f"{overall}" in "".join(page.text)
+
+
+def test_json_document_and_stdout_agree_with_page_and_workbook(page, book):
+    document = json.loads(write_document(STUDY))
+    stream = io.StringIO()
+    print_summary(STUDY, Console(file=stream, width=200))
+    printed = stream.getvalue().splitlines()[1:]
+    sheet = iter(read_rows(book["Checks"], "No."))
+    summary = [cells for cells in page.tables["summary"][0][1:] if len(cells) > 2]
+    for number, row in enumerate(document["rows"]):
+        (table,) = page.tables[f"row-{number + 1}-checks"]
+        for check, cells in zip(row["checks"], table[1:], strict=True):
+            line = next(sheet)
+            for key, heading in (
+                ("demand_kN", "E_d [kN]"),
+                ("resistance_kN", "R_d [kN]"),
+                ("utilisation", "μ"),
+            ):
+                value = check[key]
+                expected = "-" if value is None else pytest.approx(value, rel=1e-12)
+                assert line[heading] == expected
+            assert cells[1:3] == [
+                show_number(key, check[key]) for key in ("demand_kN", "resistance_kN")
+            ]
+            assert cells[3].split()[0] == show_number(
+                "utilisation", check["utilisation"]
+            )
+        for text in summary[number][3:5]:
+            assert text in printed[number]
+        ratio, *band = summary[number][5].split(maxsplit=1)
+        assert ratio in printed[number]
+        assert all(text in printed[number] for text in band)
+
+
+def test_all_cases_of_the_document_stand_in_the_workbook(book):
+    lines = iter(read_rows(book["Cases"], "Net row"))
+    for row in json.loads(write_document(STUDY))["rows"]:
+        for case in row["cases"]:
+            line = next(lines)
+            for key, heading in (
+                ("foot_anchor_kN", "Foot anchor [kN]"),
+                ("error_percent", "Estimated error [%]"),
+                ("balance_residual", "Balance residual"),
+            ):
+                value = case[key]
+                expected = "-" if value is None else pytest.approx(value, rel=1e-12)
+                assert line[heading] == expected
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_languages_show_the_same_numbers_and_keys(page, language):
+    other = PageReader(render_html(STUDY, load_words(language)))
+    assert other.ids == page.ids
+    for section, tables in page.tables.items():
+        for table, theirs in zip(tables, other.tables[section], strict=True):
+            for cells, shown in zip(table, theirs, strict=True):
+                for cell, text in zip(cells, shown, strict=True):
+                    assert NUMBER.findall(text) == NUMBER.findall(cell)
 
 
 def test_provenance_agrees(page, book):

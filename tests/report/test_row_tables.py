@@ -52,9 +52,15 @@ def test_guideline_that_could_not_be_asked_leaves_no_rows():
 
 
 def test_interval_is_itemised_and_says_what_counts():
-    error, law = texts(build_spreads(ROW.checks[0]))
-    assert error == ["numerical error", "0.900 to 0.950", "yes", "-"]
-    assert law[1:3] == ["-", "no, for comparison"]
+    check = ROW.checks[0]
+    error, law = texts(build_spreads(check))
+    assert error[:2] == ["numerical error", "0.900 to 0.950"]
+    low, high = 0.9 * 520 / 1.35, 0.95 * 520 / 1.35  # kN of the design resistance
+    assert error[2:4] == [f"{low:.1f}", f"{high:.1f}"]
+    below = 100 * (0.9 / check.utilisation - 1)
+    assert error[4] == f"{below:.1f}"
+    assert error[6:] == ["yes", "-"]
+    assert law[1:7] == ["-", "-", "-", "-", "-", "no, for comparison"]
     assert build_spreads(None).rows == ()
 
 

@@ -1,8 +1,10 @@
 import io
+import re
 
 from build_study import SCRIPT, build_study
 from rich.console import Console
 
+from netdesign.report.language import load_words
 from netdesign.report.terminal import print_summary
 
 
@@ -20,8 +22,22 @@ def test_one_line_for_each_net_row_then_reasons_and_assumed_values():
         f"Ridge {SCRIPT}",
     ]
     assert "=1+1: 1 of the cases has no result." in lines
-    assert any(line.endswith("factor.action, factor.tendon") for line in lines)
+    assert any(
+        line.endswith("factor.action = 1.5, factor.tendon = 1.35") for line in lines
+    )
     assert lines[-1].startswith("Verdict: FAIL - ")
+
+
+def test_summary_in_french_has_the_same_numbers():
+    stream = io.StringIO()
+    console = Console(file=stream, width=200)
+    print_summary(build_study(), console, load_words("fr"))
+    lines = stream.getvalue().splitlines()
+    assert lines[-1].startswith("Verdict: NON SATISFAIT - ")
+    english = printed(build_study()).splitlines()
+    for number in range(1, 4):
+        numbers = re.findall(r"\d+\.\d+", english[number])
+        assert re.findall(r"\d+\.\d+", lines[number]) == numbers
 
 
 def test_no_colour_where_the_console_has_none():

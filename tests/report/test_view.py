@@ -78,7 +78,7 @@ def test_slack_member_passes_without_a_resistance():
 
 def test_assumed_values_are_listed():
     view = build_view(build_study())
-    assert view.assumed_line == "factor.action, factor.tendon"
+    assert view.assumed_line == "factor.action = 1.5, factor.tendon = 1.35"
     assert [cells[0].text for cells in view.assumed.rows] == ["5.2", "6.1"]
 
 

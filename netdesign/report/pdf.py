@@ -1,0 +1,37 @@
+"""Page -> PDF, by a library that is an extra: ``pip install netdesign[pdf]``."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from netdesign.errors import NetDesignError
+
+
+def require_pdf() -> None:
+    """Refuse a wish for a PDF before anything is solved.
+
+    Raises
+    ------
+    NetDesignError
+        If the library is not installed.
+    """
+    if find_spec("weasyprint") is None:
+        raise NetDesignError(
+            "a PDF needs WeasyPrint: pip install 'netdesign[pdf]', or print "
+            "report.html from a browser"
+        )
+
+
+def render_pdf(page: str) -> bytes:
+    """A4 document of a page of ours.
+
+    Raises
+    ------
+    NetDesignError
+        If the library is not installed.
+    """
+    require_pdf()
+    import weasyprint
+
+    document: bytes = weasyprint.HTML(string=page).write_pdf()
+    return document

@@ -1,0 +1,82 @@
+"""A view in another language: words of ours are replaced, all else stays."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass, replace
+from html import escape, unescape
+from typing import Any, TypeVar
+
+from netdesign.report.check_view import CheckView, Step, Worked
+from netdesign.report.table import Cell, Column, Table
+from netdesign.report.view import ReportView, RowView
+from netdesign.report.words import VerdictWords
+
+Translate = Callable[[str], str]
+View = TypeVar("View")
+
+# Fields that hold words of ours; the others hold numbers, keys, or what somebody typed.
+_WORDS: dict[type, tuple[str, ...]] = {
+    Table: ("caption", "empty"),
+    Column: ("heading",),
+    VerdictWords: ("word", "meaning"),
+    CheckView: ("title", "band", "reason"),
+    Step: ("numbers", "result"),
+    Worked: ("title", "needed"),
+    RowView: (
+        *("counts", "reasons", "unloaded", "flips", "searched"),
+        *("guideline_sentence", "notes"),
+    ),
+    ReportView: ("counts", "scope", "notes"),
+}
+_TEXT = re.compile(r"(?<=>)[^<>]+(?=</text>)")
+_LABEL = re.compile(r'(?<= aria-label=")[^"]+(?=")')
+
+
+def translate_view(view: View, words: Translate) -> View:
+    """View with its words in another language, and the labels of its project.
+
+    Parameters
+    ----------
+    view : ReportView, or a part of it
+        As ``build_view`` gives it.
+    words : callable
+        Text to text.
+    """
+    shown: Any = view
+    if isinstance(view, Cell):
+        return replace(shown, text=words(view.text)) if view.is_words else view
+    if isinstance(view, tuple):
+        return tuple(translate_view(part, words) for part in shown)  # type: ignore[return-value]
+    if not is_dataclass(view):
+        return view
+    ours = _WORDS.get(type(view), ())
+    changed = {
+        one.name: _translate_texts(getattr(view, one.name), words)
+        if one.name in ours
+        else translate_view(getattr(view, one.name), words)
+        for one in fields(view)
+    }
+    if isinstance(view, ReportView):
+        changed["identification"] = tuple(
+            (words(label), text) for label, text in view.identification
+        )
+    translated: View = replace(shown, **changed)
+    return translated
+
+
+def _translate_texts(texts: Any, words: Translate) -> Any:
+    """A text, or a tuple of texts of any depth."""
+    if isinstance(texts, str):
+        return words(texts)
+    return tuple(_translate_texts(text, words) for text in texts)
+
+
+def translate_drawing(svg: str, words: Translate) -> str:
+    """Drawing with its texts in another language: in an SVG text stays text."""
+
+    def exchange(match: re.Match[str]) -> str:
+        return escape(words(unescape(match[0])))
+
+    return _LABEL.sub(exchange, _TEXT.sub(exchange, svg))

@@ -1,0 +1,66 @@
+"""The page in a real browser: complete, without a violated policy, printed on A4."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+from build_study import build_study
+
+from netdesign.report.html import list_sections, render_html
+from netdesign.report.language import load_words
+from netdesign.report.view import build_view
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+MINIMUM_PT = 595.0, 842.0  # A4
+
+
+@pytest.fixture(scope="module")
+def browser():
+    found = next(filter(None, map(shutil.which, NAMES)), None)
+    if found is None:
+        pytest.skip("no chromium is installed: the page was not opened in a browser")
+    return found
+
+
+def run(browser, folder, *arguments):
+    done = subprocess.run(
+        [
+            browser,
+            *("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"),
+            *("--enable-logging=stderr", f"--user-data-dir={folder}/profile"),
+            *arguments,
+            (folder / "report.html").as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    )
+    messages = [line for line in done.stderr.splitlines() if ":CONSOLE" in line]
+    assert messages == []  # a violated policy or a missing file would be told here
+    return done.stdout
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_page_opens_without_complaint(browser, tmp_path, language):
+    study = build_study()
+    page = render_html(study, load_words(language))
+    (tmp_path / "report.html").write_text(page, encoding="utf-8")
+    tree = run(browser, tmp_path, "--dump-dom")
+    for name in list_sections(build_view(study)):
+        assert f'id="{name}"' in tree
+    assert tree.count("<svg") == page.count("<svg")
+    assert "<script" not in tree
+
+
+def test_page_prints_on_a4(browser, tmp_path):
+    (tmp_path / "report.html").write_text(render_html(build_study()), encoding="utf-8")
+    target = tmp_path / "report.pdf"
+    run(browser, tmp_path, f"--print-to-pdf={target}", "--no-pdf-header-footer")
+    content = target.read_bytes()
+    assert content.startswith(b"%PDF")
+    boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
+    assert len(boxes) > 10
+    for box in boxes:
+        assert [float(side) for side in box] == pytest.approx(MINIMUM_PT, abs=1.5)

@@ -1,0 +1,124 @@
+"""Languages of the reports: what is translated, what never is, what is missing."""
+
+import re
+
+import pytest
+from build_study import SCRIPT, build_study
+
+from netdesign.checks import load_standard
+from netdesign.report.excel import render_workbook
+from netdesign.report.html import render_html
+from netdesign.report.language import LANGUAGES, Words, load_words
+from netdesign.report.table import Cell
+from netdesign.report.translation import translate_drawing, translate_view
+from netdesign.rowcheck.guideline_record import _SENTENCES as GUIDELINE_SENTENCES
+
+# Not translated: texts of the made-up study, which no solver and no profile writes.
+MADE_UP = (
+    *("The demand exceeds the resistance.", "The demand stays within the resistance."),
+    *("1 of the cases has no result.", "No resistance is given in Anchors!E7."),
+    "Downhill anchor, pull-out: no resistance is given.",
+    *("Slope angle", "Snow height", "Ground", "Slack", "Remark", "jobs"),
+    *("Setting: jobs", "Partial factor of snow pressure"),
+    *("Partial factor of a tendon", "Partial factor of a tested anchor"),
+    *("Smallest inclination of the net", "Largest inclination of the net"),
+    *("type =1+1 has 900 kN", "type =1+1 has 900 kN, now 480 kN"),
+)
+WORD = re.compile(r"[^\W\d_]{4}")
+SHIPPED = ("nf-p-95-304-style", "eurocode", "onr-24805-style", "swiss-guideline-2007")
+
+
+def ask_all():
+    """Every text that the reports of a study ask a language for."""
+    asked = {}
+
+    class Listener(Words):
+        def __call__(self, text):
+            asked[text] = None
+            return text
+
+    render_html(build_study(), Listener())
+    render_workbook(build_study(), Listener())
+    return list(asked)
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_no_text_of_the_program_is_missing(language):
+    words = load_words(language)
+    missing = [
+        text
+        for text in ask_all()
+        if WORD.search(text) and SCRIPT not in text and words.find(text) is None
+    ]
+    assert set(missing) <= set(MADE_UP)
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_default_profile_and_guideline_are_translated(language):
+    words = load_words(language)
+    texts = [value.text for value in load_standard(SHIPPED[0]).listed]
+    texts += GUIDELINE_SENTENCES.values()
+    assert [text for text in texts if words.find(text) is None] == []
+
+
+def test_languages_hold_the_same_texts():
+    french, german = load_words("fr"), load_words("de")
+    assert set(french.texts) == set(german.texts)
+    assert len(french.patterns) == len(german.patterns) > 50
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_missing_text_stays_english(language):
+    text = "relative density = 0.43: nobody has translated this"
+    assert load_words(language)(text) == text
+
+
+@pytest.mark.parametrize(
+    ("english", "french"),
+    [
+        ("1 NOT PROVEN, 10 PASS", "1 NON PROUVÉ, 10 SATISFAIT"),
+        ("0.842 to 0.871", "0.842 à 0.871"),
+        ("Demand [kN]", "Sollicitation [kN]"),
+        ("Foot anchor, pull-out", "Ancrage de pied, arrachement"),
+        ("post spacing at most 2.4 m, now 4 m",
+         "entraxe des poteaux au plus 2.4 m, actuellement 4 m"),
+        ("Coupled solve: 400 kg/m³, φ 45°, θ 35°",
+         "Calcul couplé : 400 kg/m³, φ 45°, θ 35°"),
+        ("foot_anchor.tendon: The member is slack in every case and needs no "
+         "resistance.",
+         "foot_anchor.tendon: L'élément est détendu dans tous les cas et n'a pas "
+         "besoin de résistance."),
+    ],
+)  # fmt: skip
+def test_sentences_keep_numbers_symbols_and_keys(english, french):
+    assert load_words("fr")(english) == french
+
+
+def test_what_somebody_typed_is_never_translated():
+    words = load_words("fr")
+    assert words("Post") == "Poteau"
+    assert translate_view(Cell(text="Post"), words).text == "Post"
+    assert translate_view(Cell(text="Post", is_words=True), words).text == "Poteau"
+    page = render_html(build_study(), words)
+    assert 'lang="fr"' in page
+    assert "Couloir 1" in page
+    assert "<script" not in page
+
+
+def test_hostile_gaps_stay_text():
+    words = load_words("fr")
+    text = "no resistance is given for {what} {0} \\1, cell <b>"
+    assert (
+        words(text) == "aucune résistance n'est donnée pour {what} {0} \\1, cellule <b>"
+    )
+    long = "a to b, " * 5000
+    assert words(long) == long
+
+
+def test_texts_of_drawings_are_translated_and_escaped():
+    svg = (
+        '<svg aria-label="Member forces over the ranges"><text x="1">Post</text></svg>'
+    )
+    shown = translate_drawing(svg, lambda text: f"<{text}>")
+    assert 'aria-label="&lt;Member forces over the ranges&gt;"' in shown
+    assert "&lt;Post&gt;</text>" in shown
