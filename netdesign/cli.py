@@ -24,6 +24,7 @@ from netdesign.commands.paper import paper
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.given_files import make_printable
 from netdesign.outcome import Verdict
 
 if TYPE_CHECKING:
@@ -369,13 +370,14 @@ def main() -> NoReturn:
         click.echo("interrupted; run the same command again", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
+        error.message = make_printable(error.message)
         error.show()
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
         click.echo(f"{error}\n{_count_findings(error)}", err=True)
         sys.exit(error.exit_code)
     except NetDesignError as error:
-        click.echo(f"error: {error}", err=True)
+        click.echo(f"error: {make_printable(str(error))}", err=True)
         sys.exit(error.exit_code)
     except BrokenPipeError:
         # whoever read our output has stopped: nothing more to say
@@ -385,8 +387,10 @@ def main() -> NoReturn:
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
         click.echo(
-            f"internal error, please report it: {type(error).__name__}: {error}\n"
-            "(NETDESIGN_TRACEBACK=1 shows where)",
+            make_printable(
+                f"internal error, please report it: {type(error).__name__}: {error}\n"
+            )
+            + "(NETDESIGN_TRACEBACK=1 shows where)",
             err=True,
         )
         sys.exit(_EXIT_INTERNAL)
@@ -481,7 +485,7 @@ def _count_findings(error: SiteDataError) -> str:
 def _own_command() -> str:
     import shlex
 
-    return shlex.join(["netdesign", *sys.argv[1:]])
+    return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
 
 
 def _now() -> str:

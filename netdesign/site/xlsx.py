@@ -120,8 +120,12 @@ def _read_sheet(
         )
         for (row, column), formula in formulas.items()
     }
+    seen: set[tuple[int, int]] = set()
     for cell in _filled_cells(stored, layout.last_row):
         place = (cell.row, cell.column)
+        if place in seen:
+            raise ValueError(f"row {cell.row} holds column {cell.column} twice")
+        seen.add(place)
         cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
     require_columns(file, stored.title, cells.values())
     return Sheet(
