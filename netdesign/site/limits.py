@@ -17,8 +17,8 @@ MAX_TEXT_BYTES = 4 * 2**20  # of all csv files that are read together
 MAX_EXPANDED_BYTES = 32 * 2**20
 MAX_ENTRIES = 500
 # Elements and attributes of all parts: each costs a parser hundreds of bytes, so the
-# size of a part does not bound its memory. 2000 rows of 30 columns have 500,000.
-MAX_MARKS = 600_000
+# size of a part does not bound its memory. 1000 filled rows of 30 columns have 250,000.
+MAX_MARKS = 300_000
 MAX_RATIO = 200.0
 MAX_ROWS = 2000
 MAX_COLUMNS = 200

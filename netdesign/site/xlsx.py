@@ -113,6 +113,9 @@ def _read_sheet(
     decimal_mark: DecimalMark,
 ) -> Sheet:
     require_rows(file, stored.title, layout.last_row)
+    if len(layout.merged) > MAX_ROWS:
+        rule = f"has {len(layout.merged)} merged ranges"
+        raise refuse_file(file, rule, f"at most {MAX_ROWS}", stored.title)
     # First the formulas alone; those with a stored result are then replaced.
     cells = {
         (row, column): Cell(
