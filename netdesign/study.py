@@ -14,12 +14,7 @@ from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
 from netdesign.given_files import list_faults, read_bounded
-from netdesign.json_text import (
-    MAX_JSON_BYTES,
-    build_validator,
-    inspect_json,
-    write_json,
-)
+from netdesign.json_text import MAX_JSON_BYTES, read_json, write_json
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 
@@ -324,14 +319,13 @@ def read_document(text: str) -> Study:
     Raises
     ------
     StudyError
-        Naming the keys that are missing, unknown, given twice or of the wrong kind;
-        of a list its first faulty member.
+        Naming every key that is missing, unknown or of the wrong kind; of a large
+        document those of the first faulty member of each list.
     """
     from pydantic import ValidationError
 
     try:
-        inspect_json(text)
-        study: Study = build_validator(Study).validate_json(text)
+        study: Study = read_json(Study, text)
         _require_sense(study)
     except ValidationError as error:
         faults = [
