@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # slow to import and only needed to read a document
 MAX_JSON_BYTES = 32 * 2**20
 MAX_VALUES = 800_000
 MAX_OBJECTS = 150_000
-_SMALL = 20_000  # values
+_SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
 _MOST_KEYS = 200  # of one object
 
 
@@ -54,7 +54,7 @@ def read_json(shape: type, text: str) -> Any:
         most = f"{MAX_VALUES} values or {MAX_OBJECTS} objects"
         raise ValueError(f"holds more than {most}")
     keys = _inspect(text)
-    if values <= _SMALL:
+    if values <= _SMALL and len(text) <= _SMALL_TEXT:
         return TypeAdapter(shape).validate_json(text)
     strange = keys.symmetric_difference(field.name for field in fields(shape))
     if strange:
