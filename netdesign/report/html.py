@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from netdesign.given_files import make_printable
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
@@ -64,7 +65,7 @@ def render_html(study: Study) -> str:
         ],
     )
     require_sections(page, list_sections(view))
-    return page
+    return make_printable(page)
 
 
 def list_sections(view: ReportView) -> list[str]:

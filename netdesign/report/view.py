@@ -101,7 +101,9 @@ def build_view(study: Study) -> ReportView:
         prepared=_name_person(project.author),
         checked=_name_person(project.checker),
         running_title=" · ".join(
-            text for text in (project.number, project.name, project.revision) if text
+            show_text(text)
+            for text in (project.number, project.name, project.revision)
+            if text
         ),
         verdict=VERDICTS[study.verdict],
         governing_row=_find_governing_row(study, rows),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -24,12 +25,17 @@ _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 A4, A3 = 9, 8  # paper numbers of the format
 
 
+def _show_literally(text: str) -> str:
+    """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
+    return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
+
+
 class Book:
     """A workbook being written; keeps one format for each set of properties."""
 
     def __init__(self, workbook: Any, footer: str) -> None:
         self.workbook = workbook
-        self._footer = footer.replace("&", "&&")[:120]
+        self._footer = _show_literally(footer[:100])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
 
     def format(self, **properties: Any) -> Any:

@@ -130,7 +130,7 @@ def list_workbooks() -> dict[str, tuple[str, object]]:
         "cell-twice": (
             SHEET,
             lambda xml: re.sub(
-                rb'(<c r="B2"[^>]*>)(<v>[0-9.]+</v></c>)',
+                rb'(<c r="B3"[^>]*>)(<v>[0-9.]+</v></c>)',
                 rb"\1\2\1\2",
                 xml,
                 count=1,
