@@ -29,6 +29,7 @@ from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.solving import open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.given_files import make_printable
 from netdesign.outcome import Verdict
 
 if TYPE_CHECKING:
@@ -327,13 +328,14 @@ def main() -> NoReturn:
         click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
+        error.message = make_printable(error.message)
         error.show()
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
         click.echo(f"{error}\n{_count_findings(error)}", err=True)
         sys.exit(error.exit_code)
     except NetDesignError as error:
-        click.echo(f"error: {error}", err=True)
+        click.echo(f"error: {make_printable(str(error))}", err=True)
         sys.exit(error.exit_code)
     except BrokenPipeError:
         # whoever read our output has stopped: nothing more to say
@@ -343,8 +345,10 @@ def main() -> NoReturn:
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
         click.echo(
-            f"internal error, please report it: {type(error).__name__}: {error}\n"
-            "(NETDESIGN_TRACEBACK=1 shows where)",
+            make_printable(
+                f"internal error, please report it: {type(error).__name__}: {error}\n"
+            )
+            + "(NETDESIGN_TRACEBACK=1 shows where)",
             err=True,
         )
         sys.exit(_EXIT_INTERNAL)
@@ -443,7 +447,7 @@ def _count_findings(error: SiteDataError) -> str:
 def _own_command() -> str:
     import shlex
 
-    return shlex.join(["netdesign", *sys.argv[1:]])
+    return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
 
 
 def _now() -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -16,6 +15,7 @@ from netdesign.coupling.solve import Settings
 from netdesign.coupling.staggered import LONGEST_EXCHANGE, StaggeredSettings
 from netdesign.coupling.transient import TransientSettings
 from netdesign.errors import ModelError, SceneFileError
+from netdesign.given_files import list_faults, read_toml
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,
@@ -153,14 +153,14 @@ def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Setting
         With every fault of the file: key, value, what is accepted.
     """
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        tables = read_toml(path)
+    except (OSError, ValueError) as error:
         raise SceneFileError(f"{path}: cannot be read as TOML: {error}") from None
     try:
         return build_scene(SceneFile.model_validate(tables), method)
     except ValidationError as error:
-        lines = [_describe(fault) for fault in error.errors()]
-        raise SceneFileError("\n".join(f"{path}: {line}" for line in lines)) from None
+        lines = [f"{path}: {_describe(fault)}" for fault in error.errors()]
+        raise SceneFileError(list_faults(lines)) from None
     except ModelError as error:
         raise SceneFileError(f"{path}: {error}") from None
 
@@ -331,5 +331,5 @@ def _net(net: NetTable, thickness: float) -> Net | Wall:
 def _describe(fault: Any) -> str:
     place = ".".join(str(part) for part in fault["loc"]) or "file"
     value = fault.get("input")
-    shown = f" = {value!r}" if isinstance(value, (str, int, float)) else ""
+    shown = f" = {value!r:.100}" if isinstance(value, (str, int, float)) else ""
     return f"{place}{shown}: {fault['msg']}"

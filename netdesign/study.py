@@ -6,12 +6,15 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
-import json
+from collections import Counter
 from dataclasses import asdict, dataclass, field
+from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from netdesign.errors import StudyError
+from netdesign.given_files import list_faults, read_bounded
+from netdesign.json_text import MAX_JSON_BYTES, read_json, write_json
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 
@@ -435,7 +438,7 @@ class Study:
 
 def write_document(study: Study) -> str:
     """JSON text of a study; numbers in full, keys in the order of the fields."""
-    return json.dumps(asdict(study), indent=1, ensure_ascii=False, allow_nan=False)
+    return write_json(asdict(study))
 
 
 def read_document(text: str) -> Study:
@@ -444,19 +447,38 @@ def read_document(text: str) -> Study:
     Raises
     ------
     StudyError
-        Naming every key that is missing, unknown or of the wrong kind.
+        Naming every key that is missing, unknown or of the wrong kind; of a large
+        document those of the first faulty member of each list.
     """
-    from pydantic import TypeAdapter, ValidationError
+    from pydantic import ValidationError
 
     try:
-        return TypeAdapter(Study).validate_json(text)
+        study: Study = read_json(Study, text)
+        _require_sense(study)
     except ValidationError as error:
-        faults = "\n".join(
+        faults = [
             f"{'.'.join(str(part) for part in fault['loc']) or 'document'}: "
             f"{fault['msg']}"
-            for fault in error.errors()
-        )
-        raise StudyError(f"not a study of schema {SCHEMA}:\n{faults}") from None
+            for fault in error.errors(include_input=False, include_url=False)
+        ]
+        message = f"not a study of schema {SCHEMA}:\n{list_faults(faults)}"
+        raise StudyError(message) from None
+    except ValueError as error:
+        raise StudyError(f"not a study of schema {SCHEMA}: {error}") from None
+    return study
+
+
+def _require_sense(study: Study) -> None:
+    """Refuse what has the right kind and is impossible all the same."""
+    counts = Counter(row.id for row in study.rows)
+    twice = [name for name, count in counts.items() if count > 1]
+    if twice:
+        raise ValueError(f"rows: the id {twice[0]!r:.60} is used twice")
+    started = study.provenance.started
+    try:
+        datetime.fromisoformat(started or "1980-01-01")
+    except ValueError:
+        raise ValueError(f"provenance.started: {started!r:.60} is no date") from None
 
 
 def load_study(path: Path) -> Study:
@@ -468,6 +490,7 @@ def load_study(path: Path) -> Study:
         If the file cannot be read, or is no study.
     """
     try:
-        return read_document(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
+        text = read_bounded(path, MAX_JSON_BYTES).decode()
+    except (OSError, ValueError) as error:
         raise StudyError(f"{path}: cannot be read: {error}") from None
+    return read_document(text)

@@ -21,7 +21,7 @@ PACKAGE = Path(netdesign.__file__).parent
 ROWS = (
     {
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
-        *("quantities", "output", "progress"),
+        *("quantities", "output", "progress", "given_files", "json_text"),
     },
     {"numerics", "resistance"},
     {"snow", "cable", "structure", "checks"},
@@ -77,8 +77,8 @@ THIRD_PARTY = {
     "openpyxl": ("site.xlsx", "site.annotate"),
     "defusedxml": ("site.xlsx", "site.ods"),
     "xlsxwriter": ("site.template", "site.notes_sheet", "report.*"),
-    "pydantic": ("checks.schema", "scene_file", "study"),
-    "pydantic_core": ("checks.schema",),
+    "pydantic": ("checks.schema", "scene_file", "study", "json_text"),
+    "pydantic_core": ("checks.schema", "json_text"),
     "jinja2": ("report.page",),
     "markupsafe": ("report.html", "report.page"),
     "weasyprint": ("report.pdf",),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import hashlib
 import math
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from netdesign.checks.schema import (
     check_table,
 )
 from netdesign.errors import StandardError
+from netdesign.given_files import MAX_TOML_BYTES, parse_toml, read_bounded
 from netdesign.resources import find_resource
 from netdesign.units import radian_from_degree
 
@@ -264,13 +264,19 @@ def _read_files(folder: Path) -> dict[str, bytes]:
         raise StandardError(message)
     try:
         return {
-            path.name: path.read_bytes().replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+            path.name: _read_unix(path)
             for path in sorted(folder.iterdir())
             if path.is_file() and path.suffix in _HASHED_SUFFIXES
         }
-    except OSError as error:
+    except (OSError, ValueError) as error:
         message = f"{folder}: cannot be read: {error}"
         raise StandardError(message) from error
+
+
+def _read_unix(path: Path) -> bytes:
+    """Content with line ends as on Unix."""
+    content = read_bounded(path, MAX_TOML_BYTES)
+    return content.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def _parse(
@@ -279,8 +285,8 @@ def _parse(
     """Table of one TOML file and its name for messages."""
     label = str(folder / name)
     try:
-        return tomllib.loads(contents[name].decode("utf-8-sig")), label
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        return parse_toml(contents[name]), label
+    except ValueError as error:
         message = f"{label}: is not TOML in UTF-8: {error}"
         raise StandardError(message) from error
 

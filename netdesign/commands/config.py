@@ -13,12 +13,13 @@ table for each command, with the long names of its options as keys::
 from __future__ import annotations
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import click
+
+from netdesign.given_files import read_toml
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
@@ -66,8 +67,8 @@ def _read_defaults(
     command: click.Command, ctx: click.Context, path: Path
 ) -> dict[str, Any]:
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        tables = read_toml(path)
+    except (OSError, ValueError) as error:
         raise click.UsageError(f"{path}: cannot be read as TOML: {error}") from None
     group = ctx.find_root().command
     commands = group.list_commands(ctx) if isinstance(group, click.Group) else []
@@ -83,6 +84,8 @@ def _read_defaults(
         place = f"{path}: [{command.name}] {key}"
         if key not in options:
             raise click.UsageError(f"{place}: {_suggest(key, list(options))}")
+        if "\\x00" in repr(value):  # no command line can hold one
+            raise click.UsageError(f"{place} = {value!r}: holds a zero character")
         try:
             options[key].type_cast_value(ctx, value)
         except click.BadParameter as error:

@@ -47,7 +47,8 @@ def _check_delimiter(
     _context: click.Context, _option: click.Parameter, value: str | None
 ) -> str:
     sign = _DELIMITERS.get(value or "", value or "")
-    if len(sign) > 1 or sign in ('"', "\n", "\r"):
+    is_mark = sign == "\t" or (sign.isprintable() and not sign.isalnum())
+    if len(sign) > 1 or sign == '"' or not is_mark:
         raise click.BadParameter("one sign such as ';', or tab")
     return sign
 

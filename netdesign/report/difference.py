@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from netdesign.given_files import make_printable
 from netdesign.report.check_view import find_governing
 from netdesign.study import RowStudy, Study
 
@@ -38,7 +39,8 @@ class Change:
     def __str__(self) -> str:
         """``R1: utilisation: 0.73 -> 0.81``."""
         place = f"{self.row}: " if self.row else ""
-        return f"{place}{self.what}: {_show(self.old)} -> {_show(self.new)}"
+        sentence = f"{place}{self.what}: {_show(self.old)} -> {_show(self.new)}"
+        return make_printable(sentence.replace("\n", " "))
 
 
 def compare_studies(old: Study, new: Study) -> list[Change]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Literal
 
+from netdesign.given_files import make_printable
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
 from netdesign.report.gate import require_sections
@@ -88,7 +89,7 @@ def render_html(
         ],
     )
     require_sections(page, list_sections(view, detail))
-    return page
+    return make_printable(page)
 
 
 def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:

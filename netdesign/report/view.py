@@ -114,7 +114,9 @@ def build_view(study: Study) -> ReportView:
         revision=show_text(project.revision),
         date=show_text(study.provenance.started[:10]),
         running_title=" · ".join(
-            text for text in (project.number, project.name, project.revision) if text
+            show_text(text)
+            for text in (project.number, project.name, project.revision)
+            if text
         ),
         verdict=VERDICTS[study.verdict],
         governing_row=_find_governing_row(study, rows),

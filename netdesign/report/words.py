@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from netdesign.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.study import CasePoint, CheckRecord
@@ -55,8 +56,7 @@ _MODES = {"pull_out": "pull-out"}
 
 def show_text(text: str) -> str:
     """Text on one line without control characters; "-" if nothing is left."""
-    line = "".join(sign if sign.isprintable() else " " for sign in text)
-    return " ".join(line.split()) or MISSING
+    return " ".join(make_printable(text).split()) or MISSING
 
 
 def show_number(key: str, value: float | None) -> str:

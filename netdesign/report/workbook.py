@@ -31,6 +31,11 @@ _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 A4, A3 = 9, 8  # paper numbers of the format
 
 
+def _show_literally(text: str) -> str:
+    """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
+    return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
+
+
 class Book:
     """A workbook being written; keeps one format for each set of properties."""
 
@@ -40,7 +45,7 @@ class Book:
         self.verdicts = {
             verdict: translate_view(shown, words) for verdict, shown in VERDICTS.items()
         }
-        self._footer = footer.replace("&", "&&")[:120]
+        self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
 
     def format(self, **properties: Any) -> Any:

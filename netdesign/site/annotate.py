@@ -11,6 +11,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from netdesign.given_files import make_printable
 from netdesign.site.cells import UNDECLARED, Sheet, TextFormat
 from netdesign.site.columns import FINDINGS_SHEET
 from netdesign.site.diagnostics import Finding, quote, refuse_file
@@ -98,6 +99,8 @@ def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
 
 
 def _write(cell: Any, value: object) -> None:
+    if isinstance(value, str):
+        value = make_printable(value)  # workbooks cannot hold control characters
     cell.value = value
     if isinstance(value, str):
         cell.data_type = "s"  # text that begins with "=" is no formula of ours
@@ -124,7 +127,7 @@ def _mark_cell(cell: Any, finding: Finding) -> None:
     lines = [f"{finding.severity}: {finding.rule}"]
     if finding.accepted:
         lines.append(f"accepted: {finding.accepted}")
-    text = "\n".join(lines)
+    text = make_printable("\n".join(lines))
     if cell.comment is not None:
         text = f"{cell.comment.text}\n{text}"
     width, height = _COMMENT_SIZE

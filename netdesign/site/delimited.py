@@ -14,7 +14,13 @@ from itertools import islice
 
 from netdesign.site.cells import Cell, Sheet, TextFormat, group_by_row
 from netdesign.site.diagnostics import Finding, note_file, refuse_file
-from netdesign.site.limits import MAX_ROWS, require_columns, require_rows
+from netdesign.site.limits import (
+    MAX_COLUMNS,
+    MAX_ROWS,
+    require_columns,
+    require_rows,
+    require_width,
+)
 
 DELIMITERS = (";", ",", "\t", "|")
 _DEFAULT_SHEET = "Nets"
@@ -63,6 +69,8 @@ def read_delimited(
         delimiter = text_format.delimiter or _find_delimiter(file, text, is_heading)
         records = _split(file, text, delimiter)
         require_rows(file, name, len(records))
+        for record in records:
+            require_width(file, name, len(record))
         shown = _NAMES.get(delimiter, f'"{delimiter}"')
         rule = f"was read with the delimiter {shown} and the encoding {encoding}"
         remarks.append(note_file(file, rule))
@@ -93,10 +101,18 @@ def _split(file: str, text: str, delimiter: str) -> _Records:
     try:
         # strict: a quote that is never closed must not swallow the rest of the file
         source = StringIO(text, newline="")
-        return list(csv.reader(source, delimiter=delimiter, strict=True))
+        reader = csv.reader(source, delimiter=delimiter, strict=True)
+        return [_cut_end(record) for record in islice(reader, MAX_ROWS + 1)]
     except csv.Error as error:
         accepted = "quotes in pairs, and another delimiter inside numbers"
         raise refuse_file(file, f"cannot be read as csv ({error})", accepted) from None
+
+
+def _cut_end(record: list[str]) -> list[str]:
+    """Record without its empty cells at the end."""
+    while record and not record[-1]:
+        record.pop()
+    return record
 
 
 def _find_delimiter(file: str, text: str, is_heading: Callable[[str], bool]) -> str:
@@ -121,7 +137,10 @@ def _count_headings(
         return 0
     # a single cell in its line may be a heading of any reading
     return sum(
-        is_heading(cell) for cells in records if len(cells) > 1 for cell in cells
+        is_heading(cell)
+        for cells in records
+        if len(cells) > 1
+        for cell in cells[:MAX_COLUMNS]
     )
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from netdesign.errors import SiteDataError
+from netdesign.given_files import make_printable
 
 Severity = Literal["error", "note"]
 
@@ -62,7 +63,8 @@ class Finding:
         place = " › ".join(part for part in (self.file, self.sheet, self.cell) if part)
         quantity = f" ({self.field})" if self.field else ""
         accepted = f"; accepted: {self.accepted}" if self.accepted else ""
-        return f"{place}: {self._subject()} {self.rule}{quantity}{accepted}"
+        sentence = f"{place}: {self._subject()} {self.rule}{quantity}{accepted}"
+        return make_printable(sentence.replace("\n", " "))
 
     def _subject(self) -> str:
         if self.text:
@@ -85,8 +87,9 @@ def note_file(file: str, rule: str, sheet: str = "") -> Finding:
 
 def quote(text: str) -> str:
     """Quote a cell's text on one line, shortened when it is long."""
-    line = " ".join(text.split())
-    if len(line) > _LONGEST_QUOTE:
+    start = text[: 10 * _LONGEST_QUOTE]  # words of a whole file would fill the memory
+    line = " ".join(make_printable(start).split())
+    if len(line) > _LONGEST_QUOTE or len(start) < len(text):
         line = line[: _LONGEST_QUOTE - 3] + "..."
     return f'"{line}"'
 

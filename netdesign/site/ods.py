@@ -84,6 +84,8 @@ def read_ods(
     ):
         for event, element in iterparse(source, events=("start", "end")):
             if event == "start" and element.tag == f"{_TABLE}table":
+                if sheet is not None:
+                    raise ValueError("a table inside a table")
                 name = element.get(f"{_TABLE}name", "")
                 style = element.get(f"{_TABLE}style-name", "")
                 sheet = _OpenSheet(file, name, style in hidden_styles, decimal_mark)
@@ -112,7 +114,7 @@ def _take_element(sheet: _OpenSheet, element: Any) -> None:
         _take_row(sheet, element)
         element.clear()
     elif element.tag == f"{_TABLE}table-column":
-        count = int(element.get(f"{_TABLE}number-columns-repeated", 1))
+        count = _read_count(element, "number-columns-repeated")
         first, sheet.columns = sheet.columns + 1, sheet.columns + count
         if _is_hidden(element):
             last = min(sheet.columns, MAX_COLUMNS)
@@ -120,7 +122,7 @@ def _take_element(sheet: _OpenSheet, element: Any) -> None:
 
 
 def _take_row(sheet: _OpenSheet, element: Any) -> None:
-    count = int(element.get(f"{_TABLE}number-rows-repeated", 1))
+    count = _read_count(element, "number-rows-repeated")
     filled = list(_filled_cells(element))
     for row in range(sheet.row + 1, sheet.row + count + 1) if filled else ():
         require_rows(sheet.file, sheet.name, row)
@@ -138,20 +140,29 @@ def _filled_cells(row: Any) -> Iterator[tuple[int, Any]]:
     for cell in row:
         if cell.tag not in (f"{_TABLE}table-cell", f"{_TABLE}covered-table-cell"):
             continue
-        count = int(cell.get(f"{_TABLE}number-columns-repeated", 1))
+        count = _read_count(cell, "number-columns-repeated")
         is_filled = len(cell) or any(
             cell.get(name) for name in (f"{_TABLE}formula", f"{_OFFICE}value-type")
         )
         if is_filled or _spans(cell) != (1, 1):
             # A filled cell repeated across the sheet is refused by its columns.
-            for number in range(column + 1, column + min(count, MAX_COLUMNS + 1) + 1):
+            for number in range(column + 1, column + count + 1):
                 yield number, cell
+                if number > MAX_COLUMNS:
+                    return
         column += count
 
 
+def _read_count(element: Any, name: str) -> int:
+    count = int(element.get(f"{_TABLE}{name}", 1))
+    if count < 1:
+        raise ValueError(f"{name} is {count}")
+    return count
+
+
 def _spans(cell: Any) -> tuple[int, int]:
-    rows = int(cell.get(f"{_TABLE}number-rows-spanned", 1))
-    return rows, int(cell.get(f"{_TABLE}number-columns-spanned", 1))
+    rows = _read_count(cell, "number-rows-spanned")
+    return rows, _read_count(cell, "number-columns-spanned")
 
 
 def _note_merge(sheet: _OpenSheet, cell: Any, row: int, column: int) -> None:

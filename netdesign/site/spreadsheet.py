@@ -8,10 +8,17 @@ from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 
+from netdesign.given_files import make_printable, read_bounded
 from netdesign.site.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.delimited import read_delimited
 from netdesign.site.diagnostics import Finding, note_file, quote, refuse_file
-from netdesign.site.limits import DAMAGE, MAX_FILE_BYTES, guard_archive
+from netdesign.site.limits import (
+    DAMAGE,
+    MAX_ENTRIES,
+    MAX_FILE_BYTES,
+    MAX_TEXT_BYTES,
+    guard_archive,
+)
 from netdesign.site.ods import read_ods
 from netdesign.site.xlsx import read_xlsx
 
@@ -59,16 +66,16 @@ def read_workbook(
         paths = sorted(path.glob("*.csv")) if path.is_dir() else [path]
         if not paths:
             raise refuse_file(path.name, "is a folder without csv files", "Nets.csv")
-        contents = {one.name: _read_file(one) for one in paths}
+        contents = _read_texts(path.name, paths)
         read = read_delimited(
             contents, is_wanted, is_heading, text_format, by_name=path.is_dir()
         )
         content = b"".join(contents.values())
     else:
-        content = _read_file(path)
+        content = _read_file(path, MAX_FILE_BYTES)
         read = _read_archive(path.name, content, is_wanted, text_format)
     return Workbook(
-        file=path.name,
+        file=make_printable(path.name),
         sha256=hashlib.sha256(content).hexdigest(),
         sheets=read[0],
         unread=read[1],
@@ -104,21 +111,35 @@ def _read_archive(
     return *read, (note,) if has_macros else ()
 
 
-def _read_file(path: Path) -> bytes:
+def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
+    """Contents of csv files by name; all together are not larger than one may be."""
+    if len(paths) > MAX_ENTRIES:
+        rule = f"is a folder of {len(paths)} csv files"
+        raise refuse_file(name, rule, f"at most {MAX_ENTRIES} files")
+    contents: dict[str, bytes] = {}
+    remaining = MAX_TEXT_BYTES
+    for path in paths:
+        contents[path.name] = _read_file(path, remaining)
+        remaining -= len(contents[path.name])
+    return contents
+
+
+def _read_file(path: Path, most: int) -> bytes:
     if not path.is_file():
         raise refuse_file(path.name, f"does not exist at {path}", _ACCEPTED_FILE)
     try:
-        if path.stat().st_size > MAX_FILE_BYTES:
-            raise refuse_file(
-                path.name,
-                "is too large for a site workbook",
-                f"at most {MAX_FILE_BYTES / 2**20:g} MiB; remove pictures and "
-                "sheets that are not needed",
-            )
-        return path.read_bytes()
+        return read_bounded(path, most)
     except OSError as error:
         rule = f"cannot be opened ({error.strerror})"
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
+    except ValueError:
+        raise refuse_file(
+            path.name,
+            "is too large for a site workbook",
+            f"at most {MAX_FILE_BYTES / 2**20:g} MiB, of csv files "
+            f"{MAX_TEXT_BYTES / 2**20:g} MiB together; remove pictures and sheets that "
+            "are not needed",
+        ) from None
 
 
 def _refuse_other_kinds(file: str, content: bytes) -> None:

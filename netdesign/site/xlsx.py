@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from string import ascii_uppercase
 from typing import TYPE_CHECKING, Any
 
 from netdesign.errors import NetDesignError
@@ -113,6 +114,9 @@ def _read_sheet(
     decimal_mark: DecimalMark,
 ) -> Sheet:
     require_rows(file, stored.title, layout.last_row)
+    if len(layout.merged) > MAX_ROWS:
+        rule = f"has {len(layout.merged)} merged ranges"
+        raise refuse_file(file, rule, f"at most {MAX_ROWS}", stored.title)
     # First the formulas alone; those with a stored result are then replaced.
     cells = {
         (row, column): Cell(
@@ -199,7 +203,7 @@ def _scan_layout(sheet: Any) -> _Layout:
                 first, last = int(element.get("min", 1)), int(element.get("max", 1))
                 hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
             elif tag == "row":
-                row = int(element.get("r", row + 1))
+                row = _follow_row(element, row)
                 if any(len(cell) for cell in element):
                     last_row = max(last_row, row)
                     if _is_true(element.get("hidden")):
@@ -212,6 +216,19 @@ def _scan_layout(sheet: Any) -> _Layout:
         hidden_columns=frozenset(hidden_columns),
         has_formulas=has_formulas,
     )
+
+
+def _follow_row(element: Any, row_before: int) -> int:
+    """Number of a row; an error where a cell would have two contents."""
+    row = int(element.get("r", row_before + 1))
+    if row <= row_before:
+        raise ValueError(f"row {row} comes after row {row_before}")
+    places = [place for cell in element if (place := cell.get("r"))]
+    if len(set(places)) < len(places):
+        raise ValueError(f"row {row} holds a cell twice")
+    if any(place.lstrip(ascii_uppercase) != str(row) for place in places):
+        raise ValueError(f"row {row} holds a cell of another row")
+    return row
 
 
 def _is_true(attribute: str | None) -> bool:

@@ -1,0 +1,74 @@
+"""Reads what somebody gives: bounded in size, and shown without control characters."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+# A scene, a profile's file and a set of defaults have a few kilobytes.
+MAX_TOML_BYTES = 256 * 2**10
+# The parser keeps every part of a dotted key: its memory grows with their square.
+_MOST_POINTS = 200
+
+_MOST_FAULTS = 50
+
+
+def read_bounded(path: Path, most: int) -> bytes:
+    """Content of a file of at most ``most`` bytes; devices without end are files too.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened or read.
+    ValueError
+        If it is larger.
+    """
+    with path.open("rb") as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise ValueError(f"is larger than {most / 2**10:,.0f} KiB")
+    return content
+
+
+def parse_toml(content: bytes) -> dict[str, Any]:
+    """Tables of a TOML file.
+
+    Raises
+    ------
+    ValueError
+        If it is no TOML in UTF-8, or nested beyond reason.
+    """
+    if max((line.count(b".") for line in content.splitlines()), default=0) > (
+        _MOST_POINTS
+    ):
+        raise ValueError(f"has a line with more than {_MOST_POINTS} points")
+    try:
+        return tomllib.loads(content.decode("utf-8-sig"))
+    except RecursionError:
+        raise ValueError("its values are nested too deep") from None
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Tables of a TOML file; errors as of `read_bounded` and `parse_toml`."""
+    return parse_toml(read_bounded(path, MAX_TOML_BYTES))
+
+
+def make_printable(text: str) -> str:
+    """Text that a terminal only shows: a blank for each sign that would steer it.
+
+    Lines stay. Escape sequences, marks that turn the direction of writing, and
+    halves of characters lose their sign and with it their effect.
+
+    >>> make_printable("a\\x1b[31mb")
+    'a [31mb'
+    """
+    return "".join(sign if sign.isprintable() or sign == "\n" else " " for sign in text)
+
+
+def list_faults(faults: list[str]) -> str:
+    """One fault a line; of very many the first ones and their number."""
+    if len(faults) <= _MOST_FAULTS:
+        return "\n".join(faults)
+    left = len(faults) - _MOST_FAULTS
+    return "\n".join((*faults[:_MOST_FAULTS], f"and {left} more faults"))

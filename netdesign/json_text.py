@@ -1,0 +1,103 @@
+"""JSON text that harms nobody: written without control signs, read with bounds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # slow to import and only needed to read a document
+    from pydantic_core import SchemaValidator
+
+# A study of 20,000 cases has some 10 MiB, 300,000 values and 45,000 objects.
+MAX_JSON_BYTES = 32 * 2**20
+MAX_VALUES = 800_000
+MAX_OBJECTS = 150_000
+_SMALL, _SMALL_TEXT = 20_000, 2 * 2**20  # values, signs
+_MOST_KEYS = 200  # of one object
+
+
+def write_json(document: object) -> str:
+    """JSON text; letters of every language stay as they are.
+
+    Signs that would steer a terminal or turn the direction of writing become codes.
+
+    >>> write_json("\\x9b2J")
+    '"\\\\u009b2J"'
+    """
+    text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
+    if text.isprintable():
+        return text
+    return "".join(
+        sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1]
+        for sign in text
+    )
+
+
+def read_json(shape: type, text: str) -> Any:
+    """Value of a dataclass from its JSON text.
+
+    Of a small document all faults are told; of a large one the first of each list,
+    since each fault costs a validator kilobytes.
+
+    Raises
+    ------
+    ValidationError
+        If the text is no JSON, or not of this shape.
+    ValueError
+        If it holds too much, is nested too deep, or has a key twice in one object.
+    """
+    from pydantic import TypeAdapter
+
+    values = text.count(",")
+    if values > MAX_VALUES or text.count("{") > MAX_OBJECTS:
+        most = f"{MAX_VALUES} values or {MAX_OBJECTS} objects"
+        raise ValueError(f"holds more than {most}")
+    keys = _inspect(text)
+    if values <= _SMALL and len(text) <= _SMALL_TEXT:
+        return TypeAdapter(shape).validate_json(text)
+    strange = keys.symmetric_difference(field.name for field in fields(shape))
+    if strange:
+        raise ValueError(f"unknown or missing: {', '.join(sorted(strange))[:500]}")
+    return _build_quick_validator(shape).validate_json(text)
+
+
+def _inspect(text: str) -> set[str]:
+    """Keys of the outermost object; an error where a text has two readings."""
+    last: set[str] = set()
+
+    def note_keys(pairs: list[tuple[str, object]]) -> None:
+        nonlocal last
+        if len(pairs) > _MOST_KEYS:
+            raise ValueError(f"an object has more than {_MOST_KEYS} keys")
+        last = {key for key, _ in pairs}
+        if len(last) < len(pairs):
+            raise ValueError(f"an object has a key twice, among {sorted(last)!r:.100}")
+
+    try:
+        json.loads(text, object_pairs_hook=note_keys)
+    except RecursionError:
+        raise ValueError("its values are nested too deep") from None
+    except json.JSONDecodeError:
+        return set()  # the validator says where
+    return last
+
+
+def _build_quick_validator(shape: type) -> SchemaValidator:
+    from pydantic import TypeAdapter
+    from pydantic_core import SchemaValidator
+
+    schema = TypeAdapter(shape).core_schema
+    _stop_at_first_faults(schema)
+    return SchemaValidator(schema)
+
+
+def _stop_at_first_faults(schema: Any) -> None:
+    if isinstance(schema, dict):
+        if schema.get("type") == "list":
+            schema["fail_fast"] = True
+        for part in schema.values():
+            _stop_at_first_faults(part)
+    elif isinstance(schema, list | tuple):
+        for part in schema:
+            _stop_at_first_faults(part)

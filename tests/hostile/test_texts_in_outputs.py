@@ -1,0 +1,196 @@
+"""No text of an input is ever more than text in an output.
+
+Every text of a study is replaced by one that attacks: formulas, HTML, SVG, escape
+sequences, marks that turn the direction of writing, mathematics, and sheer length.
+"""
+
+import dataclasses
+import io
+import json
+import re
+import sys
+import zipfile
+from enum import Enum
+from html.parser import HTMLParser
+from pathlib import Path
+
+import openpyxl
+import pytest
+from rich.console import Console
+
+from netdesign.report.case_table import render_cases
+from netdesign.report.difference import compare_studies
+from netdesign.report.excel import render_workbook
+from netdesign.report.html import render_html
+from netdesign.report.terminal import print_changes, print_summary
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.reader import read_site
+from netdesign.study import read_document, write_document
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "report"))
+from build_study import build_study
+
+ATTACKS = (
+    "=cmd|'/c calc'!A0",
+    "+1+1",
+    "-2+3",
+    "@SUM(1)",
+    "\t=1+1",
+    '<script>alert("x")</script>',
+    "<img src=x onerror=alert(1)>",
+    "<svg onload=alert(1)><foreignObject/></svg>",
+    "]]></style><script>1</script><!--",
+    "{{ 7 * 7 }}{% raw %}",
+    "\x1b[31mred\x1b]0;title\x07\x1b[2J",
+    "\x9b31mred",
+    "abc\u202egnp.exe\u2066",
+    r"$\frac{1}{$ \unknown_{",
+    "&[Picture]&G&L",
+    "é" * 32_767,
+)
+# Set by the program, compared with words of its own, or of a form that is checked.
+KEPT = {"schema", "member", "mode", "quantity", "anchor", "started", "status", "id"}
+OWN_TAGS = {
+    *("html", "head", "meta", "title", "style", "body", "main", "header", "footer"),
+    *(
+        "section",
+        "article",
+        "h1",
+        "h2",
+        "h3",
+        "h4",
+        "p",
+        "div",
+        "span",
+        "a",
+        "strong",
+        "em",
+    ),
+    *("table", "caption", "colgroup", "col", "thead", "tbody", "tr", "th", "td"),
+    *("ul", "ol", "li", "dl", "dt", "dd", "sub", "br", "figure", "figcaption"),
+    *(
+        "svg",
+        "g",
+        "path",
+        "use",
+        "defs",
+        "clippath",
+        "rect",
+        "line",
+        "text",
+        "tspan",
+        "image",
+    ),
+}
+
+
+def attack(value, text, key=""):
+    """The same value with ``text`` behind all that somebody may have typed."""
+    if isinstance(value, Enum):
+        return value
+    if dataclasses.is_dataclass(value):
+        return type(value)(
+            **{
+                field.name: attack(getattr(value, field.name), text, field.name)
+                for field in dataclasses.fields(value)
+            }
+        )
+    if isinstance(value, list | tuple):
+        return type(value)(attack(one, text, key) for one in value)
+    if isinstance(value, str) and key not in KEPT:
+        return text
+    return value
+
+
+def spoilt_study(text):
+    study = attack(build_study(), text)
+    rows = [
+        dataclasses.replace(row, id=f"{text}{k}") for k, row in enumerate(study.rows)
+    ]
+    return dataclasses.replace(study, rows=rows)
+
+
+@pytest.fixture(params=ATTACKS, ids=range(len(ATTACKS)))
+def text(request):
+    return request.param
+
+
+class TagReader(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.tags, self.attributes = set(), set()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+        self.attributes |= {name for name, _ in attrs}
+
+
+def test_a_page_holds_tags_of_the_program_alone(text):
+    reader = TagReader()
+    page = render_html(spoilt_study(text))
+    reader.feed(page)
+    assert reader.tags <= OWN_TAGS
+    assert not any(name.startswith("on") for name in reader.attributes)
+    assert all(sign.isprintable() or sign in "\n\t" for sign in page)
+
+
+def test_a_workbook_holds_formulas_of_the_program_alone(text):
+    """The same formulas whatever the texts are, and no link at all."""
+
+    def formulas(study):
+        with zipfile.ZipFile(io.BytesIO(render_workbook(study))) as archive:
+            parts = {n: archive.read(n).decode() for n in archive.namelist()}
+        assert not any("externalLink" in name for name in parts)
+        assert not any("hyperlink" in parts[n] for n in parts if "/_rels/" in n)
+        sheets = {n: parts[n] for n in parts if n.startswith("xl/worksheets/sheet")}
+        return {n: re.findall(r"<f>(.*?)</f>", xml) for n, xml in sheets.items()}
+
+    assert formulas(spoilt_study(text)) == formulas(spoilt_study("plain"))
+
+
+@pytest.mark.filterwarnings("ignore:.* extension is not supported")  # of openpyxl
+def test_a_workbook_of_hostile_texts_opens(text):
+    content = render_workbook(spoilt_study(text))
+    assert "Summary" in openpyxl.load_workbook(io.BytesIO(content)).sheetnames
+
+
+def test_a_terminal_is_not_steered(text):
+    shown = io.StringIO()
+    console = Console(file=shown, width=200, color_system=None, force_terminal=True)
+    print_summary(spoilt_study(text), console)
+    print_changes(spoilt_study(text), console)
+    assert all(sign.isprintable() or sign == "\n" for sign in shown.getvalue())
+
+
+def test_changes_between_studies_are_shown_without_control_signs(text):
+    changes = compare_studies(build_study(), spoilt_study(text))
+    assert changes
+    assert all(str(change).isprintable() for change in changes)
+
+
+def test_json_keeps_every_text_and_shows_no_control_sign(text):
+    study = spoilt_study(text)
+    document = write_document(study)
+    assert all(sign.isprintable() or sign == "\n" for sign in document)
+    assert json.loads(document)["project"]["name"] == text
+    assert read_document(document) == study
+
+
+def test_lines_of_cases_begin_with_no_formula(text):
+    for line in render_cases(spoilt_study(text)).decode().splitlines()[1:]:
+        assert not line.lstrip('"').startswith(("=", "+", "-", "@", "\t"))
+
+
+def test_findings_and_annotated_copy_hold_text_alone(tmp_path, text):
+    """A cell, a heading and an id of a csv file with the text in them."""
+    path = tmp_path / "site.csv"
+    quoted = '"' + text[:9000].replace('"', '""') + '"'
+    path.write_text(f"id;slope angle [deg];{quoted}\n{quoted};{quoted};1\n", "utf-8")
+    with pytest.raises(Exception, match=r"site\.csv") as caught:
+        read_site(path)
+    assert all(sign.isprintable() or sign == "\n" for sign in str(caught.value))
+    content = annotate_workbook(path, caught.value.findings)
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        sheets = [archive.read(n) for n in archive.namelist() if "worksheets/s" in n]
+    assert sheets
+    assert not any(b"<f>" in xml for xml in sheets)
