@@ -5,6 +5,7 @@ Imports of anything heavy stand inside the commands that need it: help is instan
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import sys
@@ -328,8 +329,8 @@ def main() -> NoReturn:
         click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        error.message = make_printable(error.message)
-        error.show()
+        error.show(shown := io.StringIO())
+        click.echo(make_printable(shown.getvalue()), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
         click.echo(f"{error}\n{_count_findings(error)}", err=True)
