@@ -1,0 +1,666 @@
+"""What is fuzzed: inputs made from sound ones and from noise, and how each may end.
+
+Each target draws an input and hands it to the program. A sound end is a result whose
+numbers are finite, or an error of the program's own with the exit code of a refused
+input and a message that a terminal only shows. Anything else is a find: an exception
+of another kind, a warning, a hang, a wrong exit code.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import io
+import json
+import math
+import shutil
+import signal
+import sqlite3
+import sys
+import tempfile
+import tomllib
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+import xlsxwriter
+from hypothesis import strategies as st
+
+from netdesign import cli
+from netdesign.checks import load_standard
+from netdesign.envelope.state import CaseEnd
+from netdesign.envelope.store import CaseStore, StoreError
+from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.outcome import Outcome
+from netdesign.resources import find_resource
+from netdesign.scene_file import read_scene
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.columns import SHEETS
+from netdesign.site.reader import read_site
+from netdesign.site.template import write_site_workbook
+from netdesign.study import read_document, write_document
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "report"))
+from build_study import build_study
+
+SECONDS = 20  # for one input; a hang ends as a find
+_REFUSED = 3
+
+SOUND_SCENE = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+creep_law = "boutillier-2004"
+creep_exponent = 3
+fluidity_per_MPa3_a = 20
+[ground]
+law = "sliding"
+slip_length_m = 1.5
+contact = "two-sided"
+[net]
+kind = "cable"
+inclination_deg = 25
+height_m = 3.0
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+[gravity]
+mode = "parallel"
+[solve]
+method = "steady"
+accuracy = 0.1
+start = "straight"
+horizon_days = 10
+"""
+
+# --- what ends soundly ---------------------------------------------------------------
+
+
+class HungError(Exception):
+    """An input took longer than any may."""
+
+
+@contextlib.contextmanager
+def time_limit() -> Iterator[None]:
+    def stop(*_: object) -> None:
+        raise HungError
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def is_shown_only(text: str) -> bool:
+    return all(sign.isprintable() or sign == "\n" for sign in text)
+
+
+def attempt(read: Callable[[], Any]) -> Any:
+    """What ``read`` gives, or the error by which it refuses its input."""
+    try:
+        found = read()
+    except NetDesignError as refusal:
+        found = refusal
+    if not isinstance(found, NetDesignError):
+        assert_finite(found)
+        return found
+    message = str(found)
+    assert found.exit_code == _REFUSED, message
+    assert message.strip()
+    assert len(message) < 200_000
+    # the command line prints findings as they are, all else without such signs
+    assert is_shown_only(message) or not isinstance(found, SiteDataError)
+    return found
+
+
+# Where infinity means "none is given", or "and more".
+_MAY_BE_INFINITE = {"gap", "rows"}
+
+
+def assert_finite(value: Any, name: str = "") -> None:
+    if is_dataclass(value) and not isinstance(value, type):
+        for field in fields(value):
+            assert_finite(getattr(value, field.name), field.name)
+    elif isinstance(value, list | tuple):
+        for one in value:
+            assert_finite(one, name)
+    elif isinstance(value, float):
+        assert not math.isnan(value), name
+        assert math.isfinite(value) or name in _MAY_BE_INFINITE, name
+
+
+def run_main(folder: Path, arguments: list[str]) -> tuple[int, str, str]:
+    """Exit code, output and errors of the program, called as from a shell."""
+    out, err = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        patch.object(sys, "argv", ["netdesign", *arguments]),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+    ):
+        try:
+            cli.main()
+        except SystemExit as end:
+            code = end.code
+    return int(code or 0), out.getvalue(), err.getvalue()
+
+
+# --- what is drawn -------------------------------------------------------------------
+
+SIGNS = st.text(max_size=12)
+NUMBERS = st.one_of(
+    st.floats(),
+    st.integers(),
+    st.integers(min_value=-(10**400), max_value=10**400),
+    st.sampled_from([0, -0.0, 1e308, 5e-324, 2**63, 10**4000 // 7]),
+)
+WRITTEN = st.one_of(
+    st.floats().map(repr),
+    st.floats(-1e6, 1e6).map(lambda x: f"{x:.3f}".replace(".", ",")),
+    st.sampled_from(
+        [
+            *("1.234,5", "1'000", "1 000,5", "1,234", "1e999", "-1e-999", "nan", "inf"),
+            *("١٢", "½", "²", "0x10", "1_000", "--1", "+1", "1e", ".", ",", "-", "−3"),
+            *("40°", "40 %", "4 m", "4m", "100 kN", "270 kg/m³", "400-500", "10..20"),
+            *("=1+1", "#REF!", "TRUE", "wahr", "ja", "x", " ", "\u00a0", "\t", "\n"),
+            *("free", "sliding", "no-slip", "glissant", "R1", "A1", "tested", "essai"),
+            *("\x00", "\x1b[2J", "\u202e", "\ud800", "\ufeff", "\u2028", "9" * 400),
+        ]
+    ),
+)
+TYPED = st.one_of(WRITTEN, SIGNS)
+KNOWN_WORDS = st.sampled_from(
+    sorted({name for plan in SHEETS for field in plan.fields for name in field.names})
+)
+UNITS = st.sampled_from(
+    [
+        *("", "[m]", "[kN]", "[kN/m]", "[deg]", "[°]", "[%]", "(cm)", "in mm", "[-]"),
+        *("[kg/m3]", "[g/cm3]", "[]", "[", "[m][kN]", "[N/mm²]", "[furlong]", "[MN]"),
+    ]
+)
+HEADINGS = st.one_of(
+    st.tuples(KNOWN_WORDS, UNITS).map(" ".join),
+    st.tuples(KNOWN_WORDS, UNITS).map("\n".join),
+    KNOWN_WORDS.map(str.upper),
+    st.tuples(SIGNS, UNITS).map(" ".join),
+)
+JSON_VALUES = st.recursive(
+    st.one_of(st.none(), st.booleans(), NUMBERS, TYPED),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3), st.dictionaries(SIGNS, inner, max_size=3)
+    ),
+    max_leaves=5,
+)
+
+
+@st.composite
+def spoilt_bytes(draw: st.DrawFn, sound: Callable[[], bytes]) -> bytes:
+    """Sound content with signs changed, cut off, put in or doubled; or noise."""
+    if draw(st.integers(0, 9)) == 0:
+        return draw(st.binary(max_size=2000))
+    content = bytearray(sound())
+    for _ in range(draw(st.integers(1, 6))):
+        place = draw(st.integers(0, max(len(content) - 1, 0)))
+        match draw(st.integers(0, 4)):
+            case 0:
+                content[place : place + 1] = draw(st.binary(min_size=1, max_size=1))
+            case 1:
+                content[place:place] = draw(st.binary(max_size=8))
+            case 2:
+                del content[place : place + draw(st.integers(1, 400))]
+            case 3:
+                content[place:place] = content[place : place + 200]
+            case 4:
+                written = draw(WRITTEN).encode("utf-8", "surrogatepass")
+                content[place : place + len(written)] = written
+    return bytes(content)
+
+
+@st.composite
+def spoilt_tree(draw: st.DrawFn, sound: Callable[[], Any]) -> Any:
+    """Sound tables or documents with values changed, keys taken away or put in."""
+    tree = copy.deepcopy(sound())
+    for _ in range(draw(st.integers(1, 3))):
+        node = tree
+        while True:
+            keys = list(node) if isinstance(node, dict) else list(range(len(node)))
+            if not keys:
+                break
+            key = draw(st.sampled_from(keys))
+            below = node[key]
+            if isinstance(below, dict | list) and draw(st.integers(0, 7)):
+                node = below
+                continue
+            change = draw(st.integers(0, 9))
+            if change == 0:
+                del node[key]
+            elif change == 1 and isinstance(node, dict):
+                node[draw(SIGNS)] = draw(JSON_VALUES)
+            elif change == 2 and isinstance(node, list):
+                node.append(copy.deepcopy(below))
+            elif isinstance(below, int | float) and change < 8:
+                node[key] = draw(NUMBERS)
+            else:
+                node[key] = draw(JSON_VALUES)
+            break
+    return tree
+
+
+# --- the targets ---------------------------------------------------------------------
+
+
+@cache
+def scratch() -> Path:
+    """Folder for the inputs; each overwrites the one before it."""
+    holder = tempfile.TemporaryDirectory(prefix="netdesign-fuzz-")
+    scratch_holders.append(holder)
+    return Path(holder.name)
+
+
+scratch_holders: list[tempfile.TemporaryDirectory[str]] = []  # alive to the end
+
+
+@cache
+def example_tables() -> dict[str, list[list[str]]]:
+    """Cells of a small sound site, as a csv file would have them."""
+    return {
+        "Nets": [
+            [
+                *("id", "slope angle [deg]", "snow thickness [m]"),
+                *("upslope length [m]", "ground law", "net height [m]"),
+                *("net stiffness [kN/m]", "post spacing [m]", "foot anchor"),
+                *("uphill guy", "post"),
+            ],
+            ["R1", "40", "3.0", "20", "free", "3.5", "9000", "3.5", "A1", "G1", "P1"],
+            ["R2", "35", "2.5", "15", "no-slip", "3", "8000", "4", "A2", "", ""],
+        ],
+        "Ranges": [
+            ["quantity", "unit", "low", "high", "samples"],
+            ["density", "kg/m3", "270", "400", "3"],
+            ["friction angle", "deg", "15", "45", "4"],
+        ],
+        "Anchors": [
+            ["id", "tendon resistance [kN]", "pull-out resistance [kN]", "basis"],
+            ["A1", "400", "300", "tested"],
+            ["A2", "250", "", ""],
+        ],
+        "Ropes": [["id", "minimum breaking force [kN]"], ["G1", "250"]],
+        "Posts": [["id", "compression resistance [kN]"], ["P1", "380"]],
+        "Project": [["item", "value"], ["name", "Combe"]],
+    }
+
+
+@st.composite
+def spoilt_cells(draw: st.DrawFn) -> dict[str, list[list[str]]]:
+    tables = copy.deepcopy(example_tables())
+    for _ in range(draw(st.integers(1, 4))):
+        rows = tables[draw(st.sampled_from(sorted(tables)))]
+        row = rows[draw(st.integers(min(1, len(rows) - 1), len(rows) - 1))]
+        row[draw(st.integers(0, len(row) - 1))] = draw(TYPED)
+    return tables
+
+
+@st.composite
+def spoilt_headings(draw: st.DrawFn) -> dict[str, list[list[str]]]:
+    tables = copy.deepcopy(example_tables())
+    for _ in range(draw(st.integers(1, 4))):
+        rows = tables[draw(st.sampled_from(sorted(tables)))]
+        place = draw(st.integers(0, len(rows[0])))
+        if place == len(rows[0]) or draw(st.integers(0, 5)) == 0:
+            for row in rows:
+                row.insert(place, draw(TYPED))
+        rows[0][place] = draw(HEADINGS)
+    return tables
+
+
+def write_delimited(tables: dict[str, list[list[str]]]) -> bytes:
+    def quote(cell: str) -> str:
+        if not set(cell) & set(';"\r\n'):
+            return cell
+        return '"' + cell.replace('"', '""') + '"'
+
+    lines = []
+    for name, rows in tables.items():
+        lines += [f"[{name}]", *(";".join(map(quote, row)) for row in rows)]
+    return "\n".join(lines).encode("utf-8", "surrogatepass")
+
+
+def write_workbook(tables: dict[str, list[list[str]]]) -> bytes:
+    """The same as a workbook; what looks like a number is one."""
+    buffer = io.BytesIO()
+    options = {"in_memory": True, "strings_to_numbers": True, "nan_inf_to_errors": True}
+    with xlsxwriter.Workbook(buffer, options) as workbook:
+        for name, rows in tables.items():
+            sheet = workbook.add_worksheet(name)
+            for place, row in enumerate(rows):
+                for column, cell in enumerate(row):
+                    sheet.write(place, column, cell.replace("\ud800", "?"))
+    return buffer.getvalue()
+
+
+def read_content(name: str, content: bytes, *, mark: bool = False) -> None:
+    path = scratch() / name
+    path.write_bytes(content)
+    found = attempt(lambda: read_site(path))
+    if mark and isinstance(found, SiteDataError):
+        copied = attempt(lambda: annotate_workbook(path, found.findings))
+        if isinstance(copied, bytes):
+            assert zipfile.is_zipfile(io.BytesIO(copied))
+
+
+@cache
+def sound_workbook() -> bytes:
+    path = scratch() / "sound.xlsx"
+    write_site_workbook(path, example=True)
+    return path.read_bytes()
+
+
+@cache
+def sound_parts() -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(sound_workbook())) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+@st.composite
+def spoilt_parts(draw: st.DrawFn) -> bytes:
+    """A workbook in which the XML of one part is spoilt, not its packing."""
+    parts = dict(sound_parts())
+    name = draw(st.sampled_from(sorted(parts)))
+    parts[name] = draw(spoilt_bytes(lambda: parts[name]))
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for part, content in parts.items():
+            archive.writestr(part, content)
+    return buffer.getvalue()
+
+
+def write_toml(tables: dict[str, Any]) -> str:
+    """TOML of tables, each value inline."""
+    return "".join(f"{json.dumps(key)} = {_inline(v)}\n" for key, v in tables.items())
+
+
+def _inline(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return repr(value)
+    if isinstance(value, int):
+        digits = f"{value:x}" if value >= 0 else ""
+        return f"0x{digits}" if len(digits) > 16 else str(max(value, -(2**64)))
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_inline, value)) + "]"
+    if isinstance(value, dict):
+        inside = (f"{json.dumps(key)} = {_inline(v)}" for key, v in value.items())
+        return "{" + ", ".join(inside) + "}"
+    return json.dumps("" if value is None else value)
+
+
+def try_scene(content: bytes) -> None:
+    path = scratch() / "scene.toml"
+    path.write_bytes(content)
+    attempt(lambda: read_scene(path))
+
+
+def try_scene_tables(tables: dict[str, Any]) -> None:
+    try_scene(write_toml(tables).encode("utf-8", "surrogatepass"))
+
+
+PROFILE_FILES = sorted(
+    path.relative_to(find_resource("standards"))
+    for path in find_resource("standards").glob("*/*.toml")
+)
+
+
+@st.composite
+def spoilt_profile(draw: st.DrawFn) -> tuple[Path, bytes]:
+    name = draw(st.sampled_from(PROFILE_FILES))
+    sound = (find_resource("standards") / name).read_bytes()
+    if draw(st.booleans()):
+        return name, draw(spoilt_bytes(lambda: sound))
+    tables = draw(spoilt_tree(lambda: tomllib.loads(sound.decode())))
+    return name, write_toml(tables).encode("utf-8", "surrogatepass")
+
+
+def try_profile(drawn: tuple[Path, bytes]) -> None:
+    name, content = drawn
+    folder = scratch() / "profiles" / name.parent
+    if not folder.exists():
+        shutil.copytree(find_resource("standards") / name.parent, folder)
+    (folder / name.name).write_bytes(content)
+    try:
+        found = attempt(lambda: load_standard(folder))
+    finally:
+        shutil.copy(find_resource("standards") / name, folder)
+    if not isinstance(found, NetDesignError):
+        assert all(
+            one.value > 0.0 for one in found.values if not one.id.startswith("snow.c")
+        )
+
+
+@cache
+def sound_study() -> Any:
+    return json.loads(write_document(build_study()))
+
+
+def try_study(document: Any) -> None:
+    try_study_text(json.dumps(document))
+
+
+def try_study_text(text: str) -> None:
+    found = attempt(lambda: read_document(text))
+    if not isinstance(found, NetDesignError):
+        assert read_document(write_document(found)) == found
+
+
+def try_study_bytes(content: bytes) -> None:
+    path = scratch() / "study.json"
+    path.write_bytes(content)
+    code, _, err = run_main(scratch(), ["diff", "study.json", "study.json"])
+    assert code in (0, _REFUSED), err
+    assert is_shown_only(err)
+
+
+def try_report(document: Any) -> None:
+    """A spoilt study that is read is reported, or refused as contradicting itself."""
+    path = scratch() / "study.json"
+    path.write_text(json.dumps(document))
+    out = scratch() / "out"
+    shutil.rmtree(out, ignore_errors=True)
+    code, _, err = run_main(
+        scratch(), ["report", "study.json", "--out", "out", "--csv", "--force"]
+    )
+    assert code in (0, 1, _REFUSED, 4, 5), err
+    assert "internal error" not in err, err
+    assert is_shown_only(err)
+    if code in (_REFUSED, 5):
+        assert not out.exists()
+        return
+    verdicts = [row["verdict"] for row in document["rows"]]
+    assert code or (verdicts and set(verdicts) == {"pass"})
+
+
+FLAGS = sorted(
+    {
+        flag
+        for command in cli.cli.commands.values()
+        for param in getattr(command, "commands", {"": command}).values()
+        for option in param.params
+        for flag in (*option.opts, *option.secondary_opts)
+        if flag.startswith("-")
+    }
+)
+COMMANDS = sorted(cli.cli.commands)
+WORDS = st.one_of(
+    st.sampled_from(FLAGS),
+    TYPED,
+    st.sampled_from(
+        [
+            *("-", "--", "-x", "--jobs=0", "--jobs=-1", "--accuracy=nan", "site.csv"),
+            *("scene.toml", "study.json", ".", "/", "missing.xlsx", "250:450", "1:2:3"),
+            *("450:250", "nan:1", "1:1", "1:2:3:4", "en", "fr", "de", "steady", "\0"),
+            *("transient", "mesh", "none", "dask://", "dask://x", "a/b.xlsx", "--="),
+        ]
+    ),
+)
+
+
+def try_options(words: list[str]) -> None:
+    """Every command with every option, on inputs that are refused or missing."""
+    folder = scratch() / "options"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "site.csv").write_text("id;slope\n1;2\n")
+    (folder / "scene.toml").write_text("[slope]\nangle_deg = 900\n")
+    (folder / "study.json").write_text("{}")
+    words = [word for word in words if not {"\ud800"} & set(word)]
+    try:
+        code, _, err = run_main(folder, words)
+    finally:
+        made = {path.name for path in folder.iterdir()}
+    assert code in (0, 2, _REFUSED), (code, err)
+    assert "internal error" not in err, err
+    assert is_shown_only(err), err
+    assert not [name for name in made if name.endswith((".html", ".json.tmp"))]
+
+
+QUICK = ("check", "solve", "envelope", "report", "diff", "standards", "completion")
+# Those that calculate or write on their own: only their options are read.
+SLOW = ("bench", "doctor", "glide", "paper", "verify", "init")
+
+
+@st.composite
+def command_line(draw: st.DrawFn) -> list[str]:
+    words = draw(st.lists(WORDS, max_size=6))
+    if "--example" in words:
+        words.remove("--example")
+    command = draw(st.sampled_from((*QUICK, *SLOW, "")))
+    if command in SLOW:
+        return [command, *words, "--no-such-option"]
+    return [command, *words] if command else words
+
+
+@st.composite
+def config_file(draw: st.DrawFn) -> bytes:
+    names = st.one_of(st.sampled_from([flag.lstrip("-") for flag in FLAGS]), SIGNS)
+    table = draw(st.dictionaries(names, JSON_VALUES, max_size=4))
+    command = draw(st.one_of(st.sampled_from(COMMANDS), SIGNS))
+    return write_toml({command: table}).encode("utf-8", "surrogatepass")
+
+
+def try_config(content: bytes) -> None:
+    folder = scratch() / "config"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "site.csv").write_text("id;slope\n1;2\n")
+    (folder / "netdesign.toml").write_bytes(content)
+    code, _, err = run_main(folder, ["check", "site.csv"])
+    assert code in (2, _REFUSED), (code, err)
+    assert "internal error" not in err, err
+    assert is_shown_only(err), err
+
+
+END = CaseEnd(outcome=Outcome.DIVERGED, reason="residual grew")
+
+
+@cache
+def sound_store() -> bytes:
+    path = scratch() / "sound.sqlite"
+    with CaseStore(path, lambda _: None) as store:
+        for number in range(3):
+            store.keep(str(number), END)
+        store._base.execute("PRAGMA journal_mode = DELETE")
+    return path.read_bytes()
+
+
+def try_store(content: bytes) -> None:
+    """A spoilt store gives the cases as they were kept, or none, or is set aside."""
+    folder = scratch() / "store"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "cases.sqlite").write_bytes(content)
+    with (
+        contextlib.suppress(StoreError, sqlite3.Error),
+        CaseStore(folder / "cases.sqlite", lambda _: None) as store,
+    ):
+        for end in store.find(["0", "1", "2"]).values():
+            assert (end.outcome, end.reason) == (END.outcome, END.reason)
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is drawn, what is done with it, and its share of all examples."""
+
+    name: str
+    drawn: st.SearchStrategy[Any]
+    try_one: Callable[[Any], None]
+    share: float
+
+
+def _sound_scene() -> Any:
+    return tomllib.loads(SOUND_SCENE)
+
+
+TARGETS = (
+    Target(
+        "bytes-xlsx",
+        spoilt_bytes(sound_workbook),
+        lambda content: read_content("site.xlsx", content),
+        0.06,
+    ),
+    Target(
+        "bytes-parts",
+        spoilt_parts(),
+        lambda content: read_content("site.xlsx", content),
+        0.05,
+    ),
+    Target(
+        "bytes-csv",
+        spoilt_bytes(lambda: write_delimited(example_tables())),
+        lambda content: read_content("site.csv", content),
+        0.10,
+    ),
+    Target(
+        "cells",
+        spoilt_cells(),
+        lambda tables: read_content("site.csv", write_delimited(tables)),
+        0.15,
+    ),
+    Target(
+        "cells-xlsx",
+        spoilt_cells(),
+        lambda tables: read_content("site.xlsx", write_workbook(tables), mark=True),
+        0.03,
+    ),
+    Target(
+        "headings",
+        spoilt_headings(),
+        lambda tables: read_content("site.csv", write_delimited(tables)),
+        0.15,
+    ),
+    Target("scene-tables", spoilt_tree(_sound_scene), try_scene_tables, 0.11),
+    Target("scene-bytes", spoilt_bytes(SOUND_SCENE.encode), try_scene, 0.10),
+    Target("profile", spoilt_profile(), try_profile, 0.06),
+    Target("study", spoilt_tree(sound_study), try_study, 0.05),
+    Target(
+        "study-bytes",
+        spoilt_bytes(lambda: json.dumps(sound_study()).encode()),
+        try_study_bytes,
+        0.03,
+    ),
+    Target("report", spoilt_tree(sound_study), try_report, 0.005),
+    Target("options", command_line(), try_options, 0.06),
+    Target("config", config_file(), try_config, 0.035),
+    Target("store", spoilt_bytes(sound_store), try_store, 0.01),
+)
+assert np.isclose(sum(target.share for target in TARGETS), 1.0)
