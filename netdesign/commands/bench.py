@@ -53,7 +53,7 @@ _EXIT_FAIL = 1
     help="Processes for random scenes; more than cores make times useless.",
 )
 @click.option("--scenes", metavar="A,B", help="Only these named scenes.")
-@click.option("--quick", is_flag=True, help="No histories, fewer meshes, one timing.")
+@click.option("--quick", is_flag=True, help="No histories, fewer meshes and timings.")
 @click.option(
     "--plot",
     type=click.Path(path_type=Path, dir_okay=False),
