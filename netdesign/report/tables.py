@@ -170,7 +170,7 @@ def build_profile(study: Study, status: str = "") -> Table:
                 given_cell(value.value),
                 text_cell(value.unit),
                 word_cell(value.status),
-                text_cell(value.source),
+                word_cell(value.source),
             )
             for value in study.profile.values
             if status in ("", value.status)
@@ -247,7 +247,6 @@ def build_provenance(study: Study) -> Table:
     pairs = {
         "Command": made.command,
         "Command for this document again": "netdesign report study.json",
-        "Exit code": f"{verdict.exit_code} ({verdict.word})",
         "Results, SHA-256": hash_results(study),
         "Program": f"netdesign {made.version}",
         "Started": made.started,
@@ -260,11 +259,15 @@ def build_provenance(study: Study) -> Table:
         "Schema": study.schema,
     }
     pairs |= {f"Setting: {name}": text for name, text in made.settings.items()}
-    pairs |= {f"Library: {name}": text for name, text in made.libraries.items()}
+    pairs["Libraries"] = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
+    code = word_cell(f"{verdict.exit_code} ({verdict.word})")
     return Table(
         caption="Origin of every number of this report",
         columns=(text_column("Item"), text_column("Value")),
-        rows=tuple((word_cell(name), text_cell(text)) for name, text in pairs.items()),
+        rows=(
+            *((word_cell(name), text_cell(text)) for name, text in pairs.items()),
+            (word_cell("Exit code"), code),
+        ),
     )
 
 

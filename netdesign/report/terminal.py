@@ -62,7 +62,7 @@ def print_summary(
         console.print(words(_LEGEND), style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
-    overall = Text(f"{words('Verdict')}: ").append_text(_word(view.verdict))
+    overall = Text(f"{words('Verdict')}{words(': ')}").append_text(_word(view.verdict))
     console.print(overall.append(f" - {view.verdict.meaning}"), soft_wrap=True)
 
 
@@ -112,10 +112,11 @@ def _list_cells(row: RowView, none: str) -> list[Text]:
 def _list_lines(view: ReportView, words: Callable[[str], str]) -> list[str]:
     lines = [f"{row.id}: {reason}" for row in view.rows for reason in row.reasons]
     lines = lines or [words("Reasons: none")]
-    lines += [f"{label}: {text}" for label, text in view.counts]
+    lines += [f"{label}{words(': ')}{text}" for label, text in view.counts]
     title = words("Assumed: confirm in your copy of the standard")
-    notes = [f"{words('Note')}: {note}" for note in view.notes]
-    return [*lines, f"{title}: {view.assumed_line or words('none')}", *notes]
+    colon = words(": ")
+    notes = [f"{words('Note')}{colon}{note}" for note in view.notes]
+    return [*lines, f"{title}{colon}{view.assumed_line or words('none')}", *notes]
 
 
 def _word(verdict: VerdictWords) -> Text:
