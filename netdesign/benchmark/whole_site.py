@@ -14,7 +14,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import Workers, build_workers
+from netdesign.envelope.workers import build_workers
 from netdesign.rowcheck.probe import Probe
 from netdesign.site.model import NetRow, Site
 from netdesign.site.reader import read_site
