@@ -63,6 +63,8 @@ def make_printable(text: str) -> str:
     >>> make_printable("a\\x1b[31mb")
     'a [31mb'
     """
+    if text.replace("\n", "").isprintable():
+        return text
     return "".join(sign if sign.isprintable() or sign == "\n" else " " for sign in text)
 
 
