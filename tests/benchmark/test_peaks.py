@@ -12,18 +12,17 @@ def test_a_peak_is_as_wide_at_half_its_height_as_asked():
     sharp, blunt = build_peak(3, 0.1), build_peak(3, 1e6)
     rng = np.random.default_rng(3)
     top, height = rng.uniform(0.0, 1.0, 3), rng.uniform(1.0, 10.0)
-    at = np.array([top, top + [0.05, 0.0, 0.0], top - [0.0, 0.05, 0.0]])
+    at = top + np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [0.0, -0.05, 0.0]])
     bell = sharp(at) - (blunt(at) - height)
     assert bell == pytest.approx([height, height / 2, height / 2], rel=1e-4)
 
 
 def test_a_wide_peak_is_bounded_and_a_needle_is_missed():
-    wide, needle = search_peak(build_peak(2, RESOLVED_SHARE)), []
+    wide = search_peak(build_peak(2, RESOLVED_SHARE))
     assert wide.is_closed
     assert wide.excess <= 0.0
-    for seed in range(4):
-        needle.append(search_peak(build_peak(seed, 0.1)).excess)
-    assert max(needle) > 0.0
+    needles = [search_peak(build_peak(seed, 0.1)).excess for seed in range(4)]
+    assert max(needles) > 0.0
 
 
 def test_misses_are_counted_by_width():
