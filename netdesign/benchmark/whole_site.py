@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import tempfile
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
+from netdesign.benchmark.clock import Clock
 from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import SolverSettings
@@ -33,6 +32,7 @@ class Pass:
     """One run over the site, through a store."""
 
     wall_s: float
+    cpu_s: float
     solved: int
     reused: int
 
@@ -60,7 +60,7 @@ def _vary_row(row: NetRow, again: int) -> NetRow:
     )
 
 
-def measure_site(count: int, render: Render, processes: int) -> dict[str, Any]:
+def measure_site(count: int, render: Render, processes: int) -> tuple[Pass, Pass]:
     """Two runs of one site through one store: searched, checked, reported.
 
     Parameters
@@ -76,29 +76,23 @@ def measure_site(count: int, render: Render, processes: int) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cases.sqlite"
         first, second = (_run_once(site, render, path, processes) for _ in range(2))
-    return {
-        "what": f"{count} net rows: searched, confirmed, checked, all reports",
-        "processes": processes,
-        "wall_s": first.wall_s,
-        "solved": first.solved,
-        "second_run_s": second.wall_s,
-        "second_run_solved": second.solved,
-        "second_over_first": second.wall_s / first.wall_s,
-    }
+    return first, second
 
 
 def _run_once(site: Site, render: Render, path: Path, processes: int) -> Pass:
-    start = time.perf_counter()
-    workers = build_workers("", processes)
-    try:
-        with CaseStore(path, lambda _: None) as store:
-            runner = Runner(workers=workers, store=store)
-            render(_judge(site, runner))
-    finally:
-        workers.close()
-    counts = runner.counts
+    with Clock() as clock:
+        workers = build_workers("", processes)
+        try:
+            with CaseStore(path, lambda _: None) as store:
+                runner = Runner(workers=workers, store=store)
+                render(_judge(site, runner))
+        finally:
+            workers.close()
     return Pass(
-        wall_s=time.perf_counter() - start, solved=counts.solved, reused=counts.reused
+        wall_s=clock.wall_s,
+        cpu_s=clock.cpu_s,
+        solved=runner.counts.solved,
+        reused=runner.counts.reused,
     )
 
 

@@ -418,7 +418,11 @@ def _climb(
         step /= 2.0
         for _ in range(dimension):  # one move an axis
             tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-            reached = reach(tried.reshape(-1, dimension))
+            # quantities climb the same way, and steps end at the walls of the box
+            distinct, place = np.unique(
+                tried.reshape(-1, dimension), axis=0, return_inverse=True
+            )
+            reached = reach(distinct)[place.ravel()]
             heights = reached.reshape(len(moves), count, -1)[:, here, owners]
             chosen = heights.argmax(axis=0)
             places = tried[chosen, here]

@@ -129,10 +129,15 @@ def cluster():
     distributed = pytest.importorskip(
         "distributed", reason="the extra is absent: pip install 'netdesign[dask]'"
     )
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
-        dashboard_address="127.0.0.1:0", silence_logs=50,
-    ) as running:  # fmt: skip
+    dask = pytest.importorskip("dask")
+    with (
+        # a scheduler gives a job up after the first worker that it has killed
+        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
+            dashboard_address="127.0.0.1:0", silence_logs=50,
+        ) as running,
+    ):  # fmt: skip
         yield running.scheduler_address.removeprefix("tcp://")
 
 
