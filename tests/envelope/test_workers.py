@@ -172,7 +172,7 @@ def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
         def is_empty(self):
             return False
 
-        def next_batch(self, block):
+        def next_batch(self, block):  # noqa: ARG002
             return []
 
     monkeypatch.setattr(workers_module, "_DESERTED_S", 0.0)
