@@ -137,12 +137,12 @@ def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:
     return [(row.id, getattr(row, table)) for row in view.rows]
 
 
-def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[str, int, int]]:
+def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[int, int]]:
     """First and last line of each net row in a stacked table."""
     spans, first = [], _FIRST_LINE
-    for name, table in parts:
+    for _, table in parts:
         if table.rows:
-            spans.append((name, first, first + len(table.rows) - 1))
+            spans.append((first, first + len(table.rows) - 1))
         first += len(table.rows)
     return spans
 
@@ -160,7 +160,7 @@ def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Tabl
 
 def _list_notes(book: Book, view: ReportView) -> Table:
     return Table(
-        caption=book.words("Notes of the importer"),
+        caption=book.words("Notes"),
         columns=(Column(heading=book.words("Note")),),
         rows=tuple((Cell(text=note),) for note in view.notes),
         empty=book.words("none"),

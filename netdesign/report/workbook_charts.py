@@ -73,19 +73,19 @@ def add_force_chart(
 
 
 def add_case_chart(
-    book: Book, sheet: Any, spans: Sequence[tuple[str, int, int]], bottom: int
+    book: Book, sheet: Any, spans: Sequence[tuple[int, int]], bottom: int
 ) -> None:
     """Force on the foot anchor against density, one series for each net row.
 
-    ``spans`` are id, first and last line of each net row.
+    ``spans`` are first and last line of each net row, whose id stands in column A.
     """
     name = book.name("Cases")
     chart = book.workbook.add_chart({"type": "scatter"})
-    for place, (row_id, first, last) in enumerate(spans[:_MOST_LINES]):
+    for place, (first, last) in enumerate(spans[:_MOST_LINES]):
         shade = _SHADES[place % len(_SHADES)]
         chart.add_series(
             {
-                "name": f"{book.words('Net row')} {row_id}",
+                "name": [name, first, 0],  # a cell: a text could read as a formula
                 "categories": [name, first, 1, last, 1],
                 "values": [name, first, 4, last, 4],
                 "marker": {

@@ -80,6 +80,9 @@ OWN_TAGS = {
         "text",
         "tspan",
         "image",
+        "circle",
+        "polygon",
+        "polyline",
     ),
 }
 
@@ -131,7 +134,7 @@ def test_a_page_holds_tags_of_the_program_alone(text):
     reader.feed(page)
     assert reader.tags <= OWN_TAGS
     assert not any(name.startswith("on") for name in reader.attributes)
-    assert all(sign.isprintable() or sign in "\n\t" for sign in page)
+    assert all(sign.isprintable() or sign in "\n\t\u00a0" for sign in page)
 
 
 def test_a_workbook_holds_formulas_of_the_program_alone(text):

@@ -21,6 +21,7 @@ MADE_UP = (
     *("Slope angle", "Snow height", "Ground", "Slack", "Remark", "jobs"),
     *("Setting: jobs", "Partial factor of snow pressure"),
     *("Partial factor of a tendon", "Partial factor of a tested anchor"),
+    *("NF P 95-304 style profile, 1992", "secondary literature, see NOTES.md"),
     *("Smallest inclination of the net", "Largest inclination of the net"),
     *("type =1+1 has 900 kN", "type =1+1 has 900 kN, now 480 kN"),
 )
@@ -57,6 +58,7 @@ def test_no_text_of_the_program_is_missing(language):
 def test_default_profile_and_guideline_are_translated(language):
     words = load_words(language)
     texts = [value.text for value in load_standard(SHIPPED[0]).listed]
+    texts += [value.source for value in load_standard(SHIPPED[0]).listed]
     texts += GUIDELINE_SENTENCES.values()
     assert [text for text in texts if words.find(text) is None] == []
 
@@ -83,15 +85,29 @@ def test_a_missing_text_stays_english(language):
         ("post spacing at most 2.4 m, now 4 m",
          "entraxe des poteaux au plus 2.4 m, actuellement 4 m"),
         ("Coupled solve: 400 kg/m³, φ 45°, θ 35°",
-         "Calcul couplé : 400 kg/m³, φ 45°, θ 35°"),
+         "Calcul couplé\u00a0: 400 kg/m³, φ 45°, θ 35°"),
         ("foot_anchor.tendon: The member is slack in every case and needs no "
          "resistance.",
-         "foot_anchor.tendon: L'élément est détendu dans tous les cas et n'a pas "
+         "foot_anchor.tendon\u00a0: L'élément est détendu dans tous les cas et n'a pas "
          "besoin de résistance."),
     ],
 )  # fmt: skip
 def test_sentences_keep_numbers_symbols_and_keys(english, french):
     assert load_words("fr")(english) == french
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_no_line_of_a_text_can_begin_with_a_sign_of_punctuation(language):
+    texts = load_words(language).texts.values()
+    assert [text for text in texts if re.search(" [:;?!%»]", text)] == []
+
+
+@pytest.mark.parametrize("profile", SHIPPED)
+def test_titles_of_the_shipped_profiles_are_translated(profile):
+    standard = load_standard(profile)
+    title = f"{standard.title}, {standard.edition}"
+    assert load_words("fr").find(title) is not None
+    assert load_words("de").find(title) is not None
 
 
 def test_what_somebody_typed_is_never_translated():
