@@ -99,7 +99,8 @@ def _describe_change(change: ChangeRecord, words: Callable[[str], str]) -> str:
     passes = f"{words('passes with')} " if change.bound is not None else ""
     text = f"{passes}{words(describe_flip(change))}"
     if change.solves:
-        text += f"; {change.solves} {words('solves')}"
+        unit = "solve" if change.solves == 1 else "solves"
+        text += f"; {change.solves} {words(unit)}"
     return f"{text} ({words(change.note)})" if change.note else text
 
 
