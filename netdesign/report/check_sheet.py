@@ -58,7 +58,7 @@ class _Field:
 def _field(letter: str, quantity: str, end: str = "") -> _Field:
     row = QUANTITIES[quantity]
     unit = f" [{row.unit}]" if row.unit else ""
-    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 7.5)
+    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 8.3)
 
 
 _LEAD = (

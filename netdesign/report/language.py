@@ -24,6 +24,7 @@ _GAP = re.compile(r"\{(\w+)(!?)\}")
 _NUMBER = r"[\d.]+"
 _WITH_UNIT = re.compile(r"(?P<stem>.+?) (?P<unit>\[[^\]]*\])")
 _BAND = re.compile(r"(?<=[\d°%]) to (?=[>\d-])")
+_SENTENCE = re.compile(r"[^\W\d_]{2,} +[^\W\d_]{3,}")  # two words in a row
 _BEFORE_SIGN = re.compile(r" (?=[:;?!%»])")  # French sets these apart from the word
 
 
@@ -100,6 +101,8 @@ class Words:
         return None if sentence is None else f"{self(head)}{self(': ')}{sentence}"
 
     def _translate_band(self, text: str) -> str | None:
+        if _SENTENCE.search(text):  # never half of one
+            return None
         shown, count = _BAND.subn(f" {self.texts['to']} ", text)
         return shown if count else None
 

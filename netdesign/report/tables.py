@@ -26,6 +26,7 @@ from netdesign.report.words import (
     name_case,
     name_member,
     show_band,
+    show_unit,
 )
 from netdesign.site.model import InputEcho
 from netdesign.study import CasePoint, CaseRecord, RowStudy, Study
@@ -149,7 +150,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
                 word_cell(echo.label),
                 text_cell(echo.text),
                 given_cell(echo.value),
-                text_cell(echo.unit),
+                text_cell(show_unit(echo.unit)),
                 word_cell(echo.cell) if echo.cell == DEFAULT else text_cell(echo.cell),
             )
             for echo in inputs
@@ -168,7 +169,7 @@ def build_profile(study: Study, status: str = "") -> Table:
                 text_cell(value.clause),
                 word_cell(value.text),
                 given_cell(value.value),
-                text_cell(value.unit),
+                text_cell(show_unit(value.unit)),
                 word_cell(value.status),
                 word_cell(value.source),
             )
