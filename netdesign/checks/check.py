@@ -28,7 +28,8 @@ def judge(
     low, high : float
         Band of the quantity; finite, or nothing is proven.
     least, most : float
-        Range that is accepted, both ends included, in the unit of the band.
+        Range that is accepted, both ends included, in the unit of the band; ``most``
+        may be infinite.
     is_complete : bool
         Every case is in the band. Without that nothing passes; what lies outside
         the range all the same fails.
@@ -40,7 +41,8 @@ def judge(
     >>> judge(0.9, 1.1, least=0.0, most=1.0).value
     'not_proven'
     """
-    if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+    is_known = all(math.isfinite(number) for number in (low, high, least))
+    if not (is_known and low <= high and most > -math.inf):
         return Verdict.NOT_PROVEN
     if low > most or high < least:
         return Verdict.FAIL

@@ -86,12 +86,20 @@ def _read_defaults(
             raise click.UsageError(f"{place}: {_suggest(key, list(options))}")
         if "\\x00" in repr(value):  # no command line can hold one
             raise click.UsageError(f"{place} = {value!r}: holds a zero character")
+        if not _is_typed(value, many=options[key].multiple):
+            raise click.UsageError(f"{place} = {value!r:.200}: no such value fits")
         try:
             options[key].type_cast_value(ctx, value)
-        except click.BadParameter as error:
-            raise click.UsageError(f"{place} = {value!r}: {error.message}") from None
+        except (click.BadParameter, ValueError, OverflowError) as error:
+            raise click.UsageError(f"{place} = {value!r:.200}: {error}") from None
         defaults[options[key].name or ""] = value
     return defaults
+
+
+def _is_typed(value: object, *, many: bool) -> bool:
+    """Whether a command line could hold it: one word, or a list of them."""
+    words = value if many and isinstance(value, list) else [value]
+    return all(isinstance(word, str | int | float) for word in words)
 
 
 def _name_options(command: click.Command) -> dict[str, click.Option]:

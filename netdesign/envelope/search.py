@@ -133,8 +133,17 @@ class RowEnvelope:
     def gap(self) -> str:
         """Why the maxima do not cover every case; "" if they do."""
         failed = describe_gap(self.results)
-        if failed or self.maxima.is_closed:
+        lost = {
+            one.confirmed.reason
+            for one in self.confirmations
+            if not one.confirmed.is_converged
+        }
+        if failed:
             return failed
+        if lost:
+            return f"a governing case was not confirmed ({'; '.join(sorted(lost))})"
+        if self.maxima.is_closed:
+            return ""
         return (
             f"after {len(self.results)} cases a force between them could still exceed "
             "the largest one by more than the gap asked for"

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import zlib
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,18 @@ class SolvedState:
     def sticks(self) -> bool:
         """The snow slips nowhere on the net: more friction would change nothing."""
         return not bool(self.net_slides.any())
+
+    @property
+    def is_finite(self) -> bool:
+        """Every number from which a force follows is one, and no error is negative."""
+        parts = (*astuple(self.foot), *astuple(self.head), *astuple(self.balance))
+        numbers = [self.tension_max, *(part for part in parts if part is not None)]
+        shape = (self.net_curve, self.mesh_nodes)
+        return (
+            all(math.isfinite(number) for number in numbers)
+            and all(bool(np.isfinite(array).all()) for array in shape)
+            and min(self.foot.error, self.head.error) >= 0.0
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -139,6 +152,8 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         linear_solves=numbers["linear_solves"],
         **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
     )
+    if not state.is_finite:
+        raise ValueError("a force is no number")
     return CaseEnd(outcome=outcome, reason=reason, state=state)
 
 

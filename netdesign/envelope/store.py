@@ -157,8 +157,9 @@ class CaseStore:
         base.execute("COMMIT")
         if tables and not {"origin", "cases"} <= tables:
             return "is no store of cases"
-        layout, solver = base.execute("SELECT layout, solver FROM origin").fetchone()
-        if (layout, solver) != (_LAYOUT, version):
+        origin = base.execute("SELECT layout, solver FROM origin").fetchone()
+        if origin != (_LAYOUT, version):
+            solver = origin[1] if origin else "?"
             return f"belongs to version {solver} of the solver, this is {version}"
         return ""
 

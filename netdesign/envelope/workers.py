@@ -75,7 +75,11 @@ def solve_job(job: Job) -> CaseEnd:
                 outcome=Outcome.PLATEAU_NOT_REACHED,
                 reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
             )
-        return CaseEnd(outcome=Outcome.CONVERGED, state=keep_state(solution))
+        state = keep_state(solution)
+        if not state.is_finite:
+            end = Outcome.NONFINITE
+            return CaseEnd(outcome=end, reason=end.sentence)
+        return CaseEnd(outcome=Outcome.CONVERGED, state=state)
     except Exception as error:  # a bug in one case must not hide the others
         return CaseEnd(
             outcome=Outcome.WORKER_FAILED, reason=f"{type(error).__name__}: {error}"

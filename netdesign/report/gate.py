@@ -66,12 +66,30 @@ def _require_sound(place: str, check: CheckRecord) -> None:
     is_loaded = check.demand_high_kN or check.action_kN
     if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
         raise NetDesignError(f"{place}: utilisation is 0, but the member is not slack")
-    if check.verdict is Verdict.PASS and check.demand_kN is not None:
+    _require_sizes(place, check)
+    is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
+    if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
         _, high = find_utilisation_band(check)
         if high is None or not high <= 1:
             raise NetDesignError(
                 f"{place} says pass, but the high end of its utilisation is {high}"
             )
+
+
+def _require_sizes(place: str, check: CheckRecord) -> None:
+    """Refuse forces below zero, and a demand outside its own band."""
+    ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
+    known = [0.0, *(end for end in ends if end is not None)]
+    sizes = (check.action_kN, check.action_factor, check.resistance_factor)
+    strengths = (check.resistance_kN, check.resistance_characteristic_kN)
+    is_sound = known == sorted(known)
+    is_sound &= all(size is None or size >= 0.0 for size in (*sizes, *strengths))
+    if not is_sound:
+        raise NetDesignError(f"{place}: a force lies below zero or outside its band")
+
+
+def _is_of_geometry(check: CheckRecord) -> bool:
+    return check.id.startswith("geometry.") and check.action is None
 
 
 def _product(left: float | None, right: float | None) -> float | None:

@@ -101,6 +101,9 @@ def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
         return Refusal(rule, _ACCEPTED)
     if readings and readings[0].is_short:
         return float(readings[0].text)
+    if readings:
+        rule = f"has more than {_MOST_DIGITS} digits in a row"
+        return Refusal(rule, "a number cell, or text with fewer digits")
     return Refusal("is not a number", _ACCEPTED)
 
 

@@ -1,0 +1,270 @@
+"""Every row of the verdict table in checks/THEORY.md, for any numbers.
+
+What is expected is worked out in fractions, without rounding; numbers that round to
+the limit itself are left to `test_check`.
+"""
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from netdesign.checks import (
+    Band,
+    RowGeometry,
+    Standard,
+    StandardValue,
+    check_geometry,
+    check_member,
+    judge,
+    load_standard,
+)
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.site.model import Resistance
+
+PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
+BARE = replace(load_standard("swiss-guideline-2007"), values=(), tables=())
+
+FIXED = {"derandomize": True, "deadline": None, "database": None}
+
+FORCES = st.floats(1.0, 1e7)  # [N]
+FACTORS = st.floats(0.5, 4.0)
+ANY_NUMBER = st.floats()
+NO_NUMBER = st.sampled_from([math.nan, math.inf, -math.inf])
+GAPS = st.sampled_from(["", "1 of 4 cases failed (residual grew)"])
+
+
+def value_of(value_id: str, value: float, unit: str = "-") -> StandardValue:
+    return StandardValue(
+        id=value_id,
+        clause="-",
+        text="A value.",
+        value=value,
+        unit=unit,
+        status="user",
+        source="test",
+    )
+
+
+def profile(on_action: float | None, on_resistance: float | None) -> Standard:
+    given = {"action.snow": on_action, "resistance.tendon": on_resistance}
+    values = tuple(value_of(k, v) for k, v in given.items() if v is not None)
+    return replace(BARE, values=values)
+
+
+def resist(value: float | None) -> Resistance:
+    return Resistance(
+        member="foot_anchor",
+        mode="tendon",
+        value=value,
+        basis="declared",
+        type_id="T1",
+        source="Anchors!B2",
+    )
+
+
+@st.composite
+def bands(draw: st.DrawFn) -> Band:
+    low, value, high = sorted(draw(st.tuples(FORCES, FORCES, FORCES)))
+    return Band(low=low, value=value, high=high)
+
+
+def use(force: float, on_action: float, strength: float, factor: float) -> Fraction:
+    """Utilisation in full: force times factor, over resistance by factor."""
+    parts = [Fraction(x) for x in (force, on_action, factor, strength)]
+    return parts[0] * parts[1] * parts[2] / parts[3]
+
+
+def verdict_of(action, on_action, strength, factor, gap=""):
+    standard = profile(on_action, factor)
+    return check_member(action, resist(strength), standard, gap=gap).verdict
+
+
+@given(bands(), FACTORS, FORCES, FACTORS, GAPS)
+@settings(max_examples=400, **FIXED)
+def test_a_verdict_is_what_the_numbers_say(action, on_action, strength, factor, gap):
+    """Rows two to five of the table: outside, a case without result, across, inside."""
+    low, high = (
+        use(force, on_action, strength, factor) for force in (action.low, action.high)
+    )
+    assume(all(abs(one - 1) > Fraction(1, 10**9) for one in (low, high)))
+    if low > 1:
+        expected = FAIL
+    elif gap or high > 1:
+        expected = OPEN
+    else:
+        expected = PASS
+    assert verdict_of(action, on_action, strength, factor, gap) is expected
+
+
+@given(bands(), FACTORS, FORCES, FACTORS, st.integers(0, 2), GAPS)
+@settings(max_examples=100, **FIXED)
+def test_a_missing_number_is_not_proven(action, on_action, strength, factor, k, gap):
+    numbers = [on_action, strength, factor]
+    numbers[k] = None
+    assert verdict_of(action, *numbers, gap) is OPEN
+
+
+@given(bands(), FACTORS, ANY_NUMBER, FACTORS)
+@settings(max_examples=100, **FIXED)
+def test_a_resistance_that_is_no_positive_number_is_not_proven(
+    action, on_action, strength, factor
+):
+    assume(not 0.0 < strength < math.inf)
+    assert verdict_of(action, on_action, strength, factor) is OPEN
+
+
+@given(FACTORS, FORCES, FACTORS)
+@settings(max_examples=50, **FIXED)
+def test_no_solved_case_is_not_proven(on_action, strength, factor):
+    assert verdict_of(None, on_action, strength, factor) is OPEN
+
+
+@given(bands(), FORCES, st.sampled_from(["", "declared", "guessed", "tendon"]))
+@settings(max_examples=50, **FIXED)
+def test_an_unknown_basis_is_not_proven(action, strength, basis):
+    on_tested = replace(
+        BARE,
+        values=(
+            value_of("action.snow", 1.5),
+            value_of("resistance.pull_out.tested", 1.35),
+        ),
+    )
+    given_resistance = replace(resist(strength), mode="pull_out", basis=basis)
+    assert check_member(action, given_resistance, on_tested, gap="").verdict is OPEN
+
+
+@given(st.one_of(st.none(), FORCES), st.one_of(st.none(), FACTORS), GAPS)
+@settings(max_examples=100, **FIXED)
+def test_a_slack_member_passes_only_if_every_case_has_a_result(strength, factor, gap):
+    slack = Band(low=0.0, value=0.0, high=0.0)
+    expected = OPEN if gap else PASS
+    assert verdict_of(slack, factor, strength, factor, gap) is expected
+
+
+@given(ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, st.booleans())
+@settings(max_examples=500, **FIXED)
+def test_judge_proves_only_what_comparisons_hold(low, high, least, most, complete):
+    verdict = judge(low, high, least=least, most=most, is_complete=complete)
+    is_band = math.isfinite(low) and math.isfinite(high) and low <= high
+    is_band = is_band and math.isfinite(least) and most > -math.inf
+    if verdict is PASS:
+        assert is_band
+        assert complete
+        assert least <= low <= high <= most
+    elif verdict is FAIL:
+        assert is_band
+        assert low > most or high < least
+    else:
+        inside = complete and least <= low and high <= most
+        assert not (is_band and (inside or low > most or high < least))
+
+
+@given(NO_NUMBER, st.floats(0.0, 2.0), st.booleans())
+@settings(max_examples=50, **FIXED)
+def test_what_is_no_number_is_not_proven(bad, good, complete):
+    for low, high in ((bad, good), (good, bad), (bad, bad)):
+        verdict = judge(low, high, least=0.0, most=1.0, is_complete=complete)
+        assert verdict is OPEN
+
+
+@given(st.floats(0.0, 2.0), st.floats(0.0, 2.0), st.floats(0.0, 1.0))
+@settings(max_examples=200, **FIXED)
+def test_less_certainty_never_makes_a_verdict_better(low, high, more):
+    """Of a wider band, or of one without some case: a pass stays one or is lost."""
+    low, high = sorted((low, high))
+    known = judge(low, high, least=0.0, most=1.0)
+    for worse in (
+        judge(low - more, high + more, least=-9.0, most=1.0),
+        judge(low, high, least=0.0, most=1.0, is_complete=False),
+        judge(low, high + more, least=0.0, most=1.0),
+    ):
+        assert worse is known or worse is OPEN
+
+
+@given(bands(), FACTORS, FORCES, FACTORS, st.floats(1.0, 3.0))
+@settings(max_examples=200, **FIXED)
+def test_more_load_or_less_strength_never_makes_a_verdict_better(
+    action, on_action, strength, factor, more
+):
+    order = (FAIL, OPEN, PASS)
+    here = order.index(verdict_of(action, on_action, strength, factor))
+    for worse in (
+        verdict_of(action.times(more), on_action, strength, factor),
+        verdict_of(action, on_action * more, strength, factor),
+        verdict_of(action, on_action, strength / more, factor),
+        verdict_of(action, on_action, strength, factor * more),
+    ):
+        assert order.index(worse) <= here
+
+
+# --- geometry: limits that are missing, in the last two rows -------------------------
+
+ROWS = st.builds(
+    RowGeometry,
+    inclination_low=st.floats(0.0, 0.6),
+    inclination_high=st.floats(0.6, 1.2),
+    slope_angle=st.floats(0.2, 1.2),
+    snow_thickness=st.floats(0.5, 5.0),
+    net_height=st.floats(0.5, 5.0),
+    upslope_length=st.floats(1.0, 100.0),
+    gap=st.floats(0.0, 100.0),
+)
+FULL = load_standard("swiss-guideline-2007")
+FAMILIES = {
+    "inclination": "geometry.inclination",
+    "slope": "geometry.slope",
+    "height": "geometry.height",
+    "spacing": "geometry.spacing",
+    "gap": "geometry.gap",
+}
+
+
+@given(ROWS, st.sampled_from(sorted(FAMILIES)))
+@settings(max_examples=100, **FIXED)
+def test_a_missing_limit_is_not_proven_or_not_checked(row, mode):
+    values = tuple(v for v in FULL.values if not v.id.startswith(FAMILIES[mode]))
+    checked = {c.mode: c for c in check_geometry(row, replace(FULL, values=values))}
+    whole = {c.mode: c for c in check_geometry(row, FULL)}
+    assert set(whole) == set(FAMILIES)
+    if mode == "inclination":
+        assert checked.pop(mode).verdict is OPEN
+    assert mode not in checked
+    assert all(whole[other] == check for other, check in checked.items())
+
+
+DECIDED = {
+    "inclination_low": "inclination",
+    "inclination_high": "inclination",
+    "slope_angle": "slope",
+    "snow_thickness": "height",
+    "net_height": "height",
+    "upslope_length": "spacing",
+    "gap": "gap",
+}
+
+
+@given(ROWS, st.sampled_from(sorted(DECIDED)), NO_NUMBER)
+@settings(max_examples=100, **FIXED)
+def test_a_size_that_is_no_number_never_passes(row, name, bad):
+    assume(not (name == "slope_angle" and math.isinf(bad)))  # has no tangent
+    spoilt = check_geometry(replace(row, **{name: bad}), FULL)
+    (check,) = (one for one in spoilt if one.mode == DECIDED[name])
+    assert check.verdict is OPEN
+
+
+# --- the three rows below -----------------------------------------------------------
+
+
+@given(st.lists(st.sampled_from(Verdict), max_size=30))
+@settings(max_examples=200, **FIXED)
+def test_a_whole_is_no_better_than_its_parts(parts):
+    whole = merge_verdicts(parts)
+    if FAIL in parts:
+        assert whole is FAIL
+    elif OPEN in parts or not parts:
+        assert whole is OPEN
+    else:
+        assert whole is PASS

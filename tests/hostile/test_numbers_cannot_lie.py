@@ -1,0 +1,331 @@
+"""Whatever goes wrong between a solver and a verdict, the verdict is no pass.
+
+A small site that passes is spoilt in one place: a solver that lies or dies, a limit
+that is missing, a store of another time, units exchanged, cases out of order.
+"""
+
+import contextlib
+import math
+import random
+import sqlite3
+from dataclasses import replace
+from functools import lru_cache
+
+import pytest
+
+from netdesign.check_site import judge_site
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.solve import solve_scene
+from netdesign.envelope import store as store_module
+from netdesign.envelope import workers as workers_module
+from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.store import CaseStore
+from netdesign.envelope.workers import OwnProcess
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import MEMBER_MODES, NetRow, Project, Resistance, Site
+from netdesign.site_cases import CheckRun, search_site, solve_site
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+
+STRONG, WEAK = 1e7, 1e3  # [N]
+PROFILE = "nf-p-95-304-style"
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:3]))
+GRID = Ranges(
+    density=Interval(low=270.0, high=400.0, count=2),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=2),
+    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+)
+SEARCHED = replace(
+    GRID,
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
+)
+solve_once = lru_cache(maxsize=None)(solve_scene)
+
+
+def build_site(ranges=GRID, *, strength=STRONG, **missing):
+    resistances = tuple(
+        Resistance(
+            member=member,
+            mode=mode,
+            value=missing.get(f"{member}__{mode}", strength),
+            basis="tested" if mode == "pull_out" else "",
+            type_id="T1",
+            source="Anchors!B2",
+        )
+        for member, mode in MEMBER_MODES
+    )
+    row = NetRow(
+        id="R1",
+        slope_angle=math.radians(38.0),
+        snow_thickness=2.5,
+        upslope_length=6.0,
+        ground=GroundLaw(kind="free"),
+        net_height=2.5,
+        net_stiffness_per_m=8e6,
+        slack=0.05,
+        layout=SupportLayout(
+            post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
+        ),
+        resistances=resistances,
+    )
+    return Site(
+        project=Project(),
+        ranges=ranges,
+        rows=(row,),
+        file_name="site.xlsx",
+        sha256="0" * 64,
+    )
+
+
+def judge(site, runner=None, standard=None):
+    """Study of a site, searched or sampled as its ranges ask for."""
+    standard = standard or load_standard(PROFILE)
+    if site.ranges.is_grid:
+        return judge_site(site, solve_site(site, RUN, runner), standard, RUN)
+    found = search_site(site, RUN, runner)
+    results = [list(one.results) for one in found]
+    return judge_site(site, results, standard, RUN, envelopes=found)
+
+
+@pytest.fixture(autouse=True)
+def _remembered(monkeypatch):
+    monkeypatch.setattr(workers_module, "solve_scene", solve_once)
+
+
+@pytest.fixture
+def spoil(monkeypatch):
+    """Let a fault happen in the solves of these numbers; how many there were."""
+
+    def spoil_calls(fault, is_hit):
+        calls = []
+
+        def solve(scene, settings):
+            solution = solve_once(scene, settings)
+            calls.append(settings)
+            return fault(solution) if is_hit(len(calls) - 1) else solution
+
+        monkeypatch.setattr(workers_module, "solve_scene", solve)
+        return calls
+
+    return spoil_calls
+
+
+# --- solvers that lie or die ---------------------------------------------------------
+
+
+def end_by(outcome):
+    return lambda solution: FailedSolution(
+        scene=solution.scene, outcome=outcome, reason="spoilt", rounds=1, history=None
+    )
+
+
+def die_of(error):
+    def die(_):
+        raise error
+
+    return die
+
+
+def change(part, **values):
+    if part is None:
+        return lambda solution: replace(solution, **values)
+    return lambda solution: replace(
+        solution, **{part: replace(getattr(solution, part), **values)}
+    )
+
+
+def spoil_curve(solution):
+    curve = solution.net_curve.copy()
+    curve[0, -1] = math.nan
+    return replace(solution, net_curve=curve)
+
+
+FAULTS = {
+    **{o.value: end_by(o) for o in Outcome if o is not Outcome.CONVERGED},
+    "floating point": die_of(FloatingPointError("overflow")),
+    "memory": die_of(MemoryError()),
+    "recursion": die_of(RecursionError()),
+    "foot is nan": change("foot", x=math.nan),
+    "foot is infinite": change("foot", y=math.inf),
+    "head is nan": change("head", y=math.nan),
+    "error is nan": change("foot", error=math.nan),
+    "error is infinite": change("head", error=math.inf),
+    "error is negative": change("head", error=-1.0),
+    "tension is nan": change(None, tension_max=math.nan),
+    "balance is nan": change("balance", relative_residual=math.nan),
+    "friction is nan": change("balance", friction_excess=math.nan),
+    "shape is nan": spoil_curve,
+}
+
+
+@pytest.fixture(params=FAULTS.values(), ids=FAULTS)
+def fault(request):
+    return request.param
+
+
+@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
+def test_the_sound_site_passes(ranges):
+    assert judge(build_site(ranges)).verdict is Verdict.PASS
+
+
+@pytest.mark.parametrize("hit", range(4))
+def test_a_fault_in_any_case_of_a_grid_is_no_pass(spoil, fault, hit):
+    calls = spoil(fault, lambda call: call == hit)
+    row = judge(build_site()).rows[0]
+    assert len(calls) == 4
+    assert row.verdict is Verdict.NOT_PROVEN
+    assert "1 of 4 cases failed" in row.reasons[0]
+
+
+@pytest.mark.parametrize("hit", [0, 7, -1])
+def test_a_fault_in_any_case_of_a_search_is_no_pass(spoil, fault, hit):
+    """The last solves are those that confirm the governing cases."""
+    sound = spoil(fault, lambda _: False)
+    judge(build_site(SEARCHED))
+    place = hit % len(sound)
+    calls = spoil(fault, lambda call: call == place)
+    row = judge(build_site(SEARCHED)).rows[0]
+    assert len(calls) > place
+    assert row.verdict is Verdict.NOT_PROVEN
+    assert "failed" in row.reasons[0] or "not confirmed" in row.reasons[0]
+
+
+@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
+def test_a_fault_in_every_case_is_no_pass(spoil, fault, ranges):
+    spoil(fault, lambda _: True)
+    assert judge(build_site(ranges)).verdict is Verdict.NOT_PROVEN
+
+
+def test_a_fault_does_not_hide_a_sure_failure(spoil, fault):
+    spoil(fault, lambda call: call == 0)
+    assert judge(build_site(strength=WEAK)).verdict is Verdict.FAIL
+
+
+# --- limits that are missing ---------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [f"{member}__{mode}" for member, mode in MEMBER_MODES])
+def test_no_resistance_is_no_pass_unless_the_member_is_slack(name):
+    study = judge(build_site(**{name: None}))
+    check = next(
+        one for one in study.rows[0].checks if one.id == name.replace("__", ".")
+    )
+    is_slack = check.action_kN == 0.0 and check.demand_high_kN in (None, 0.0)
+    assert (study.verdict is Verdict.PASS) == is_slack
+
+
+# Of the height a profile need not say anything; no anchor here is only computed, and
+# no bearing resistance is given. The values of the end effect come together.
+NOT_NEEDED = {
+    "geometry.height.ratio",
+    "resistance.pull_out.computed",
+    "resistance.bearing",
+}
+LIMITS = {
+    "end." if one.id.startswith("end.") else one.id
+    for one in load_standard(PROFILE).values
+}
+
+
+@pytest.mark.parametrize("left_out", sorted(LIMITS))
+def test_a_limit_that_is_left_out_is_no_pass_where_a_check_needs_it(left_out):
+    standard = load_standard(PROFILE)
+    kept = tuple(one for one in standard.values if not one.id.startswith(left_out))
+    less = replace(standard, values=kept)
+    expected = Verdict.PASS if left_out in NOT_NEEDED else Verdict.NOT_PROVEN
+    assert judge(build_site(), standard=less).verdict is expected
+    assert judge(build_site(strength=WEAK), standard=less).verdict is not Verdict.PASS
+
+
+# --- stores of another time ----------------------------------------------------------
+
+
+class Liar(OwnProcess):
+    """Forces a thousand times too small, as of a solver with a fault long mended."""
+
+    def solve(self, jobs):
+        for place, end in super().solve(jobs):
+            state = end.state
+            pulls = {
+                name: replace(pull, x=pull.x / 1e3, y=pull.y / 1e3)
+                for name, pull in (("foot", state.foot), ("head", state.head))
+            }
+            yield place, replace(end, state=replace(state, **pulls))
+
+
+@pytest.fixture
+def stored(tmp_path):
+    """Judge a site with the store of this test, by sound workers or others."""
+
+    def judge_stored(site, workers=None):
+        with CaseStore(tmp_path / "cases.sqlite", lambda _: None) as store:
+            runner = Runner(store=store, workers=workers or OwnProcess())
+            return judge(site, runner), runner.counts
+
+    return judge_stored
+
+
+def test_a_store_of_another_solver_decides_nothing(stored, monkeypatch):
+    weak = build_site(strength=2e4)
+    monkeypatch.setattr(store_module, "identify_solver", lambda: "0.0+old")
+    lied, _ = stored(weak, Liar())
+    assert lied.verdict is not Verdict.FAIL  # the store would turn the verdict
+    monkeypatch.undo()
+    study, counts = stored(weak)
+    assert study.verdict is Verdict.FAIL
+    assert (counts.reused, counts.solved) == (0, 4)
+
+
+def test_entries_exchanged_in_a_store_decide_nothing(stored, tmp_path):
+    site = build_site()
+    sound, _ = stored(site)
+    with contextlib.closing(sqlite3.connect(tmp_path / "cases.sqlite")) as base:
+        rows = base.execute("SELECT * FROM cases ORDER BY name").fetchall()
+        names = [row[0] for row in rows]
+        for name, row in zip([*names[1:], names[0]], rows, strict=True):
+            base.execute(
+                "UPDATE cases SET numbers = ?, shape = ?, seal = ? WHERE name = ?",
+                (*row[1:], name),
+            )
+        base.commit()
+    study, counts = stored(site)
+    assert (counts.reused, counts.solved) == (0, 4)
+    assert study == sound
+
+
+# --- cases out of order, units exchanged ---------------------------------------------
+
+
+class Shuffled(OwnProcess):
+    """Gives its ends in an order of its own, as processes do."""
+
+    def __init__(self, seed):
+        self._draw = random.Random(seed)
+
+    def solve(self, jobs):
+        ends = list(super().solve(jobs))
+        return iter(self._draw.sample(ends, len(ends)))
+
+
+@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("strength", [STRONG, WEAK])
+def test_the_order_in_which_cases_end_changes_nothing(ranges, seed, strength):
+    site = build_site(ranges, strength=strength)
+    assert judge(site, Runner(workers=Shuffled(seed))) == judge(site)
+
+
+class Forgetful(OwnProcess):
+    """Loses the end of one case."""
+
+    def solve(self, jobs):
+        return iter(list(super().solve(jobs))[:-1])
+
+
+def test_a_lost_case_gives_no_study():
+    with pytest.raises(KeyError):
+        judge(build_site(), Runner(workers=Forgetful()))
