@@ -376,16 +376,18 @@ def _show(
     from netdesign.study import write_document
 
     if not as_json:
-        from rich.console import Console
-
         from netdesign.report.language import load_words
-        from netdesign.report.terminal import print_changes, print_summary
+        from netdesign.report.terminal import (
+            open_console,
+            print_changes,
+            print_summary,
+        )
 
-        words = load_words(language)
+        words, console = load_words(language), open_console()
         for study in studies:
-            print_summary(study, Console(), words)
+            print_summary(study, console, words)
             if explain:
-                print_changes(study, Console(), words)
+                print_changes(study, console, words)
     elif len(studies) == 1:
         click.echo(write_document(studies[0]))
     else:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from netdesign.envelope.adaptive import RESOLVED_SHARE, Addition
 from netdesign.envelope.grid import Case
 from netdesign.envelope.parameters import PARAMETERS, Box
@@ -190,20 +192,17 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
     tilted = axes.index("inclination") if "inclination" in axes else None
     levels = [k / (_MAPS - 1) for k in range(_MAPS)] if tilted is not None else [None]
     density, friction = axes.index("density"), axes.index("friction_angle")
+    shares = [k / (_MAP_POINTS - 1) for k in range(_MAP_POINTS)]
     found = []
     for level in levels:
         through = list(governing)
         if tilted is not None and level is not None:
             through[tilted] = level
-        rows = []
-        for row in range(_MAP_POINTS):
-            through[friction] = row / (_MAP_POINTS - 1)
-            _, force, _ = follow_axis(
-                maxima.surrogate, tuple(through), density, place, _MAP_POINTS
-            )
-            rows.append([kilonewton_from_newton(float(f)) for f in force])
+        at = np.tile(through, (_MAP_POINTS**2, 1))
+        at[:, friction] = np.repeat(shares, _MAP_POINTS)
+        at[:, density] = np.tile(shares, _MAP_POINTS)
+        force = maxima.surrogate.evaluate(at, place).reshape(_MAP_POINTS, _MAP_POINTS)
         values = box.place(through)
-        shares = [k / (_MAP_POINTS - 1) for k in range(_MAP_POINTS)]
         inclination = values.get("inclination", envelope.results[0].case.inclination)
         found.append(
             MapRecord(
@@ -213,7 +212,9 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
                     show_parameter("friction_angle", _value(box, "friction_angle", s))
                     for s in shares
                 ],
-                force_kN=rows,
+                force_kN=[
+                    [kilonewton_from_newton(f) for f in row] for row in force.tolist()
+                ],
             )
         )
     return found

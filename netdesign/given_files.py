@@ -57,13 +57,17 @@ def read_toml(path: Path) -> dict[str, Any]:
 def make_printable(text: str) -> str:
     """Text that a terminal only shows: a blank for each sign that would steer it.
 
-    Lines stay. Escape sequences, marks that turn the direction of writing, and
-    halves of characters lose their sign and with it their effect.
+    Lines stay, and blanks that hold words together. Escape sequences, marks that
+    turn the direction of writing, and halves of characters lose their sign and with
+    it their effect.
 
     >>> make_printable("a\\x1b[31mb")
     'a [31mb'
     """
-    return "".join(sign if sign.isprintable() or sign == "\n" else " " for sign in text)
+    kept = "\n\u00a0"  # French sets a no-break space before some marks
+    if text.translate(dict.fromkeys(map(ord, kept))).isprintable():
+        return text
+    return "".join(sign if sign.isprintable() or sign in kept else " " for sign in text)
 
 
 def list_faults(faults: list[str]) -> str:

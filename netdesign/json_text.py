@@ -26,7 +26,7 @@ def write_json(document: object) -> str:
     '"\\\\u009b2J"'
     """
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-    if text.isprintable():
+    if text.replace("\n", "").isprintable():
         return text
     return "".join(
         sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1]

@@ -93,10 +93,10 @@ _ROWS = (
     _row("foot_difference_percent", "", "Coupled against it: foot anchor", "%", 0),
     # checks
     _row("action_kN", "E_k", "Characteristic action", "kN", 1),
-    _row("action_factor", "γ_E", "Factor of the action", "", 2),
+    _row("action_factor", "γ_E", "Factor of the action", "", None),
     _row("demand_kN", "E_d", "Demand", "kN", 1),
     _row("resistance_characteristic_kN", "R_k", "Characteristic resistance", "kN", 1),
-    _row("resistance_factor", "γ_R", "Factor of the resistance", "", 2),
+    _row("resistance_factor", "γ_R", "Factor of the resistance", "", None),
     _row("resistance_kN", "R_d", "Design resistance", "kN", 1),
     _row("utilisation", "μ", "Utilisation", "", 3),
     # comparison of two numbers

@@ -249,7 +249,7 @@ def test_a_missing_resistance_is_named(judge):
     assert study.verdict == Verdict.NOT_PROVEN
     assert check.utilisation is None
     assert check.resistance_kN is None
-    assert "no resistance is given for foot_anchor (pull_out)" in check.reason
+    assert "no resistance is given for " in check.reason
     assert "Anchors!B2" in check.reason
     assert study.rows[0].reasons == [f"foot_anchor.pull_out: {check.reason}"]
 

@@ -65,7 +65,13 @@ THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
         *("envelope.*", "solution_file", "verification.*", "benchmark.*"),
-        *("monitoring", "paper.runs", "paper.findings", "report.net_figures"),
+        *(
+            "envelope_record",
+            "monitoring",
+            "paper.runs",
+            "paper.findings",
+            "report.net_figures",
+        ),
         *("guideline.comparison", "commands.doctor"),
     ),
     "scipy": (

@@ -17,7 +17,6 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from itertools import pairwise
-from statistics import median
 from typing import Any
 
 from netdesign import __version__
@@ -58,11 +57,11 @@ class Effort:
     """How much is measured: place of the finest level, repeats of each timing."""
 
     finest: int = 4
-    repeats: int = 3
+    repeats: int = 5
 
 
 FULL = Effort()
-QUICK = Effort(finest=3, repeats=1)
+QUICK = Effort(finest=3, repeats=3)
 
 
 Solve = Callable[[], Solution | FailedSolution]
@@ -133,7 +132,7 @@ def _measure(
             path=path,
             elements=solution.cost.elements,
             degrees_of_freedom=solution.cost.degrees_of_freedom,
-            wall_s=median(times[path]),
+            wall_s=min(times[path]),
             error=truth.compare(solution),
             stated_error=state_error(solution),
             linear_solves=solution.cost.linear_solves,

@@ -23,7 +23,7 @@ class Row:
     elements, degrees_of_freedom : int
         Of the finer mesh.
     wall_s : float
-        Median time [s].
+        Shortest of the repeated timings: what else runs can only lengthen one [s].
     error : float
         Worse of the end pulls, relative, against a mesh four times finer than the
         finest that is measured [-].

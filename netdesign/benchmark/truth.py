@@ -31,10 +31,13 @@ class Truth:
 
     def compare_ends(self, solution: Solution) -> tuple[float, float]:
         """Relative errors of the pulls at foot and head [-]."""
-        return (
-            _relative(solution.foot, self.foot),
-            _relative(solution.head, self.head),
-        )
+        return self.compare_pulls(_vector(solution.foot), _vector(solution.head))
+
+    def compare_pulls(
+        self, foot: NDArray[np.float64], head: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """The same of vectors, shape (2,) each [N/m]."""
+        return _relative(foot, self.foot), _relative(head, self.head)
 
 
 def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth:
@@ -95,8 +98,8 @@ def state_error(solution: Solution) -> float:
     return max(pull.error / pull.size for pull in (solution.foot, solution.head))
 
 
-def _relative(pull: EndPull, true: NDArray[np.float64]) -> float:
-    return float(np.hypot(*(_vector(pull) - true)) / np.hypot(*true))
+def _relative(pull: NDArray[np.float64], true: NDArray[np.float64]) -> float:
+    return float(np.hypot(*(pull - true)) / np.hypot(*true))
 
 
 def _vector(pull: EndPull) -> NDArray[np.float64]:

@@ -126,8 +126,9 @@ def find_characteristic(
     str
         Why it cannot be known, or is not usable; "" if it can.
     """
-    named = f" of type {resistance.type_id}" if resistance.type_id else ""
-    what = f"{resistance.member} ({resistance.mode}){named}, cell {resistance.source}"
+    member = f"{resistance.member} ({resistance.mode})"
+    named = f"type {resistance.type_id}" if resistance.type_id else member
+    what = f"{named}, cell {resistance.source}"
     if resistance.value is not None:
         if _is_usable(resistance.value):
             return resistance.value, ""

@@ -102,7 +102,7 @@ class StandardTable:
             StandardValue(
                 id=f"{self.id}[{low}]",
                 clause=self.clause,
-                text=f"{self.text} {self.over}: {low}"
+                text=f"{self.text} {self.over.capitalize()}: {low}"
                 + (" and more" if high == math.inf else f" to {high:g}")
                 * (high != low),
                 value=value,

@@ -135,10 +135,31 @@ def solve_steady(
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
 
 
-def _refine(scene: Scene, settings: SolverSettings) -> Solution:
+def find_end_pulls(
+    scene: Scene, size: MeshSize, settings: SolverSettings
+) -> tuple[Floats, Floats]:
+    """Pulls at foot and head on one mesh, shape (2,) each [N/m], of unknown error.
+
+    A benchmark compares them with the truth; a check takes ``solve_steady``.
+
+    Raises
+    ------
+    SolveError
+        If the mesh gives no converged solution.
+    """
+    problem = _build_problem(scene, _require_net(scene), size)
+    cable = _couple(problem, settings, None).hanging.cable
+    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
+
+
+def _require_net(scene: Scene) -> Net:
     if not isinstance(scene.net, Net):
         raise ModelError("net: a steady net needs a Net; a Wall goes to solve_rigid")
-    net = scene.net
+    return scene.net
+
+
+def _refine(scene: Scene, settings: SolverSettings) -> Solution:
+    net = _require_net(scene)
     states, pulls = refine(
         settings.levels,
         lambda size, coarse: _couple(

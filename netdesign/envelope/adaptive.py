@@ -132,7 +132,7 @@ class Maxima:
         Their answers; None for a failed case.
     maximum, upper_bound : tuple of float
         Of each quantity: largest value found, and largest value that the model
-        allows anywhere in the box, 0 where all are negative; meaningless for a
+        allows anywhere in the box, 0 where all are negative; infinite for a
         quantity that was not watched. Empty if no case succeeded.
     governing : tuple of int
         Place of each maximum in ``points``; of equals the least point.
@@ -321,14 +321,16 @@ def _bound(
 ) -> _Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it."""
     best = _find_best(values, watched)
+    asked = list(watched)
     around = [model.places[np.argmax(column)] for column in values.T]
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
     def reach(at: Floats) -> Floats:
-        mean, claim = model.predict(at)
-        stretch = _stretch(at, surprises, len(best))
-        result: Floats = (
-            mean + settings.certainty * stretch * claim + _NOISE * tolerance
+        mean, claim = model.predict(at, asked)
+        stretch = _stretch(at, surprises, len(best))[:, asked]
+        result: Floats = np.full((len(at), len(best)), np.inf)
+        result[:, asked] = (
+            mean + settings.certainty * stretch * claim + _NOISE * tolerance[asked]
         )
         return result
 
@@ -416,7 +418,11 @@ def _climb(
         step /= 2.0
         for _ in range(dimension):  # one move an axis
             tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-            reached = reach(tried.reshape(-1, dimension))
+            # quantities climb the same way, and steps end at the walls of the box
+            distinct, place = np.unique(
+                tried.reshape(-1, dimension), axis=0, return_inverse=True
+            )
+            reached = reach(distinct)[place.ravel()]
             heights = reached.reshape(len(moves), count, -1)[:, here, owners]
             chosen = heights.argmax(axis=0)
             places = tried[chosen, here]

@@ -38,7 +38,7 @@ from netdesign.envelope.workers import Job
 from netdesign.structure.layout import SupportLayout
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.
-_CONFIRMED_SHARE = 0.25
+_CONFIRMED_SHARE = 0.5
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
 
 # A gap closer than this share of the numerical error is not worth a case.

@@ -141,8 +141,8 @@ def follow_axis(
     shares = np.linspace(0.0, 1.0, count)
     line = np.tile(np.array(through), (count, 1))
     line[:, axis] = shares
-    mean, claim = model.predict(line)
-    return shares, mean[:, quantity], claim[:, quantity]
+    mean, claim = model.predict(line, (quantity,))
+    return shares, mean[:, 0], claim[:, 0]
 
 
 def _compute_indices(model: Surrogate, quantity: int) -> tuple[Floats, Floats]:
@@ -151,12 +151,12 @@ def _compute_indices(model: Surrogate, quantity: int) -> tuple[Floats, Floats]:
     nodes, weights = np.polynomial.legendre.leggauss(_RULE[dimension])
     nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
     grid = np.array(list(product(nodes, repeat=dimension)))
-    values = model.predict(grid).mean[:, quantity]
+    values = model.evaluate(grid, quantity)
     values = values.reshape((len(nodes),) * dimension)
     values = values - _average(values, range(dimension), weights)
     variance = float(_average(values**2, range(dimension), weights))
     first, total = np.zeros(dimension), np.zeros(dimension)
-    if variance <= (1e-9 * np.abs(model.predict(grid[:1]).mean[0, quantity])) ** 2:
+    if variance <= (1e-9 * np.abs(model.evaluate(grid[:1], quantity)[0])) ** 2:
         return first, total
     for axis in range(dimension):
         others = [other for other in range(dimension) if other != axis]

@@ -8,6 +8,7 @@ corner of the ranges widens the claims there. Theory: envelope/THEORY.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from typing import NamedTuple
@@ -55,12 +56,18 @@ class Surrogate:
     _trend_weights: Floats
     _weights: Floats
 
-    def predict(self, at: Floats) -> Prediction:
-        """Mean and standard error at places of shape (n, dimension)."""
+    def predict(
+        self, at: Floats, quantities: Sequence[int] | None = None
+    ) -> Prediction:
+        """Mean and standard error at places of shape (n, dimension).
+
+        Of some quantities only, in the order given, or of all.
+        """
+        chosen = slice(None) if quantities is None else list(quantities)
         distances = _measure_distances(at, self.places)
         near = _correlate(distances)
         trend = _build_trend(at)
-        mean = trend @ self._trend_weights + near @ self._weights
+        mean = trend @ self._trend_weights[:, chosen] + near @ self._weights[:, chosen]
         carried = near @ self._inverse
         lack = trend - carried @ self._trend
         variance = (
@@ -69,16 +76,23 @@ class Surrogate:
             + np.sum((lack @ self._trend_covariance) * lack, axis=1)
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
-        return Prediction(mean=mean, claim=self._scale(distances) * spread[:, None])
+        scale = _fade_scores(distances, self.scores[:, chosen])
+        return Prediction(mean=mean, claim=scale * spread[:, None])
 
-    def _scale(self, distances: Floats) -> Floats:
-        """Largest held-out score around each place, faded with distance."""
-        share = np.maximum(np.exp(-((distances / REACH) ** 2)), FAR_SHARE)
-        columns = [
-            np.max(share * self.scores[:, quantity], axis=1)
-            for quantity in range(self.scores.shape[1])
-        ]
-        return np.stack(columns, axis=1)
+    def evaluate(self, at: Floats, quantity: int) -> Floats:
+        """Mean of one quantity at places of shape (n, dimension)."""
+        near = _correlate(_measure_distances(at, self.places))
+        result: Floats = (
+            _build_trend(at) @ self._trend_weights[:, quantity]
+            + near @ self._weights[:, quantity]
+        )
+        return result
+
+
+def _fade_scores(distances: Floats, scores: Floats) -> Floats:
+    """Largest held-out score around each place, faded with distance."""
+    share = np.maximum(np.exp(-((distances / REACH) ** 2)), FAR_SHARE)
+    return np.stack([np.max(share * column, axis=1) for column in scores.T], axis=1)
 
 
 def fit_surrogate(

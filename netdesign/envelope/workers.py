@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
+import time
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, WallSolution
@@ -26,6 +27,8 @@ DIED = "a worker process ended abruptly"
 _AHEAD = 2  # jobs in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
+_DESERTED_S = 60.0  # how long it may be without a worker; they are being started again
+_POLL_S = 0.01
 
 
 class ClusterError(NetDesignError):
@@ -214,7 +217,8 @@ class DaskCluster:
             for place, job in enumerate(jobs)
         }
         suspects: list[int] = []
-        for future in as_completed(list(places), loop=self._client.loop):
+        arriving = as_completed(list(places), loop=self._client.loop)
+        for future in self._arrivals(arriving):
             try:
                 yield places[future], future.result()
             except KilledWorker:
@@ -223,13 +227,39 @@ class DaskCluster:
             yield place, self._try_alone(jobs[place])
 
     def _try_alone(self, job: Job) -> CaseEnd:
-        from distributed import KilledWorker
+        from distributed import KilledWorker, as_completed
 
+        future = self._client.submit(solve_job, job, pure=False)
+        arriving = as_completed([future], loop=self._client.loop)
         try:
-            end: CaseEnd = self._client.submit(solve_job, job, pure=False).result()
+            end: CaseEnd = next(self._arrivals(arriving)).result()
         except KilledWorker:
             return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
         return end
+
+    def _arrivals(self, arriving: Any) -> Iterator[Any]:
+        """Futures as they finish, as long as the cluster has workers.
+
+        Raises
+        ------
+        ClusterError
+            If it has had none for a while: nothing would ever arrive.
+        """
+        last_seen = time.monotonic()
+        while not arriving.is_empty():
+            finished = arriving.next_batch(block=False)
+            yield from finished
+            if finished:
+                last_seen = time.monotonic()
+                continue
+            time.sleep(_POLL_S)
+            if time.monotonic() - last_seen > _DESERTED_S:
+                if not self._client.scheduler_info()["workers"]:
+                    raise ClusterError(
+                        f"the Dask cluster has had no worker for {_DESERTED_S:.0f} s; "
+                        "finished cases are kept: start workers and run again"
+                    )
+                last_seen = time.monotonic()
 
     def close(self) -> None:
         """Disconnect; what still runs for this client is cancelled."""

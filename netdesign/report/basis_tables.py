@@ -55,9 +55,9 @@ def build_assumptions(study: Study) -> Table:
             *(
                 (
                     word_cell(value.text),
-                    text_cell(show_quantity(value.value, value.unit)),
+                    text_cell(f"{value.id} = {show_quantity(value.value, value.unit)}"),
                     word_cell(value.status),
-                    text_cell(f"{value.id}; {value.source}"),
+                    word_cell(value.source),
                 )
                 for value in study.profile.values
                 if value.status == ASSUMED
@@ -81,7 +81,7 @@ def _group_defaults(study: Study) -> dict[tuple[str, str], str]:
 
 def build_checklist(study: Study) -> Table:
     """Questions of a reviewer, each with what this document says to it."""
-    headings = ("No.", "Question", "What the study says", "Section", "Done")
+    headings = ("No.", "Question", "What the study says", "See", "Done")
     return Table(
         caption="One line each for the reviewer's mark",
         columns=name_columns(headings, numbers=("No.",)),

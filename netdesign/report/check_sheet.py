@@ -13,7 +13,6 @@ from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report.check_view import (
     CheckView,
-    describe_resistance,
     find_utilisation_band,
 )
 from netdesign.report.table import Cell, Column
@@ -59,7 +58,7 @@ class _Field:
 def _field(letter: str, quantity: str, end: str = "") -> _Field:
     row = QUANTITIES[quantity]
     unit = f" [{row.unit}]" if row.unit else ""
-    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 7.5)
+    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 8.3)
 
 
 _LEAD = (
@@ -176,8 +175,8 @@ class _CheckLine:
         texts = (
             show_text(name),
             view.title,
-            show_text(check.clause),
-            describe_resistance(check),
+            view.clause,
+            view.resistance_from,
             view.reason,
         )
         for field, text in zip(fields, texts, strict=True):

@@ -41,7 +41,10 @@ class CheckView:
     """One check in words."""
 
     title: str
-    source: str  # clause, and where the resistance comes from
+    clause: str
+    resistance_type: str
+    resistance_basis: str  # a word of ours
+    resistance_cell: str
     demand: str
     resistance: str
     utilisation: str
@@ -51,6 +54,18 @@ class CheckView:
     case: str
     case_short: str
     reason: str
+
+    @property
+    def resistance_from(self) -> str:
+        """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
+        parts = (self.resistance_type, self.resistance_basis, self.resistance_cell)
+        return show_text(", ".join(part for part in parts if part))
+
+    @property
+    def source(self) -> str:
+        """Clause, and where the resistance comes from."""
+        parts = (self.clause, self.resistance_from)
+        return "; ".join(part for part in parts if part != MISSING) or MISSING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +124,10 @@ def view_check(check: CheckRecord) -> CheckView:
     low, high = find_utilisation_band(check)
     return CheckView(
         title=name_check(check),
-        source=_describe_source(check),
+        clause=show_text(check.clause),
+        resistance_type=check.resistance_type,
+        resistance_basis=check.resistance_basis,
+        resistance_cell=check.resistance_cell,
         demand=show_number("demand_kN", check.demand_kN),
         resistance=show_number("resistance_kN", check.resistance_kN),
         utilisation=show_number("utilisation", check.utilisation),
@@ -120,17 +138,6 @@ def view_check(check: CheckRecord) -> CheckView:
         case_short=name_case_short(check.case),
         reason=show_text(check.reason),
     )
-
-
-def describe_resistance(check: CheckRecord) -> str:
-    """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
-    parts = (check.resistance_type, check.resistance_basis, check.resistance_cell)
-    return show_text(", ".join(part for part in parts if part))
-
-
-def _describe_source(check: CheckRecord) -> str:
-    parts = (show_text(check.clause), describe_resistance(check))
-    return "; ".join(part for part in parts if part != MISSING) or MISSING
 
 
 def _build_bar(

@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from netdesign.quantities import QUANTITIES
 from netdesign.report.figures import ACCENT, GREY, INK, PALE, TEXT_PT
-from netdesign.report.plain_svg import WIDTH, Chart, Frame, bounds_of, shade
+from netdesign.report.plain_svg import (
+    SHADES,
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
+    list_ticks,
+    shade,
+)
 from netdesign.report.words import name_heading, show_given
 from netdesign.study import BoundRecord, EnvelopeRecord, LineRecord, MapRecord
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 26.0, 84.0, 26.0  # heights of a row of panels [pt]
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
-_SHADES = 6  # steps of a legend
+_OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
+
+
+def split_members(record: EnvelopeRecord) -> list[EnvelopeRecord]:
+    """One record for each member with a force: drawings that a page may part."""
+    return [replace(record, bounds=[bound]) for bound in _list_loaded(record)]
 
 
 def draw_maps(record: EnvelopeRecord) -> str:
@@ -45,7 +59,7 @@ def draw_maps(record: EnvelopeRecord) -> str:
                 chart.ring(frame.x(at[0]), frame.y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, "Forces over density and friction")
+    return chart.write(height, _title("Forces over density and friction", record))
 
 
 def draw_lines(record: EnvelopeRecord) -> str:
@@ -70,7 +84,8 @@ def draw_lines(record: EnvelopeRecord) -> str:
             )
             _paint_line(chart, frame, one, bound)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, "Forces along each quantity, with the bound")
+    title = _title("Forces along each quantity, with the bound", record)
+    return chart.write(height, title)
 
 
 def draw_drivers(record: EnvelopeRecord) -> str:
@@ -83,7 +98,7 @@ def draw_drivers(record: EnvelopeRecord) -> str:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
         top += 14.0
         top += _paint_tornado(chart, bound, top)
-    return chart.write(top, "What drives each force")
+    return chart.write(top, _title("What drives each force", record))
 
 
 def _paint_map(
@@ -101,9 +116,9 @@ def _paint_map(
             if row < len(fills) and fills[row] == fills[start]:
                 continue
             bottom, top = frame.y(ys[start]), frame.y(ys[row])
-            # a little overlap: no white lines between cells
-            size = (right - left + 0.2, bottom - top + 0.2)
-            cells.append((left, top, *size, fills[start]))
+            end = min(right + _OVERLAP, frame.left + frame.width)
+            foot = min(bottom + _OVERLAP, frame.top + frame.height)
+            cells.append((left, top, end - left, foot - top, fills[start]))
             start = row
     chart.tiles(cells)
     chart.text(
@@ -118,15 +133,19 @@ def _paint_map(
 
 
 def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
-    step = _PANEL / _SHADES
-    for k in range(_SHADES):
-        value = high - (high - low) * k / (_SHADES - 1)
-        chart.rectangle(
-            WIDTH - _RIGHT + 8.0, top + k * step, 9.0, step, shade(value, low, high)
+    """Bar of all shades, with a few round forces beside it."""
+    left, wide, high_pt = WIDTH - _RIGHT + 8.0, 9.0, _PANEL - 14.0
+    step = high_pt / SHADES
+    chart.tiles(
+        (left, top + k * step, wide, step + 0.1, shade(SHADES - 1 - k, 0, SHADES - 1))
+        for k in range(SHADES)
+    )
+    for value in list_ticks(low, high):
+        y = top + high_pt * (
+            1.0 - ((value - low) / (high - low) if high > low else 0.5)
         )
-        chart.text(
-            WIDTH - _RIGHT + 20.0, top + (k + 0.5) * step + TEXT_PT / 3, f"{value:.4g}"
-        )
+        chart.line([(left + wide, y), (left + wide + 2.5, y)], stroke=GREY, width=0.5)
+        chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
 
 
 def _paint_line(
@@ -206,7 +225,7 @@ def _panel(column: int, columns: int, top: float) -> dict[str, float]:
 
 
 def _name_axis(chart: Chart, frame: Frame, key: str) -> None:
-    base = frame.top + frame.height + 2.3 * TEXT_PT + 3.0
+    base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
     chart.text(frame.left + frame.width / 2, base, _label(key), anchor="middle")
 
 
@@ -225,6 +244,12 @@ def _name(bound: BoundRecord, record: EnvelopeRecord) -> str:
     if record.is_per_metre:
         return f"Tension of the net, {bound.quantity} [kN/m]"
     return f"{QUANTITIES[f'{bound.quantity}_kN'].label} [kN]"
+
+
+def _title(what: str, record: EnvelopeRecord) -> str:
+    """Name of a drawing for those who cannot see it, with its member if it is one."""
+    alone = len(record.bounds) == 1
+    return f"{_name(record.bounds[0], record)}: {what}" if alone else what
 
 
 def _label(key: str) -> str:

@@ -104,7 +104,7 @@ def build_drivers(row: RowStudy) -> Table:
                 number_cell("max_kN", one.at_high_kN),
                 Cell(text=f"{one.first_order:.3f}", number=one.first_order),
                 Cell(text=f"{one.total:.3f}", number=one.total),
-                Cell(text=f"{bound.unexplained or 0.0:.1e}", number=bound.unexplained),
+                Cell(text=f"{bound.unexplained or 0.0:.3f}", number=bound.unexplained),
                 text_cell(_name_flips(bound, one.key)),
             )
             for bound in _list_bounds(row.envelope)

@@ -160,7 +160,7 @@ def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Tabl
 
 def _list_notes(book: Book, view: ReportView) -> Table:
     return Table(
-        caption=book.words("Notes of the importer"),
+        caption=book.words("Notes"),
         columns=(Column(heading=book.words("Note")),),
         rows=tuple((Cell(text=note),) for note in view.notes),
         empty=book.words("none"),

@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Literal
 
 from netdesign.given_files import make_printable
 from netdesign.report.envelope_figure import draw_envelope
-from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
+from netdesign.report.envelope_maps import (
+    draw_drivers,
+    draw_lines,
+    draw_maps,
+    split_members,
+)
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
 from netdesign.report.language import Words
@@ -74,6 +79,7 @@ def render_html(
     words = words or Words()
     environment = build_environment(words)
     environment.filters["subscripts"] = _write_subscripts
+    environment.filters["unbroken"] = _keep_units
     view = build_view(study)
     shown = translate_view(view, words)
     is_full = detail == "full"
@@ -106,12 +112,13 @@ def _draw_row(
     from markupsafe import Markup, escape
 
     record = row.envelope if is_full else None
+    members = split_members(record) if record else []
     drawn = {
         "section": draw_section(row.drawing, anchor) if row.drawing else "",
         "envelope": draw_envelope(row) if is_full and not record else "",
-        "maps": draw_maps(record) if record else "",
-        "lines": draw_lines(record) if record else "",
-        "drivers": draw_drivers(record) if record else "",
+        "maps": "".join(map(draw_maps, members)),
+        "lines": "".join(map(draw_lines, members)),
+        "drivers": "".join(map(draw_drivers, members)),
         "head": draw_head(row.head) if is_full and len(row.head) > 1 else "",
         "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r") if is_full else "",
     }
@@ -129,6 +136,11 @@ def _write_subscripts(symbols: str) -> Markup:
 
     lowered = re.sub(r"_(\w)", r"<sub>\1</sub>", str(escape(symbols)))
     return Markup(lowered)
+
+
+def _keep_units(case: str) -> str:
+    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
+    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
 
 
 def _quote_css(text: str) -> str:

@@ -24,6 +24,8 @@ _GAP = re.compile(r"\{(\w+)(!?)\}")
 _NUMBER = r"[\d.]+"
 _WITH_UNIT = re.compile(r"(?P<stem>.+?) (?P<unit>\[[^\]]*\])")
 _BAND = re.compile(r"(?<=[\d°%]) to (?=[>\d-])")
+_SENTENCE = re.compile(r"[^\W\d_]{2,} +[^\W\d_]{3,}")  # two words in a row
+_BEFORE_SIGN = re.compile(r" (?=[:;?!%»])")  # French sets these apart from the word
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +98,11 @@ class Words:
                     return mark.join(known)
         head, mark, tail = text.partition(": ")
         sentence = self.find(tail) if mark else None
-        return None if sentence is None else f"{self(head)}: {sentence}"
+        return None if sentence is None else f"{self(head)}{self(': ')}{sentence}"
 
     def _translate_band(self, text: str) -> str | None:
+        if _SENTENCE.search(text):  # never half of one
+            return None
         shown, count = _BAND.subn(f" {self.texts['to']} ", text)
         return shown if count else None
 
@@ -116,7 +120,7 @@ def load_words(language: Language) -> Words:
     groups = tomllib.loads(file.read_text(encoding="utf-8"))
     texts = _list_labels(language)
     for group in groups.values():
-        texts |= group
+        texts |= {text: _keep_together(target) for text, target in group.items()}
     patterns = [
         _build_pattern(text, target)
         for text, target in texts.items()
@@ -124,6 +128,11 @@ def load_words(language: Language) -> Words:
     ]
     patterns.sort(key=lambda one: -one.letters)
     return Words(language=language, texts=texts, patterns=tuple(patterns))
+
+
+def _keep_together(text: str) -> str:
+    """Text in which no line begins with a colon or a question mark."""
+    return _BEFORE_SIGN.sub("\u00a0", text)
 
 
 def _list_labels(language: Language) -> dict[str, str]:

@@ -14,6 +14,7 @@ from netdesign.report.figures import GREY, INK, TEXT_PT, WIDTH_IN
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _TICK = 2.5  # length of a tick [pt]
+SHADES = 35  # greys from white to the darkest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,11 +124,11 @@ class Chart:
         for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
             x = frame.x(value)
             path += f"M{x:.1f} {bottom:.1f}v{_TICK}"
-            self.text(x, bottom + _TICK + TEXT_PT, f"{value:g}", anchor="middle")
+            self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
         for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
             y = frame.y(value)
             path += f"M{left:.1f} {y:.1f}h-{_TICK}"
-            self.text(left - _TICK - 1.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+            self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
@@ -168,7 +169,7 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
 def shade(value: float, low: float, high: float) -> str:
     """Grey for a value, white at the low end; prints without colour."""
     share = (value - low) / (high - low) if high > low else 0.0
-    level = 250 - 5 * round(34 * min(1.0, max(0.0, share)))
+    level = 250 - 5 * round((SHADES - 1) * min(1.0, max(0.0, share)))
     return f"#{level:02x}{level:02x}{level:02x}"
 
 

@@ -20,6 +20,7 @@ from netdesign.report.words import (
     name_check,
     name_member,
     show_band,
+    show_quantity,
     show_with_unit,
 )
 from netdesign.study import ChangeRecord, CheckRecord, RowStudy, SpreadRecord
@@ -239,7 +240,7 @@ def describe_change(change: ChangeRecord) -> str:
 
 def _show(value: float | None, unit: str) -> str:
     """Bounds are rounded to the side that passes when they are found."""
-    return MISSING if value is None else f"{value:.6g} {unit}".strip()
+    return MISSING if value is None else show_quantity(value, unit)
 
 
 def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:

@@ -20,7 +20,7 @@ from netdesign.report.workbook_charts import add_utilisation_chart
 from netdesign.study import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 18, 20, 11, 13, 10, 11, 11, 8, 21, 22, 13, 34)
+_WIDTHS = (4, 14, 18, 10, 12, 9, 13, 11, 8, 21, 23, 12, 32)
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # columns D, E, F
 _RATIO, _LIMIT, _FIRST_TEXT, _HELD = 6, 8, 9, "L"
 

@@ -26,6 +26,7 @@ from netdesign.report.words import (
     name_case,
     name_member,
     show_band,
+    show_unit,
 )
 from netdesign.site.model import InputEcho
 from netdesign.study import CasePoint, CaseRecord, RowStudy, Study
@@ -149,7 +150,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
                 word_cell(echo.label),
                 text_cell(echo.text),
                 given_cell(echo.value),
-                text_cell(echo.unit),
+                text_cell(show_unit(echo.unit)),
                 word_cell(echo.cell) if echo.cell == DEFAULT else text_cell(echo.cell),
             )
             for echo in inputs
@@ -168,9 +169,9 @@ def build_profile(study: Study, status: str = "") -> Table:
                 text_cell(value.clause),
                 word_cell(value.text),
                 given_cell(value.value),
-                text_cell(value.unit),
+                text_cell(show_unit(value.unit)),
                 word_cell(value.status),
-                text_cell(value.source),
+                word_cell(value.source),
             )
             for value in study.profile.values
             if status in ("", value.status)
@@ -247,7 +248,6 @@ def build_provenance(study: Study) -> Table:
     pairs = {
         "Command": made.command,
         "Command for this document again": "netdesign report study.json",
-        "Exit code": f"{verdict.exit_code} ({verdict.word})",
         "Results, SHA-256": hash_results(study),
         "Program": f"netdesign {made.version}",
         "Started": made.started,
@@ -260,11 +260,15 @@ def build_provenance(study: Study) -> Table:
         "Schema": study.schema,
     }
     pairs |= {f"Setting: {name}": text for name, text in made.settings.items()}
-    pairs |= {f"Library: {name}": text for name, text in made.libraries.items()}
+    pairs["Libraries"] = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
+    code = word_cell(f"{verdict.exit_code} ({verdict.word})")
     return Table(
         caption="Origin of every number of this report",
         columns=(text_column("Item"), text_column("Value")),
-        rows=tuple((word_cell(name), text_cell(text)) for name, text in pairs.items()),
+        rows=(
+            *((word_cell(name), text_cell(text)) for name, text in pairs.items()),
+            (word_cell("Exit code"), code),
+        ),
     )
 
 

@@ -21,14 +21,14 @@ _WORDS: dict[type, tuple[str, ...]] = {
     Table: ("caption", "empty"),
     Column: ("heading",),
     VerdictWords: ("word", "meaning"),
-    CheckView: ("title", "band", "reason"),
+    CheckView: ("title", "resistance_basis", "band", "reason"),
     Step: ("numbers", "result"),
     Worked: ("title", "needed"),
     RowView: (
         *("counts", "reasons", "unloaded", "flips", "searched"),
         *("guideline_sentence", "notes"),
     ),
-    ReportView: ("counts", "scope", "notes"),
+    ReportView: ("counts", "scope", "notes", "profile_title"),
 }
 _TEXT = re.compile(r"(?<=>)[^<>]+(?=</text>)")
 _LABEL = re.compile(r'(?<= aria-label=")[^"]+(?=")')
@@ -60,7 +60,8 @@ def translate_view(view: View, words: Translate) -> View:
     }
     if isinstance(view, ReportView):
         changed["identification"] = tuple(
-            (words(label), text) for label, text in view.identification
+            (words(label), words(text) if label == "Limit profile" else text)
+            for label, text in view.identification
         )
     translated: View = replace(shown, **changed)
     return translated

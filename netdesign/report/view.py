@@ -28,6 +28,7 @@ from netdesign.report.words import (
     VERDICTS,
     VerdictWords,
     name_case,
+    name_check,
     name_member,
     show_quantity,
     show_text,
@@ -160,7 +161,7 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         counts=_count_verdicts(check.verdict for check in row.checks),
         governing=view_check(governing) if governing else None,
         highest=view_check(highest) if highest and highest != governing else None,
-        reasons=tuple(show_text(reason) for reason in row.reasons),
+        reasons=_name_reasons(row),
         checks=tuple(view_check(check) for check in row.checks),
         worked=work_out(shown) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
@@ -180,6 +181,15 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         guideline=row_tables.build_guideline(row),
         guideline_sentence=row.guideline.sentence if row.guideline else "",
         notes=tuple(show_text(note) for note in row.notes),
+    )
+
+
+def _name_reasons(row: RowStudy) -> tuple[str, ...]:
+    """Reasons of a row, each under the name of its check instead of its key."""
+    names = {f"{check.member}.{check.mode}": name_check(check) for check in row.checks}
+    parts = [reason.partition(": ") for reason in row.reasons]
+    return tuple(
+        show_text(f"{names.get(head, head)}{mark}{rest}") for head, mark, rest in parts
     )
 
 

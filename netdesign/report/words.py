@@ -51,6 +51,7 @@ VERDICTS = {
     ),
 }
 
+_UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "N/mm²"}
 _MODES = {"pull_out": "pull-out"}
 
 
@@ -94,10 +95,17 @@ def show_given(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else MISSING
 
 
+def show_unit(unit: str) -> str:
+    """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
+    return _UNITS.get(unit, show_text(unit))
+
+
 def show_quantity(value: float | str, unit: str) -> str:
     """What somebody chose, with its unit if it has one."""
     text = value if isinstance(value, str) else show_given(value)
-    return show_text(text if unit in ("", MISSING) else f"{text} {unit}")
+    shown = show_unit(unit)
+    gap = "" if shown == "°" else " "
+    return show_text(f"{text}{gap}{shown}" if shown != MISSING else text)
 
 
 def show_share(value: float | None) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from netdesign.checks import Band, CheckResult, Standard, load_standard
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
@@ -68,9 +69,15 @@ class RowEffects:
         )
 
 
+@lru_cache(maxsize=1)
+def load_guideline() -> Standard:
+    """Load the guideline's profile that comes with the program, once."""
+    return load_standard(GUIDELINE)
+
+
 def find_row_glide_factor(row: NetRow) -> float:
     """Glide factor of a row [-]; on a free ground the guideline's largest."""
-    table = load_standard(GUIDELINE).find_table(GLIDE_FACTORS)
+    table = load_guideline().find_table(GLIDE_FACTORS)
     largest = max((value for _, _, value in table.rows), default=1.0) if table else 1.0
     return find_glide_factor(row.ground, row.snow_thickness, largest)
 

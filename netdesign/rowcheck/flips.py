@@ -284,8 +284,9 @@ def _find_violator(
 ) -> Case | str | None:
     """Rival case that still fails most at a value; a text if one is unsolved."""
     worst, largest = None, 1.0
-    for case in _list_rivals(target, build, value):
-        result = probe.solve(*build(value, case))
+    rivals = _list_rivals(target, build, value)
+    results = probe.solve_all([(*build(value, case), probe.law) for case in rivals])
+    for case, result in zip(rivals, results, strict=True):
         utilisation = target.utilisation(result)
         if utilisation is None:
             return f"a case has no result at {value:g}: {result.reason}"

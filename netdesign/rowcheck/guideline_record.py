@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from netdesign.checks import load_standard
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,
@@ -10,7 +9,7 @@ from netdesign.guideline.comparison import (
     compare_with_guideline,
 )
 from netdesign.guideline.load_model import read_load_model
-from netdesign.rowcheck.effects import GUIDELINE, find_row_glide_factor
+from netdesign.rowcheck.effects import find_row_glide_factor, load_guideline
 from netdesign.rowcheck.member_checks import record_point
 from netdesign.site.model import NetRow
 from netdesign.study import GuidelineCase, GuidelineRecord
@@ -37,7 +36,7 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     solution = result.solution
     if solution is None or not result.is_converged:
         return None
-    standard = load_standard(GUIDELINE)
+    standard = load_guideline()
     cases = compare_with_guideline(
         read_load_model(standard),
         NetGeometry(

@@ -215,10 +215,11 @@ def _list_spreads(
 def _list_creep_laws(
     probe: Probe, row: NetRow, extreme: Extreme, scale: float
 ) -> Iterable[SpreadRecord]:
-    for name, law in CREEP_LAWS.items():
-        if name == probe.law.name:
-            continue
-        result = probe.solve(row, extreme.governing.case, law)
+    laws = {k: law for k, law in CREEP_LAWS.items() if k != probe.law.name}
+    results = probe.solve_all(
+        [(row, extreme.governing.case, law) for law in laws.values()]
+    )
+    for name, result in zip(laws, results, strict=True):
         force = result.member_forces.get(extreme.member)
         yield SpreadRecord(
             source=f"creep law {name}",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.grid import Case
-from netdesign.envelope.run import CaseResult, build_task, run_cases
+from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.envelope.runner import Runner
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
@@ -59,12 +61,25 @@ class Probe:
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
         """Result of one case; a failed one is a result too."""
-        law = law or self.law
-        key = (row, case, law.name)
-        if key not in self._known:
-            self.count += 1
-            task = build_task(
-                case, lambda c: build_scene(row, c, law), row.layout, self._settings
-            )
-            (self._known[key],) = run_cases([task], self._runner)
-        return self._known[key]
+        (result,) = self.solve_all([(row, case, law or self.law)])
+        return result
+
+    def solve_all(
+        self, wanted: Sequence[tuple[NetRow, Case, CreepLaw]]
+    ) -> list[CaseResult]:
+        """Results of some cases in their order, the unknown ones solved together."""
+        keys = [(row, case, law.name) for row, case, law in wanted]
+        unknown = {
+            key: self._build_task(*one)
+            for key, one in zip(keys, wanted, strict=True)
+            if key not in self._known
+        }
+        self.count += len(unknown)
+        results = run_cases(list(unknown.values()), self._runner)
+        self._known |= zip(unknown, results, strict=True)
+        return [self._known[key] for key in keys]
+
+    def _build_task(self, row: NetRow, case: Case, law: CreepLaw) -> CaseTask:
+        return build_task(
+            case, lambda c: build_scene(row, c, law), row.layout, self._settings
+        )

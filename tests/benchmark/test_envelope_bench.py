@@ -15,22 +15,29 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import search_rows
 
-TINY = BenchSize(grid=2, rows=1, missed_scenes=1, missed_grid=2, worker_cases=8,
-                 types=1, portfolio=(3, 6))  # fmt: skip
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+TINY = BenchSize(grid=2, rows=1, missed_scenes=1, missed_grid=2, peaks=1,
+                 worker_cases=8, types=1, portfolio=(3, 6))  # fmt: skip
 
 
 @pytest.mark.slow
 def test_the_table_is_complete_and_a_document():
-    found = json.loads(json.dumps(run_envelope_bench(TINY), allow_nan=False))
+    rendered, shown = [], []
+    document = run_envelope_bench(rendered.append, TINY, shown.append)
+    found = json.loads(json.dumps(document, allow_nan=False))
     assert found["schema"] == "netdesign.bench-envelope/1"
-    assert found["is_thinned"]
-    one, grid, site, missed, workers, portfolio = found["rows"]
+    assert found["size"]["rows"] == 1
+    assert found["rows"] == json.loads(json.dumps(shown))
+    one, grid, site, missed, narrow, workers, portfolio = found["rows"]
+    assert all(isinstance(row["reached"], bool) for row in found["rows"])
     assert one["is_closed"]
     assert one["cases"] <= 80
     assert grid["cases"] == 8
-    assert site["second_run_solved"] == 0
+    assert [len(study.rows) for study in rendered] == [1, 1]
+    assert site["second"]["solved"] == 0
+    assert site["second"]["reused"] == site["first"]["solved"] + site["first"]["reused"]
     assert missed["missed"] == 0
+    assert narrow["points"][0]["missed"] == 0
     assert workers["cases"] == 8
     assert [point["rows"] for point in portfolio["points"]] == [3, 6]
 
@@ -38,7 +45,7 @@ def test_the_table_is_complete_and_a_document():
 def test_random_rows_are_the_same_for_the_same_seed():
     assert build_random_task(3) == build_random_task(3)
     assert build_random_task(3) != build_random_task(4)
-    assert BenchSize() != envelope.THINNED
+    assert BenchSize() != envelope.QUICK
 
 
 @pytest.mark.parametrize("seed", [1, 4])

@@ -99,14 +99,14 @@ def describe(one: Attempt) -> tuple[object, ...]:
 
 
 ATTEMPTS = [
-    Attempt(number=0, kind="converged", wall_s=0.5, linear_solves=20, balance=1e-10,
+    Attempt(number=0, kind="converged", cpu_s=0.5, linear_solves=20, balance=1e-10,
             stated_error=0.004),
-    Attempt(number=1, kind="converged", wall_s=0.1, linear_solves=30, balance=3e-9,
+    Attempt(number=1, kind="converged", cpu_s=0.1, linear_solves=30, balance=3e-9,
             stated_error=0.006),
     Attempt(number=2, kind="refused before", reason="net height = 2.5 m is low"),
     Attempt(number=3, kind="refused before", reason="net height = 1e-3 m is low"),
     Attempt(number=4, kind="refused while solving", reason="out_of_validity: 6% pull",
-            wall_s=2.0),
+            cpu_s=2.0),
 ]  # fmt: skip
 
 

@@ -8,6 +8,7 @@ import pytest
 from small_scene import COARSE, build_scene
 
 from netdesign.coupling.scene import Scene
+from netdesign.envelope import workers as workers_module
 from netdesign.envelope.grid import Case
 from netdesign.envelope.state import encode_end
 from netdesign.envelope.workers import (
@@ -129,10 +130,15 @@ def cluster():
     distributed = pytest.importorskip(
         "distributed", reason="the extra is absent: pip install 'netdesign[dask]'"
     )
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
-        dashboard_address="127.0.0.1:0", silence_logs=50,
-    ) as running:  # fmt: skip
+    dask = pytest.importorskip("dask")
+    with (
+        # a scheduler gives a job up after the first worker that it has killed
+        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
+            dashboard_address="127.0.0.1:0", silence_logs=50,
+        ) as running,
+    ):  # fmt: skip
         yield running.scheduler_address.removeprefix("tcp://")
 
 
@@ -155,6 +161,25 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
         workers.close()
     assert (ends[0].outcome, ends[0].reason) == (Outcome.WORKER_FAILED, DIED)
     assert [encode_end(end) for end in ends[1:]] == [encode_end(end) for end in alone]
+
+
+def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
+    class Deserted:
+        def scheduler_info(self):
+            return {"workers": {}}
+
+    class Never:
+        def is_empty(self):
+            return False
+
+        def next_batch(self, block):  # noqa: ARG002
+            return []
+
+    monkeypatch.setattr(workers_module, "_DESERTED_S", 0.0)
+    cluster = DaskCluster.__new__(DaskCluster)
+    cluster._client = Deserted()
+    with pytest.raises(ClusterError, match="no worker for"):
+        next(cluster._arrivals(Never()))
 
 
 @pytest.mark.filterwarnings("ignore")

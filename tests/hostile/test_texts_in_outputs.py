@@ -104,7 +104,7 @@ def test_a_page_holds_tags_of_the_program_alone(text):
     assert reader.attributes <= plain.attributes
     assert not plain.tags & {"script", "foreignobject", "iframe", "object", "embed"}
     assert not any(name.startswith("on") for name in plain.attributes)
-    assert all(sign.isprintable() or sign in "\n\t" for sign in page)
+    assert all(sign.isprintable() or sign in "\n\t\u00a0" for sign in page)
 
 
 def test_a_workbook_holds_formulas_of_the_program_alone(text):

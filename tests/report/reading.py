@@ -2,7 +2,6 @@
 
 import io
 import re
-import shutil
 import subprocess
 import warnings
 import zipfile
@@ -11,6 +10,7 @@ from pathlib import Path
 
 import openpyxl
 from openpyxl.worksheet.worksheet import Worksheet
+from programs import require_program
 
 
 class PageReader(HTMLParser):
@@ -72,11 +72,9 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
     return rows
 
 
-def recalculate(content: bytes, folder: Path) -> bytes | None:
-    """Workbook after LibreOffice filled in every formula; None without it."""
-    soffice = shutil.which("soffice")
-    if soffice is None:
-        return None
+def recalculate(content: bytes, folder: Path) -> bytes:
+    """Workbook after LibreOffice filled in every formula; skips without it."""
+    soffice = require_program("soffice")
     source = folder / "in" / "book.xlsx"
     source.parent.mkdir()
     source.write_bytes(_strip_cached(content))

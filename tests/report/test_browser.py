@@ -1,11 +1,11 @@
 """The page in a real browser: complete, without a violated policy, printed on A4."""
 
 import re
-import shutil
 import subprocess
 
 import pytest
 from build_study import build_study
+from programs import require_program
 
 from netdesign.report.html import list_sections, render_html
 from netdesign.report.language import load_words
@@ -17,10 +17,7 @@ MINIMUM_PT = 595.0, 842.0  # A4
 
 @pytest.fixture(scope="module")
 def browser():
-    found = next(filter(None, map(shutil.which, NAMES)), None)
-    if found is None:
-        pytest.skip("no chromium is installed: the page was not opened in a browser")
-    return found
+    return require_program(*NAMES)
 
 
 def run(browser, folder, *arguments):

@@ -18,9 +18,11 @@ MADE_UP = (
     *("The demand exceeds the resistance.", "The demand stays within the resistance."),
     *("1 of the cases has no result.", "No resistance is given in Anchors!E7."),
     "Downhill anchor, pull-out: no resistance is given.",
+    "25° to 35° lies within 25° to 35°.",
     *("Slope angle", "Snow height", "Ground", "Slack", "Remark", "jobs"),
     *("Setting: jobs", "Partial factor of snow pressure"),
     *("Partial factor of a tendon", "Partial factor of a tested anchor"),
+    *("NF P 95-304 style profile, 1992", "secondary literature, see NOTES.md"),
     *("Smallest inclination of the net", "Largest inclination of the net"),
     *("type =1+1 has 900 kN", "type =1+1 has 900 kN, now 480 kN"),
 )
@@ -57,6 +59,7 @@ def test_no_text_of_the_program_is_missing(language):
 def test_default_profile_and_guideline_are_translated(language):
     words = load_words(language)
     texts = [value.text for value in load_standard(SHIPPED[0]).listed]
+    texts += [value.source for value in load_standard(SHIPPED[0]).listed]
     texts += GUIDELINE_SENTENCES.values()
     assert [text for text in texts if words.find(text) is None] == []
 
@@ -83,15 +86,64 @@ def test_a_missing_text_stays_english(language):
         ("post spacing at most 2.4 m, now 4 m",
          "entraxe des poteaux au plus 2.4 m, actuellement 4 m"),
         ("Coupled solve: 400 kg/m³, φ 45°, θ 35°",
-         "Calcul couplé : 400 kg/m³, φ 45°, θ 35°"),
+         "Calcul couplé\u00a0: 400 kg/m³, φ 45°, θ 35°"),
         ("foot_anchor.tendon: The member is slack in every case and needs no "
          "resistance.",
-         "foot_anchor.tendon: L'élément est détendu dans tous les cas et n'a pas "
+         "foot_anchor.tendon\u00a0: L'élément est détendu dans tous les cas et n'a pas "
          "besoin de résistance."),
     ],
 )  # fmt: skip
 def test_sentences_keep_numbers_symbols_and_keys(english, french):
     assert load_words("fr")(english) == french
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_an_unknown_sentence_is_never_translated_by_half(language):
+    text = "nobody knows this text about 220 to 525 kg/m3 of snow"
+    assert load_words(language)(text) == text
+
+
+NOTES = [
+    'a.xlsx › Nets › Q3: "weather" is no known heading: the column is not read; '
+    "accepted: a known heading",
+    'a.xlsx › Nets › Q3: "hight" is no known heading: the column is not read; '
+    'accepted: a known heading (nearest: "net height [m]")',
+    'a.xlsx › Nets › A9: "see the survey of 2023" is a note below the table: it is '
+    "not read",
+    "a.xlsx › Old: the sheet has no part in the check: it is not read",
+    "a.xlsx › Nets: the sheet is hidden; it was read all the same",
+    'a.xlsx › Nets › A4: "R3" is in a hidden row; it was read all the same',
+    'a.xlsx › Nets › C1: "slack" is in a hidden column; it was read all the same',
+    'a.xlsx › Nets › Z3: "7" stands below no heading: the column is not read',
+    "net row W2: layer densities of 221.7 to 525.5 kg/m3 reach outside the 367 to 917 "
+    "kg/m3 for which the creep law boutillier-2004 is given",
+    "net row W2: its 2 layers of mean density 304.4 kg/m3 keep their proportions; "
+    "their mean follows the range of density",
+]
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+@pytest.mark.parametrize("note", NOTES)
+def test_notes_of_the_importer_are_translated_whole(language, note):
+    shown = load_words(language)(note)
+    left = {"read", "known", "reach", "keep", "their", "below", "hidden", "column"}
+    assert not left & set(re.findall(r"\w+", shown))
+    for part in re.findall(r"[\d.]{3,}|a\.xlsx › \w+", note):
+        assert part in shown
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_no_line_of_a_text_can_begin_with_a_sign_of_punctuation(language):
+    texts = load_words(language).texts.values()
+    assert [text for text in texts if re.search(" [:;?!%»]", text)] == []
+
+
+@pytest.mark.parametrize("profile", SHIPPED)
+def test_titles_of_the_shipped_profiles_are_translated(profile):
+    standard = load_standard(profile)
+    title = f"{standard.title}, {standard.edition}"
+    assert load_words("fr").find(title) is not None
+    assert load_words("de").find(title) is not None
 
 
 def test_what_somebody_typed_is_never_translated():

@@ -67,7 +67,7 @@ def test_interval_is_itemised_and_says_what_counts():
 def test_changes_of_every_check_are_listed():
     lines = texts(build_changes(ROW))
     assert len(lines) == 2 * sum(bool(check.changes) for check in ROW.checks)
-    assert lines[1][2:5] == ["snow density: none", "450 kg/m3", "7"]
+    assert lines[1][2:5] == ["snow density: none", "450 kg/m³", "7"]
 
 
 def test_change_in_words():

@@ -5,7 +5,8 @@ from build_study import SCRIPT, build_study
 from rich.console import Console
 
 from netdesign.report.language import load_words
-from netdesign.report.terminal import print_summary
+from netdesign.report.terminal import open_console, print_summary
+from netdesign.report.view import build_view
 
 
 def printed(study, **options):
@@ -33,7 +34,7 @@ def test_summary_in_french_has_the_same_numbers():
     console = Console(file=stream, width=200)
     print_summary(build_study(), console, load_words("fr"))
     lines = stream.getvalue().splitlines()
-    assert lines[-1].startswith("Verdict: NON SATISFAIT - ")
+    assert lines[-1].startswith("Verdict\u00a0: NON SATISFAIT - ")
     english = printed(build_study()).splitlines()
     for number in range(1, 4):
         numbers = re.findall(r"\d+\.\d+", english[number])
@@ -49,3 +50,20 @@ def test_texts_of_the_site_are_not_markup():
     study = build_study(rows=1)
     object.__setattr__(study.rows[0], "id", "[red]A[/red]\x1b[31m")
     assert "[red]A[/red] [31m" in printed(study)
+
+
+def test_a_narrow_terminal_breaks_no_number_and_no_word():
+    stream = io.StringIO()
+    print_summary(build_study(), Console(file=stream, width=80))
+    text = stream.getvalue()
+    for check in (row.governing for row in build_view(build_study()).rows):
+        for part in (*check.title.split(), check.demand, check.utilisation):
+            assert part in text
+    assert "Utilisation" in text
+
+
+def test_a_pipe_is_as_wide_as_the_table(monkeypatch):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    assert open_console().width == 160
+    monkeypatch.setenv("COLUMNS", "70")
+    assert open_console().width == 70

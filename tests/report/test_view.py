@@ -64,7 +64,7 @@ def test_worked_check_shows_symbols_numbers_and_result():
     steps = build_view(build_study()).rows[0].worked.steps
     demand, resistance, ratio = steps[-3:]
     force = row.extremes[0].max_kN
-    assert demand.numbers == f"1.50 · {force:.1f} kN"
+    assert demand.numbers == f"1.5 · {force:.1f} kN"
     assert demand.result == f"{1.5 * force:.1f} kN"
     assert resistance.result == f"{480 / 1.35:.1f} kN"
     assert ratio.result.startswith(f"{1.5 * force / (480 / 1.35):.3f} (")

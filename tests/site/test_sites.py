@@ -1,12 +1,12 @@
 """Three whole sites, in every kind of file that they may come in."""
 
 import math
-import shutil
 import subprocess
 
 import openpyxl
 import pytest
 from ods_files import write_ods
+from programs import require_program
 from whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,
@@ -32,10 +32,8 @@ def merge_german_headings(workbook):
 
 def convert(path, kind):
     """The same workbook, written by LibreOffice."""
-    if shutil.which("soffice") is None:
-        pytest.skip("LibreOffice is not installed")
     profile = f"-env:UserInstallation=file://{path.parent}/profile"
-    command = ("soffice", profile, "--headless", "--convert-to", kind)
+    command = (require_program("soffice"), profile, "--headless", "--convert-to", kind)
     subprocess.run(
         [*command, "--outdir", str(path.parent), str(path)],
         check=True,
