@@ -123,11 +123,11 @@ def _paint_map(
     chart.tiles(cells)
     chart.text(
         frame.left + frame.width,
-        frame.top - 3.0,
+        frame.top - 5.5,
         f"θ = {show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
-    chart.text(frame.left, frame.top - 3.0, _label("friction_deg"))
+    chart.text(frame.left, frame.top - 5.5, _label("friction_deg"))
     chart.axes(frame)
     _name_axis(chart, frame, "density_kg_m3")
 
