@@ -100,7 +100,7 @@ class Chart:
     def ring(self, x: float, y: float, stroke: str) -> None:
         """Mark of a point [pt]."""
         self.shapes.append(
-            f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" fill="none" '
+            f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" fill="#fff" '
             f'stroke="{stroke}" stroke-width="1.2"/>'
         )
 
