@@ -328,7 +328,7 @@ def main() -> NoReturn:
         click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        error.message = make_printable(error.message)
+        error.message = make_printable(error.message)  # type: ignore[misc]
         error.show()
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
