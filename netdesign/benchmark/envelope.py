@@ -165,7 +165,7 @@ def measure_excess(task: RowTask, found: RowEnvelope, samples: int) -> float | N
     """Largest force of a grid beyond the stated bound, relative; None without cases.
 
     Negative if the bound holds everywhere. Of a large grid those points are solved at
-    which the search's own model comes near a maximum, and every 20th of the others,
+    which the search's own model comes near a maximum, and every 40th of the others,
     in case the model is wrong. Cases that fail count as far as they give a force.
     """
     points = _choose_points(found, samples)
@@ -181,7 +181,7 @@ def measure_excess(task: RowTask, found: RowEnvelope, samples: int) -> float | N
 
 
 def _choose_points(found: RowEnvelope, samples: int) -> list[Point]:
-    """Points of a grid near a maximum of the model, and every 20th of the others."""
+    """Points of a grid near a maximum of the model, and every 40th of the others."""
     axis = [k / (samples - 1) for k in range(samples)]
     grid = list(product(axis, repeat=len(found.task.box.axes)))
     model, maxima = found.maxima.surrogate, found.maxima

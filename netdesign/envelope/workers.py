@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
+import socket
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -26,6 +27,7 @@ DIED = "a worker process ended abruptly"
 _AHEAD = 2  # jobs in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
+_PORTS = 65_536
 
 
 class ClusterError(NetDesignError):
@@ -111,8 +113,7 @@ class ProcessPool:
         waiting = list(enumerate(jobs))[::-1]
         while waiting:
             suspects = yield from self._feed(waiting)
-            for place, job in suspects:
-                yield place, self._try_alone(job)
+            yield from _try_one_by_one(suspects)
 
     def _feed(
         self, waiting: list[tuple[int, Job]]
@@ -133,16 +134,6 @@ class ProcessPool:
             self.close()
             return sorted(held.values(), key=lambda one: one[0])
         return []
-
-    def _try_alone(self, job: Job) -> CaseEnd:
-        """Solve a job that may have killed its worker in a process of its own."""
-        pool = _start_pool(1)
-        try:
-            return pool.submit(solve_job, job).result()
-        except BrokenProcessPool:
-            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
-        finally:
-            _stop(pool)
 
     def _start(self) -> ProcessPoolExecutor:
         if self._pool is None:
@@ -175,6 +166,7 @@ class DaskCluster:
                 f"--executor dask://{address}: needs the extra: "
                 "pip install 'netdesign[dask]'"
             ) from None
+        _require_answer(address)
         try:
             self._client = Client(
                 f"tcp://{address.removeprefix('tcp://')}",
@@ -183,10 +175,7 @@ class DaskCluster:
             )
             versions = self._client.run(identify_solver)
         except (OSError, ValueError) as error:
-            raise ClusterError(
-                f"--executor dask://{address}: no Dask scheduler answers there "
-                f"({type(error).__name__}); start one, or leave the option out"
-            ) from None
+            raise _name_silence(address, error) from None
         others = {v for v in versions.values() if v != identify_solver()}
         if others or not versions:
             self.close()
@@ -245,6 +234,48 @@ def build_workers(executor: str, processes: int) -> Workers:
     if executor:
         raise ClusterError(f"--executor {executor}: accepted is dask://HOST:PORT")
     return OwnProcess() if processes == 1 else ProcessPool(processes)
+
+
+def _require_answer(address: str) -> None:
+    """Refuse at once where nobody listens; Dask would try again and again.
+
+    Raises
+    ------
+    ClusterError
+        Also for an address that is not ``HOST:PORT``.
+    """
+    host, _, port = address.removeprefix("tcp://").rpartition(":")
+    if not (host and port.isascii() and port.isdecimal() and int(port) < _PORTS):
+        raise ClusterError(f"--executor dask://{address}: accepted is dask://HOST:PORT")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
+    except (OSError, ValueError) as error:
+        raise _name_silence(address, error) from None
+
+
+def _name_silence(address: str, error: Exception) -> ClusterError:
+    return ClusterError(
+        f"--executor dask://{address}: no Dask scheduler answers there "
+        f"({type(error).__name__}); start one, or leave the option out"
+    )
+
+
+def _try_one_by_one(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
+    """Solve jobs of which one or more killed their worker, one at a time."""
+    pool: ProcessPoolExecutor | None = None
+    try:
+        for place, job in suspects:
+            pool = pool or _start_pool(1)
+            try:
+                end = pool.submit(solve_job, job).result()
+            except BrokenProcessPool:
+                _stop(pool)
+                pool = None
+                end = CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+            yield place, end
+    finally:
+        if pool is not None:
+            _stop(pool)
 
 
 def _start_pool(processes: int) -> ProcessPoolExecutor:

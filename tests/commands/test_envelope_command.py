@@ -206,8 +206,6 @@ def test_bad_input_is_refused_by_name_and_nothing_is_written(
 
 
 def test_an_unreachable_cluster_is_named_and_ends_with_2(scene, tmp_path):
-    pytest.importorskip("distributed", reason="the extra is absent: pip install "
-                        "'netdesign[dask]'")  # fmt: skip
     result = run(
         "envelope", scene, *RANGES, "--executor", "dask://127.0.0.1:9",
         store=tmp_path / "s",

@@ -126,10 +126,12 @@ def test_workers_go_by_the_number_of_processes():
 
 @pytest.fixture(scope="module")
 def cluster():
-    distributed = pytest.importorskip(
-        "distributed", reason="the extra is absent: pip install 'netdesign[dask]'"
-    )
-    with distributed.LocalCluster(
+    import dask
+    import distributed
+
+    # the first worker that dies is enough; by itself Dask waits for three more
+    soon = dask.config.set({"distributed.scheduler.allowed-failures": 0})
+    with soon, distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
         dashboard_address="127.0.0.1:0", silence_logs=50,
     ) as running:  # fmt: skip
@@ -159,9 +161,14 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
 
 @pytest.mark.filterwarnings("ignore")
 def test_an_unreachable_cluster_is_named():
-    pytest.importorskip("distributed", reason="the extra is absent")
     with pytest.raises(ClusterError, match=r"dask://127\.0\.0\.1:9: no Dask scheduler"):
         DaskCluster("127.0.0.1:9")
+
+
+@pytest.mark.parametrize("address", ["host", ":8786", "host:", "host:x", "host:70000"])
+def test_an_address_without_host_and_port_is_refused(address):
+    with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT"):
+        build_workers(f"dask://{address}", 1)
 
 
 def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
