@@ -49,11 +49,9 @@ ACCURACY = 0.005
 _AXES = ("density", "friction_angle", "inclination")
 _MEGABYTE = 2**20
 _PROCESSES = 2
-_NEAR, _EVERY, _WHOLE = (
-    0.85,
-    20,
-    200,
-)  # which points of a grid are solved: see ``measure_excess``
+# Points of a grid that are solved: near a maximum of the model, every so manyth of
+# the others; of a small grid all.
+_NEAR, _EVERY, _WHOLE = 0.95, 40, 200
 _WIDTHS = (0.6, 0.4, 0.3, 0.2)  # of made-up peaks; the last may be missed
 _ROUNDING = 1e-9
 

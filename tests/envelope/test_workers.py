@@ -3,6 +3,10 @@
 import math
 import multiprocessing
 import os
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 from small_scene import COARSE, build_scene
@@ -108,6 +112,46 @@ def test_an_interrupt_leaves_no_process_behind():
     assert multiprocessing.active_children() == []
 
 
+PARENT = """
+import sys
+sys.path[:0] = {path!r}
+from test_workers import JOBS, ProcessPool
+
+if __name__ == "__main__":
+    pool = ProcessPool(2, worth=1)
+    next(pool.solve(JOBS))
+    print(*pool._pool._processes, flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_a_parent_that_is_killed_leaves_no_process_behind(tmp_path):
+    script = tmp_path / "parent.py"
+    script.write_text(PARENT.format(path=sys.path))
+    parent = subprocess.Popen(
+        [sys.executable, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    workers = [int(number) for number in parent.stdout.readline().split()]
+    assert len(workers) == 2
+    assert all(is_alive(worker) for worker in workers)
+    parent.kill()
+    parent.communicate()
+    limit = time.monotonic() + 10.0
+    while any(is_alive(worker) for worker in workers):
+        assert time.monotonic() < limit
+        time.sleep(0.02)
+
+
+def is_alive(number):
+    """A process that has ended may stay in the list until somebody asks for it."""
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return False
+    state = Path(f"/proc/{number}/stat")
+    return not (state.exists() and state.read_text().split(")")[-1].split()[0] == "Z")
+
+
 @pytest.mark.parametrize("name", ["dask://", "dask", "slurm://x", "tcp://host:1"])
 def test_unknown_executors_are_refused_with_what_is_accepted(name):
     with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT") as caught:
@@ -172,8 +216,6 @@ def test_an_address_without_host_and_port_is_refused(address):
 
 
 def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
-    import sys
-
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(ClusterError, match=r"pip install 'netdesign\[dask\]'"):
         DaskCluster("127.0.0.1:9")
