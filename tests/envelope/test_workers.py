@@ -135,7 +135,9 @@ def test_a_parent_that_is_killed_leaves_no_process_behind(tmp_path):
     assert len(workers) == 2
     assert all(is_alive(worker) for worker in workers)
     parent.kill()
-    parent.communicate()
+    parent.wait()
+    parent.stdin.close()
+    parent.stdout.close()
     limit = time.monotonic() + 10.0
     while any(is_alive(worker) for worker in workers):
         assert time.monotonic() < limit
