@@ -35,7 +35,7 @@ PAIRS = [
     ],
 )
 def test_known_values(convert, given, expected):
-    assert convert(given) == pytest.approx(expected, rel=1e-15)
+    assert convert(given) == pytest.approx(expected, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize(("there", "back"), PAIRS)

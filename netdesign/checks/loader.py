@@ -211,7 +211,13 @@ def _load_folder(folder: Path) -> Standard:
     document = read(DocumentFile, "document.toml")
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
-    if document.choice or "choices.toml" in contents:
+    if document.choice and "choices.toml" not in contents:
+        message = (
+            f"{folder}: lacks choices.toml, in which 'choice' = {document.choice!r} of "
+            "document.toml must stand"
+        )
+        raise StandardError(message)
+    if "choices.toml" in contents:
         choices = read(ChoicesFile, "choices.toml")
         factors = _choose(document.choice, factors, choices, folder)
     entries: list[Entry] = [*limits.limit, *factors]

@@ -14,8 +14,10 @@ from netdesign.checks import (
     judge,
     load_standard,
 )
+from netdesign.checks.check import find_characteristic
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
+from netdesign.resistance.pull_out import PullOutTests
 from netdesign.site.model import Resistance
 
 KN = 1e3
@@ -326,3 +328,105 @@ def test_inclination_without_limits_is_not_proven():
     result = check_inclination(math.radians(26), math.radians(34), a_standard())
     assert result.verdict is Verdict.NOT_PROVEN
     assert "no limits of the net inclination" in result.reason
+
+
+def reason_of(action, resistance=None, standard=None, gap="") -> str:
+    return check_member(
+        action, resistance or a_resistance(), standard or plain_standard(), gap=gap
+    ).reason
+
+
+NO_RESISTANCE = (
+    "no resistance is given for foot_anchor (tendon) of type GEWI 25, cell Anchors!B4"
+)
+
+
+@pytest.mark.parametrize(
+    ("reason", "expected"),
+    [
+        (
+            reason_of(a_band(0.5)),
+            "The demand stays within the resistance over its whole band.",
+        ),
+        (
+            reason_of(a_band(2.0)),
+            "The demand exceeds the resistance over its whole band.",
+        ),
+        (
+            reason_of(a_band(2.0), gap="3 of 40 cases failed"),
+            "The demand exceeds the resistance over its whole band; besides, 3 of 40 "
+            "cases failed.",
+        ),
+        (
+            reason_of(a_band(1.0, 0.5, 1.5)),
+            "Not proven: the band of the demand spans the resistance.",
+        ),
+        (
+            reason_of(a_band(0.0)),
+            "The member is slack in every case and needs no resistance.",
+        ),
+        (reason_of(None), "Not proven: no case was solved."),
+        (reason_of(a_band(0.5), a_resistance(None)), f"Not proven: {NO_RESISTANCE}."),
+        (
+            reason_of(a_band(0.5), a_resistance(None, type_id="")),
+            "Not proven: no resistance is given for foot_anchor (tendon), cell "
+            "Anchors!B4.",
+        ),
+        (
+            reason_of(a_band(0.5), a_resistance(None), gap="1 of 4 cases failed"),
+            f"Not proven: 1 of 4 cases failed; {NO_RESISTANCE}.",
+        ),
+        (
+            reason_of(a_band(0.5), a_resistance(basis=""), a_standard()),
+            "Not proven: the profile has no factor action.snow; the profile has no "
+            "factor resistance.tendon.",
+        ),
+        (
+            reason_of(a_band(0.5), standard=a_standard(a_value("action.snow", 1.0))),
+            "Not proven: the profile has no factor resistance.tendon with basis "
+            "'declared'.",
+        ),
+    ],
+)
+def test_a_reason_says_what_was_found_and_no_more(reason, expected):
+    assert reason == expected
+
+
+def test_without_a_factor_there_is_no_clause():
+    result = check_member(a_band(0.5), a_resistance(), a_standard(), gap="")
+    assert result.clause == "-"
+    inclination = check_inclination(0.5, 0.6, a_standard())
+    assert inclination.clause == "-"
+    assert inclination.reason == (
+        "Not proven: the profile has no limits of the net inclination."
+    )
+
+
+@pytest.mark.parametrize("end", ["min", "max"])
+def test_one_limit_of_the_inclination_alone_proves_nothing(end):
+    values = [v for v in plain_standard().values if v.id.endswith(end)]
+    result = check_inclination(0.5, 0.55, a_standard(*values))
+    assert result.verdict is Verdict.NOT_PROVEN
+
+
+@pytest.mark.parametrize("left_out", ["mean", "least"])
+def test_tests_need_both_of_their_correlation_factors(left_out):
+    """Three tests of 300, 330 and 390 kN; EN 1997 correlates mean and least."""
+    standard = load_standard("eurocode")
+    tests = PullOutTests(count=3, mean=340 * KN, least=300 * KN)
+    given = Resistance(
+        member="foot_anchor",
+        mode="pull_out",
+        value=None,
+        basis="tested",
+        type_id="A1",
+        source="Anchors!B2",
+        tests=tests,
+    )
+    value, lack = find_characteristic(given, standard)
+    assert lack == ""
+    assert 0.0 < value <= 300 * KN
+    tables = tuple(t for t in standard.tables if not t.id.endswith(left_out))
+    value, lack = find_characteristic(given, replace(standard, tables=tables))
+    assert value is None
+    assert lack.startswith("the profile has no correlation factors for 3 tests")

@@ -50,10 +50,18 @@ def test_at_the_bounds(changes, mode, verdict):
     assert verdicts(**changes)[mode] is verdict
 
 
+def test_a_gap_and_a_distance_below_a_metre_are_within():
+    assert verdicts(gap=0.0)["gap"] is Verdict.PASS
+    assert verdicts(upslope_length=0.5)["spacing"] is Verdict.PASS
+
+
 def test_row_spacing_of_the_guideline():
     """f_L = 2 * 1 / (1 - 0.55) = 4.444 at 45 degrees; H_K = 3 / cos 45 = 4.243 m."""
     largest = compute_largest_row_spacing(math.radians(45), 3.0, 0.55)
     assert largest == pytest.approx(4.4444 * 4.2426, rel=1e-4)
+    # tan 38 = 0.78129: f_L = 1.56257 / 0.23129 = 6.7560; H_K = 3.8071 m
+    largest = compute_largest_row_spacing(math.radians(38), 3.0, 0.55)
+    assert largest == pytest.approx(25.721, rel=1e-4)
     at_45 = {"slope_angle": math.radians(45)}
     assert verdicts(upslope_length=18.8, **at_45)["spacing"] is Verdict.PASS
     assert verdicts(upslope_length=18.9, **at_45)["spacing"] is Verdict.FAIL
@@ -69,3 +77,72 @@ def test_limits_that_a_profile_lacks_are_not_checked():
     assert [(c.mode, c.verdict) for c in check_geometry(ROW, bare)] == [
         ("inclination", Verdict.NOT_PROVEN)
     ]
+
+
+INSIDE = "lies inside 25 to 35 degrees."
+REASONS = [
+    ("inclination", {}, f"The net inclination 25 to 35 degrees {INSIDE}"),
+    (
+        "inclination",
+        {"inclination_low": math.nan},
+        "The net inclination nan to 35 degrees is not all inside 25 to 35 degrees.",
+    ),
+    ("slope", {}, "The slope angle 38 degrees lies inside 30 to 50 degrees."),
+    (
+        "slope",
+        {"slope_angle": math.radians(29)},
+        "The slope angle 29 degrees lies outside 30 to 50 degrees.",
+    ),
+    ("height", {}, "The net height 3 m reaches the 3 m that are needed."),
+    (
+        "height",
+        {"net_height": 2.5},
+        "The net height 2.5 m does not reach the 3 m that are needed.",
+    ),
+    ("spacing", {}, "The distance of the rows 20 m is within f_L H_K = 25.72 m."),
+    (
+        "spacing",
+        {"upslope_length": 30.0},
+        "The distance of the rows 30 m exceeds f_L H_K = 25.72 m.",
+    ),
+    ("gap", {}, "The gap to the next work 1 m is within 2 m."),
+    ("gap", {"gap": 3.0}, "The gap to the next work 3 m exceeds 2 m."),
+    ("gap", {"gap": math.inf}, "Not proven: no gap to the next work is given."),
+]
+
+
+@pytest.mark.parametrize(("mode", "changes", "reason"), REASONS)
+def test_each_check_says_what_it_compared(mode, changes, reason):
+    (check,) = (
+        c for c in check_geometry(replace(ROW, **changes), SWISS) if c.mode == mode
+    )
+    assert check.reason == reason
+    assert (check.id, check.member) == (f"geometry.{mode}", "net")
+
+
+@pytest.mark.parametrize(
+    ("mode", "ids"),
+    [
+        ("inclination", ("geometry.inclination.min", "geometry.inclination.max")),
+        ("slope", ("geometry.slope.min", "geometry.slope.max")),
+        ("height", ("geometry.height.ratio",)),
+        ("spacing", ("geometry.spacing.ground_friction",)),
+        ("gap", ("geometry.gap.max",)),
+    ],
+)
+def test_each_check_names_its_clause_and_what_is_only_assumed(mode, ids):
+    values = tuple(
+        replace(value, status="assumed", clause=f"clause of {value.id}")
+        for value in SWISS.values
+    )
+    checks = check_geometry(ROW, replace(SWISS, values=values))
+    (check,) = (c for c in checks if c.mode == mode)
+    assert check.assumed == ids
+    assert check.clause == f"clause of {ids[0]}"
+
+
+def test_one_end_of_a_range_alone_is_no_limit():
+    for left_out in ("geometry.slope.min", "geometry.slope.max"):
+        values = tuple(v for v in SWISS.values if v.id != left_out)
+        checks = check_geometry(ROW, replace(SWISS, values=values))
+        assert "slope" not in {check.mode for check in checks}

@@ -144,7 +144,7 @@ def test_unknown_id_names_the_nearest():
 def test_unknown_id_far_from_all_names_what_is_accepted():
     with pytest.raises(StandardError) as caught:
         load_standard("zzz")
-    assert "did you mean" not in str(caught.value)
+    assert str(caught.value).startswith("limit profile 'zzz' is unknown: Accepted are")
     assert f"Accepted are {', '.join(list_standards())}, or" in str(caught.value)
     assert "path of a profile folder" in str(caught.value)
 
@@ -152,8 +152,48 @@ def test_unknown_id_far_from_all_names_what_is_accepted():
 @pytest.mark.parametrize("name", ["document.toml", "limits.toml", "factors.toml"])
 def test_missing_file_is_named(folder, name):
     (folder / name).unlink()
-    with pytest.raises(StandardError, match=f"lacks {name}"):
+    with pytest.raises(StandardError, match=f"lacks {name}; needs document"):
         load_standard(folder)
+
+
+def test_all_missing_and_all_foreign_files_are_named(folder):
+    (folder / "more.toml").write_text("")
+    (folder / "again.toml").write_text("")
+    needed = "document.toml, limits.toml, factors.toml"
+    accepted = f"{needed}, model.toml, tables.toml, choices.toml"
+    expected = f"unknown file again.toml, more.toml; accepted are {accepted} and *.md"
+    with pytest.raises(StandardError, match=re.escape(expected) + "$"):
+        load_standard(folder)
+    for name in ("limits.toml", "factors.toml"):
+        (folder / name).unlink()
+    expected = f"lacks limits.toml, factors.toml; needs {needed}"
+    with pytest.raises(StandardError, match=re.escape(expected) + "$"):
+        load_standard(folder)
+
+
+def test_a_file_that_is_too_large_is_refused_with_the_folder(folder):
+    (folder / "NOTES.md").write_text("a" * 300_000)
+    with pytest.raises(
+        StandardError, match=r"mine: cannot be read: is larger than 256"
+    ):
+        load_standard(folder)
+
+
+def test_a_choice_without_a_file_of_choices_is_refused(folder):
+    with (folder / "document.toml").open("a") as file:
+        file.write('choice = "annex"\n')
+    with pytest.raises(StandardError, match=r"lacks choices\.toml, .*'annex'"):
+        load_standard(folder)
+
+
+def test_choices_without_a_choice_are_refused_with_what_is_accepted(folder):
+    shutil.copy(find_resource("standards") / "eurocode" / "choices.toml", folder)
+    with pytest.raises(StandardError) as caught:
+        load_standard(folder)
+    assert str(caught.value) == (
+        f"{folder / 'document.toml'}: 'choice' = '': must be one of recommended-da2, "
+        "anchors-da2, en-1537, denmark (choices.toml)"
+    )
 
 
 def test_wrong_value_is_refused_with_file_and_key(folder):

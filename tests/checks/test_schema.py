@@ -6,9 +6,11 @@ import pytest
 
 from netdesign.checks.schema import (
     FACTOR_IDS,
+    ChoicesFile,
     DocumentFile,
     FactorsFile,
     LimitsFile,
+    TablesFile,
     check_table,
 )
 from netdesign.errors import StandardError
@@ -82,6 +84,17 @@ def test_unknown_key_is_refused_with_the_accepted_ones():
     )
 
 
+def test_an_unknown_key_further_in_is_refused_with_those_of_its_place():
+    choice = {"name": "annex", "text": "An annex.", "factor": [an_entry(valeu=1)]}
+    message = refusal(ChoicesFile, {"choice": [choice]})
+    assert "accepted are id, clause, text, value, unit, status, source" in message
+    table = an_entry(id="correlation.tests.mean", over="tests")
+    del table["value"]
+    rows = [{"from": 1, "to": math.inf, "value": 1.4, "valeu": 1.4}]
+    message = refusal(TablesFile, {"table": [table | {"rows": rows}]})
+    assert message.endswith("'valeu': unknown key; accepted are from, to, value")
+
+
 @pytest.mark.parametrize("key", list(an_entry()))
 def test_every_key_of_an_entry_is_needed(key):
     entry = an_entry()
@@ -144,11 +157,17 @@ def test_same_id_twice_is_refused():
     message = refusal(FactorsFile, {"factor": [an_entry(), an_entry(value=1.0)]})
     assert "twice or more: action.snow" in message
     message = refusal(LimitsFile, {"limit": [*some_limits(), *some_limits()]})
-    assert "twice or more: geometry.inclination.max" in message
+    assert message == (
+        "my.toml: whole file: each id may stand once; twice or more: "
+        "geometry.inclination.max, geometry.inclination.min"
+    )
 
 
 def test_one_end_of_a_range_alone_is_refused():
-    assert "only accepted together" in refusal(LimitsFile, {"limit": some_limits()[:1]})
+    assert refusal(LimitsFile, {"limit": some_limits()[:1]}) == (
+        "my.toml: whole file: geometry.inclination.min and geometry.inclination.max "
+        "are only accepted together"
+    )
 
 
 @pytest.mark.parametrize(("low", "high"), [(35.0, 25.0), (30.0, 30.0)])

@@ -145,6 +145,27 @@ def test_a_database_of_something_else_is_left_as_it_was(opened, said, tmp_path):
     kept.close()
 
 
+def test_a_store_that_does_not_say_whose_it_is_is_set_aside(opened, said, tmp_path):
+    with opened() as one:
+        one.keep("a", solve_one())
+    base = sqlite3.connect(tmp_path / "cases.sqlite")
+    base.execute("DELETE FROM origin")
+    base.commit()
+    base.close()
+    with opened() as other:
+        assert other.find(["a"]) == {}
+    assert "belongs to version ? of the solver" in said[0]
+
+
+def test_a_case_that_holds_no_number_is_solved_anew(opened, said):
+    end = solve_one()
+    spoilt = replace(end.state, foot=replace(end.state.foot, x=math.nan))
+    with opened() as one:
+        one.keep("a", replace(end, state=spoilt))
+        assert one.find(["a"]) == {}
+    assert "case a is damaged" in said[0]
+
+
 def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
     with opened() as one:
         one.keep("a", solve_one())

@@ -423,8 +423,10 @@ PROFILE_FILES = sorted(
 
 
 @st.composite
-def spoilt_profile(draw: st.DrawFn) -> tuple[Path, bytes]:
+def spoilt_profile(draw: st.DrawFn) -> tuple[Path, bytes | None]:
     name = draw(st.sampled_from(PROFILE_FILES))
+    if draw(st.integers(0, 19)) == 0:
+        return name, None  # the file is missing
     sound = (find_resource("standards") / name).read_bytes()
     if draw(st.booleans()):
         return name, draw(spoilt_bytes(lambda: sound))
@@ -432,12 +434,15 @@ def spoilt_profile(draw: st.DrawFn) -> tuple[Path, bytes]:
     return name, write_toml(tables).encode("utf-8", "surrogatepass")
 
 
-def try_profile(drawn: tuple[Path, bytes]) -> None:
+def try_profile(drawn: tuple[Path, bytes | None]) -> None:
     name, content = drawn
     folder = scratch() / "profiles" / name.parent
     if not folder.exists():
         shutil.copytree(find_resource("standards") / name.parent, folder)
-    (folder / name.name).write_bytes(content)
+    if content is None:
+        (folder / name.name).unlink()
+    else:
+        (folder / name.name).write_bytes(content)
     try:
         found = attempt(lambda: load_standard(folder))
     finally:
