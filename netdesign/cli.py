@@ -5,6 +5,7 @@ Imports of anything heavy stand inside the commands that need it: help is instan
 
 from __future__ import annotations
 
+import gc
 import io
 import json
 import os
