@@ -7,7 +7,10 @@ worker that dies costs the one case that kills it, by name.
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
+import socket
+import threading
 import time
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -27,6 +30,7 @@ DIED = "a worker process ended abruptly"
 _AHEAD = 2  # jobs in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
+_PORTS = 65_536
 _DESERTED_S = 60.0  # how long it may be without a worker; they are being started again
 _POLL_S = 0.01
 
@@ -118,8 +122,7 @@ class ProcessPool:
         waiting = list(enumerate(jobs))[::-1]
         while waiting:
             suspects = yield from self._feed(waiting)
-            for place, job in suspects:
-                yield place, self._try_alone(job)
+            yield from _try_one_by_one(suspects)
 
     def _feed(
         self, waiting: list[tuple[int, Job]]
@@ -140,16 +143,6 @@ class ProcessPool:
             self.close()
             return sorted(held.values(), key=lambda one: one[0])
         return []
-
-    def _try_alone(self, job: Job) -> CaseEnd:
-        """Solve a job that may have killed its worker in a process of its own."""
-        pool = _start_pool(1)
-        try:
-            return pool.submit(solve_job, job).result()
-        except BrokenProcessPool:
-            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
-        finally:
-            _stop(pool)
 
     def _start(self) -> ProcessPoolExecutor:
         if self._pool is None:
@@ -182,6 +175,7 @@ class DaskCluster:
                 f"--executor dask://{address}: needs the extra: "
                 "pip install 'netdesign[dask]'"
             ) from None
+        _require_answer(address)
         try:
             self._client = Client(
                 f"tcp://{address.removeprefix('tcp://')}",
@@ -190,10 +184,7 @@ class DaskCluster:
             )
             versions = self._client.run(identify_solver)
         except (OSError, ValueError) as error:
-            raise ClusterError(
-                f"--executor dask://{address}: no Dask scheduler answers there "
-                f"({type(error).__name__}); start one, or leave the option out"
-            ) from None
+            raise _name_silence(address, error) from None
         others = {v for v in versions.values() if v != identify_solver()}
         if others or not versions:
             self.close()
@@ -281,6 +272,48 @@ def build_workers(executor: str, processes: int) -> Workers:
     return OwnProcess() if processes == 1 else ProcessPool(processes)
 
 
+def _require_answer(address: str) -> None:
+    """Refuse at once where nobody listens; Dask would try again and again.
+
+    Raises
+    ------
+    ClusterError
+        Also for an address that is not ``HOST:PORT``.
+    """
+    host, _, port = address.removeprefix("tcp://").rpartition(":")
+    if not (host and port.isascii() and port.isdecimal() and int(port) < _PORTS):
+        raise ClusterError(f"--executor dask://{address}: accepted is dask://HOST:PORT")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
+    except (OSError, ValueError) as error:
+        raise _name_silence(address, error) from None
+
+
+def _name_silence(address: str, error: Exception) -> ClusterError:
+    return ClusterError(
+        f"--executor dask://{address}: no Dask scheduler answers there "
+        f"({type(error).__name__}); start one, or leave the option out"
+    )
+
+
+def _try_one_by_one(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
+    """Solve jobs of which one or more killed their worker, one at a time."""
+    pool: ProcessPoolExecutor | None = None
+    try:
+        for place, job in suspects:
+            pool = pool or _start_pool(1)
+            try:
+                end = pool.submit(solve_job, job).result()
+            except BrokenProcessPool:
+                _stop(pool)
+                pool = None
+                end = CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+            yield place, end
+    finally:
+        if pool is not None:
+            _stop(pool)
+
+
 def _start_pool(processes: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(
         processes, mp_context=multiprocessing.get_context("spawn"), initializer=_begin
@@ -288,8 +321,17 @@ def _start_pool(processes: int) -> ProcessPoolExecutor:
 
 
 def _begin() -> None:
-    """First act of a worker."""
+    """First act of a worker: it leaves Ctrl-C to its parent, and ends with it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """A parent that is killed says nothing, and its workers would wait for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _stop(pool: ProcessPoolExecutor) -> None:

@@ -14,6 +14,7 @@ from netdesign.report.plain_svg import (
     Chart,
     Frame,
     bounds_of,
+    drop_straight,
     list_ticks,
     shade,
 )
@@ -51,12 +52,16 @@ def draw_maps(record: EnvelopeRecord) -> str:
             ),
         )
         low, high = bounds_of(row for one in bound.maps for row in one.force_kN)
-        for column, one in enumerate(bound.maps):
-            frame = _place_panel(column, len(bound.maps), top, one)
-            _paint_map(chart, frame, one, low, high)
-            if column == nearest:
-                at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
-                chart.ring(frame.x(at[0]), frame.y(at[1]), ACCENT)
+        frames = [
+            _place_panel(column, len(bound.maps), top, one)
+            for column, one in enumerate(bound.maps)
+        ]
+        pairs = list(zip(frames, bound.maps, strict=True))
+        chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
+        for frame, one in pairs:
+            _name_map(chart, frame, one)
+        at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
+        chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
     return chart.write(height, _title("Forces over density and friction", record))
@@ -101,10 +106,10 @@ def draw_drivers(record: EnvelopeRecord) -> str:
     return chart.write(top, _title("What drives each force", record))
 
 
-def _paint_map(
-    chart: Chart, frame: Frame, one: MapRecord, low: float, high: float
-) -> None:
-    """Cells around the points of the map, clipped to its frame."""
+def _list_cells(
+    frame: Frame, one: MapRecord, low: float, high: float
+) -> list[tuple[float, float, float, float, str]]:
+    """Cells around the points of the map, clipped to its frame: tiles of a chart."""
     xs = _edges(one.density_kg_m3)
     ys = _edges(one.friction_deg)
     cells = []
@@ -120,14 +125,18 @@ def _paint_map(
             foot = min(bottom + _OVERLAP, frame.top + frame.height)
             cells.append((left, top, end - left, foot - top, fills[start]))
             start = row
-    chart.tiles(cells)
+    return cells
+
+
+def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+    """Axes of a map and their names."""
     chart.text(
         frame.left + frame.width,
-        frame.top - 3.0,
+        frame.top - 5.5,
         f"θ = {show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
-    chart.text(frame.left, frame.top - 3.0, _label("friction_deg"))
+    chart.text(frame.left, frame.top - 5.5, _label("friction_deg"))
     chart.axes(frame)
     _name_axis(chart, frame, "density_kg_m3")
 
@@ -152,10 +161,12 @@ def _paint_line(
     chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord
 ) -> None:
     def trace(forces: Sequence[float]) -> list[tuple[float, float]]:
-        return [
-            (frame.x(value), frame.y(min(force, frame.y_high)))
-            for value, force in zip(one.values, forces, strict=True)
-        ]
+        return drop_straight(
+            [
+                (frame.x(value), frame.y(min(force, frame.y_high)))
+                for value, force in zip(one.values, forces, strict=True)
+            ]
+        )
 
     chart.area([*trace(one.force_kN), *trace(one.bound_kN)[::-1]], PALE)
     chart.line(trace(one.bound_kN), stroke=GREY, width=0.6, dash="3 2")

@@ -215,6 +215,41 @@ def linearise_reaction(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floa
     return -np.array([cosine * first - sine * second, sine * first + cosine * second])
 
 
+def remove_rounding(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> FlowState:
+    """State whose stresses balance better, eq. (F13).
+
+    Snow that moves far faster than it deforms, on a free ground or beside much softer
+    layers, leaves the rounding of its velocities in the balance. A last correction,
+    small, is added to the stresses themselves.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    material = sample_material(law, mesh.template)
+    tangent = linearise_creep(law, material, state.stress)
+    blocks = [build_stiffness(mesh, tangent.modulus)]
+    base = None
+    if state.base_shear is not None:
+        base = _linearise_base(law, state.base_shear, state.contact)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+    residual = compute_residual(law, mesh, state)
+    change = _solve_step(law, mesh, state.contact, blocks, residual)
+    still = Tangent(modulus=tangent.modulus, kept=np.zeros_like(state.stress))
+    stress = state.stress + advance_stress(law, still, compute_strain(mesh, change))
+    base_shear = state.base_shear
+    if base is not None and base_shear is not None:
+        base_shear = base_shear + base.modulus * compute_base_velocity(mesh, change)
+    return replace(
+        state,
+        unknowns=state.unknowns + change,
+        reaction=residual + sum(block.multiply(change) for block in blocks),
+        stress=stress,
+        base_shear=base_shear,
+    )
+
+
 def compute_residual(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floats:
     """Internal less external nodal forces (n_dofs,): the reactions of the supports."""
     material = sample_material(law, mesh.template)

@@ -3,6 +3,10 @@
 import math
 import multiprocessing
 import os
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 from small_scene import COARSE, build_scene
@@ -109,6 +113,48 @@ def test_an_interrupt_leaves_no_process_behind():
     assert multiprocessing.active_children() == []
 
 
+PARENT = """
+import sys
+sys.path[:0] = {path!r}
+from test_workers import JOBS, ProcessPool
+
+if __name__ == "__main__":
+    pool = ProcessPool(2, worth=1)
+    next(pool.solve(JOBS))
+    print(*pool._pool._processes, flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_a_parent_that_is_killed_leaves_no_process_behind(tmp_path):
+    script = tmp_path / "parent.py"
+    script.write_text(PARENT.format(path=sys.path))
+    parent = subprocess.Popen(
+        [sys.executable, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    workers = [int(number) for number in parent.stdout.readline().split()]
+    assert len(workers) == 2
+    assert all(is_alive(worker) for worker in workers)
+    parent.kill()
+    parent.wait()
+    parent.stdin.close()
+    parent.stdout.close()
+    limit = time.monotonic() + 10.0
+    while any(is_alive(worker) for worker in workers):
+        assert time.monotonic() < limit
+        time.sleep(0.02)
+
+
+def is_alive(number):
+    """A process that has ended may stay in the list until somebody asks for it."""
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return False
+    state = Path(f"/proc/{number}/stat")
+    return not (state.exists() and state.read_text().split(")")[-1].split()[0] == "Z")
+
+
 @pytest.mark.parametrize("name", ["dask://", "dask", "slurm://x", "tcp://host:1"])
 def test_unknown_executors_are_refused_with_what_is_accepted(name):
     with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT") as caught:
@@ -127,18 +173,15 @@ def test_workers_go_by_the_number_of_processes():
 
 @pytest.fixture(scope="module")
 def cluster():
-    distributed = pytest.importorskip(
-        "distributed", reason="the extra is absent: pip install 'netdesign[dask]'"
-    )
-    dask = pytest.importorskip("dask")
-    with (
-        # a scheduler gives a job up after the first worker that it has killed
-        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
-            dashboard_address="127.0.0.1:0", silence_logs=50,
-        ) as running,
-    ):  # fmt: skip
+    import dask
+    import distributed
+
+    # the first worker that dies is enough; by itself Dask waits for three more
+    soon = dask.config.set({"distributed.scheduler.allowed-failures": 0})
+    with soon, distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1",
+        dashboard_address="127.0.0.1:0", silence_logs=50,
+    ) as running:  # fmt: skip
         yield running.scheduler_address.removeprefix("tcp://")
 
 
@@ -184,14 +227,17 @@ def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
 
 @pytest.mark.filterwarnings("ignore")
 def test_an_unreachable_cluster_is_named():
-    pytest.importorskip("distributed", reason="the extra is absent")
     with pytest.raises(ClusterError, match=r"dask://127\.0\.0\.1:9: no Dask scheduler"):
         DaskCluster("127.0.0.1:9")
 
 
-def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
-    import sys
+@pytest.mark.parametrize("address", ["host", ":8786", "host:", "host:x", "host:70000"])
+def test_an_address_without_host_and_port_is_refused(address):
+    with pytest.raises(ClusterError, match="accepted is dask://HOST:PORT"):
+        build_workers(f"dask://{address}", 1)
 
+
+def test_without_the_extra_the_way_to_it_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(ClusterError, match=r"pip install 'netdesign\[dask\]'"):
         DaskCluster("127.0.0.1:9")

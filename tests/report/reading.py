@@ -72,12 +72,16 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
     return rows
 
 
-def recalculate(content: bytes, folder: Path) -> bytes:
-    """Workbook after LibreOffice filled in every formula; skips without it."""
+def recalculate(books: dict[str, bytes], folder: Path) -> dict[str, bytes]:
+    """Workbooks by name after LibreOffice filled in every formula; skips without it.
+
+    All in one run: most of its time goes into the start.
+    """
     soffice = require_program("soffice")
-    source = folder / "in" / "book.xlsx"
-    source.parent.mkdir()
-    source.write_bytes(_strip_cached(content))
+    (folder / "in").mkdir()
+    sources = [folder / "in" / f"{name}.xlsx" for name in books]
+    for source, content in zip(sources, books.values(), strict=True):
+        source.write_bytes(_strip_cached(content))
     subprocess.run(
         [
             soffice,
@@ -87,13 +91,13 @@ def recalculate(content: bytes, folder: Path) -> bytes:
             "xlsx",
             "--outdir",
             str(folder / "out"),
-            str(source),
+            *map(str, sources),
         ],
         check=True,
         capture_output=True,
         timeout=180,
     )
-    return (folder / "out" / "book.xlsx").read_bytes()
+    return {path.stem: (folder / "out" / path.name).read_bytes() for path in sources}
 
 
 def _strip_cached(content: bytes) -> bytes:

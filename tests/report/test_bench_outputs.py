@@ -51,7 +51,7 @@ def test_rows_on_a_terminal():
 
 def test_a_stress_test_on_a_terminal():
     attempts = [
-        Attempt(number=0, kind="converged", wall_s=0.5, balance=1e-10),
+        Attempt(number=0, kind="converged", cpu_s=0.5, balance=1e-10),
         Attempt(number=1, kind="failed", reason="[diverged] wholly"),
         Attempt(number=2, kind="refused before", reason="too low"),
     ]
@@ -65,9 +65,9 @@ def test_a_stress_test_on_a_terminal():
 def test_honesty_on_a_terminal():
     findings = [
         Finding(
-            number=0, true_error=0.001, stated_error=0.002, is_inside=True, wall_s=1
+            number=0, true_error=0.001, stated_error=0.002, is_inside=True, cpu_s=1
         ),
-        Finding(number=1, true_error=0.02, stated_error=0.01, wall_s=1),
+        Finding(number=1, true_error=0.02, stated_error=0.01, cpu_s=1),
         Finding(number=2, missing="finer mesh: diverged"),
     ]
     text = printed(print_errors, write_errors(findings, 1, 0.005))

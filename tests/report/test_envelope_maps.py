@@ -72,7 +72,7 @@ DRAWINGS = [draw_maps, draw_lines, draw_drivers]
 
 
 def shapes(svg, tag):
-    return ET.fromstring(svg).findall(f"{NS}{tag}")
+    return list(ET.fromstring(svg).iter(f"{NS}{tag}"))
 
 
 @pytest.mark.parametrize("draw", DRAWINGS)

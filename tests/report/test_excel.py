@@ -33,6 +33,30 @@ def content():
     return render_workbook(STUDY)
 
 
+@pytest.fixture(scope="module")
+def fresh(content, tmp_path_factory):
+    """Recalculated workbooks: of each language, and an edited English one."""
+    books = {
+        "en": content,
+        "edited": edit(content),
+        **{name: render_workbook(STUDY, load_words(name)) for name in ("fr", "de")},
+    }
+    return recalculate(books, tmp_path_factory.mktemp("books"))
+
+
+def edit(content):
+    """Three cells typed over, as an engineer would."""
+    book = read_workbook(content, formulas=True)
+    sheet = book["Checks"]
+    assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
+    sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
+    sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
+    sheet["F18"], sheet["E18"], sheet["G18"] = 5.0, 5.0, 5.0  # second: slack no more
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
 def expected_checks(study):
     return [check for row in study.rows for check in row.checks]
 
@@ -66,10 +90,9 @@ def test_cached_values_equal_the_study(content):
     assert_equals_study(content, STUDY)
 
 
-def test_recalculation_equals_the_study(content, tmp_path):
-    fresh = recalculate(content, tmp_path)
-    assert_equals_study(fresh, STUDY)
-    cached, live = read_workbook(content), read_workbook(fresh)
+def test_recalculation_equals_the_study(content, fresh):
+    assert_equals_study(fresh["en"], STUDY)
+    cached, live = read_workbook(content), read_workbook(fresh["en"])
     formulas = read_workbook(content, formulas=True)
     count = 0
     for sheet in formulas:
@@ -86,20 +109,12 @@ def test_recalculation_equals_the_study(content, tmp_path):
     assert count > 150
 
 
-def test_verdicts_follow_an_edited_cell(content, tmp_path):
-    book = read_workbook(content, formulas=True)
-    sheet = book["Checks"]
-    assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
-    sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
-    sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
-    sheet["F18"], sheet["E18"], sheet["G18"] = 5.0, 5.0, 5.0  # second: slack no more
-    buffer = io.BytesIO()
-    book.save(buffer)
-    fresh = read_workbook(recalculate(buffer.getvalue(), tmp_path))
-    assert fresh["Checks"]["S6"].value == "FAIL"
-    assert fresh["Checks"]["S18"].value == "NOT PROVEN"
-    assert fresh["Checks"]["S22"].value == "PASS"
-    verdicts = [line["Verdict"] for line in read_rows(fresh["Summary"], "No.")]
+def test_verdicts_follow_an_edited_cell(fresh):
+    book = read_workbook(fresh["edited"])
+    assert book["Checks"]["S6"].value == "FAIL"
+    assert book["Checks"]["S18"].value == "NOT PROVEN"
+    assert book["Checks"]["S22"].value == "PASS"
+    verdicts = [line["Verdict"] for line in read_rows(book["Summary"], "No.")]
     assert verdicts == ["FAIL", "FAIL", "PASS"]
 
 
@@ -171,16 +186,14 @@ def test_charts_follow_the_cells(content):
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
-def test_workbook_in_other_languages_calculates_the_same(language, tmp_path):
-    words = load_words(language)
-    content = render_workbook(STUDY, words)
-    fresh = read_workbook(recalculate(content, tmp_path))
-    sheet, head = fresh[words("Checks")], words("No.")
+def test_workbook_in_other_languages_calculates_the_same(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[language])
+    sheet, head = book[words("Checks")], words("No.")
     for line, check in zip(read_rows(sheet, head), expected_checks(STUDY), strict=True):
         assert line[words("Verdict")] == words(VERDICTS[check.verdict].word)
         used = check.utilisation
         assert line["μ"] == ("-" if used is None else pytest.approx(used, rel=LIMIT))
-    overall = fresh[words("Summary")]["C3"].value
+    overall = book[words("Summary")]["C3"].value
     assert overall == words(VERDICTS[STUDY.verdict].word)
 
 

@@ -119,6 +119,9 @@ NOTES = [
     "kg/m3 for which the creep law boutillier-2004 is given",
     "net row W2: its 2 layers of mean density 304.4 kg/m3 keep their proportions; "
     "their mean follows the range of density",
+    "relative density = 0.436205: the creep law gagliardini-1997 has 3a = 4715 < 2b = "
+    "8120 there; snow compressed along one axis would shrink sideways: use another "
+    "set or denser snow",
 ]
 
 

@@ -10,7 +10,7 @@ from netdesign.coupling.steady import solve_steady
 from netdesign.outcome import Outcome
 from netdesign.snow import flow, kernel
 from netdesign.snow.contact import free_unknowns, start_contact
-from netdesign.snow.flow import solve_flow
+from netdesign.snow.flow import compute_residual, remove_rounding, solve_flow
 from netdesign.snow.law import (
     STRESS_FLOOR,
     Material,
@@ -364,3 +364,33 @@ def test_halving_the_stress_floor_moves_no_end_force(
         )
     tension = np.hypot(*pulls[0][:2])
     np.testing.assert_allclose(pulls[1], pulls[0], atol=1e-5 * tension)
+
+
+# --- rounding ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("ground", "slip_ratio"), GROUNDS)
+@pytest.mark.parametrize(
+    ("element", "bulk_ratio"), [("velocity", 1.8), ("mixed", 99.0)]
+)
+def test_last_correction_gives_the_balance_back(
+    a_flow_law, inclined, ground, slip_ratio, element, bulk_ratio
+):
+    """(F13), with stresses as badly rounded as if velocities were 1e8 times larger."""
+    law = a_flow_law(
+        ground=ground, slip_ratio=slip_ratio, bulk_ratio=bulk_ratio, friction=0.3
+    )
+    law = replace(law, element=element)
+    mesh = kernel.build_placed_mesh(inclined.template, inclined.nodes, element)
+    state = solve(law, mesh)
+    noise = np.random.default_rng(7).uniform(-1e-8, 1e-8, state.stress.shape)
+    rounded = replace(state, stress=state.stress * (1.0 + noise))
+    free = free_unknowns(law, mesh, state.contact)
+    free[2 * mesh.template.net + 1] = False  # friction acts there
+    free[mesh.n_velocities :] = False
+
+    def lost(of):
+        return np.abs(compute_residual(law, mesh, of)[free]).max()
+
+    assert lost(rounded) > 1e-10
+    assert lost(remove_rounding(law, mesh, rounded)) < 1e-13
