@@ -1,7 +1,6 @@
 """``netdesign bench`` on the command line."""
 
 import json
-from copy import deepcopy
 
 import pytest
 from click.testing import CliRunner
