@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
@@ -193,7 +194,7 @@ def check(
             for profile in profiles
         ]
     style = ReportStyle(language=language, detail=detail)
-    write_files(render_files(studies, names, style))
+    write_files(render_files(studies, names, style), overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
@@ -275,7 +276,9 @@ def solve(
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
     if out is not None:
-        written = write_solution_folder(out, solution, document, scene_file.name)
+        written = write_solution_folder(
+            out, solution, document, scene_file.name, overwrite=force
+        )
         _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
@@ -326,6 +329,7 @@ def main() -> NoReturn:
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second one changes nothing
         click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
