@@ -114,18 +114,22 @@ def _exchange(contents: Mapping[Path, bytes]) -> None:
         for path, temporary in new.items():
             temporary.replace(path)
     except BaseException:
-        for path, temporary in new.items():
-            if not temporary.exists():
-                path.unlink(missing_ok=True)  # it is in place already
-        for path, aside in old.items():
-            if aside.exists():  # else it never left
-                aside.replace(path)
+        _undo(new, old)
         raise
     finally:
         for temporary in new.values():
             temporary.unlink(missing_ok=True)
     for aside in old.values():
         aside.unlink(missing_ok=True)
+
+
+def _undo(new: Mapping[Path, Path], old: Mapping[Path, Path]) -> None:
+    for path, temporary in new.items():
+        if not temporary.exists():
+            path.unlink(missing_ok=True)  # it is in place already
+    for path, aside in old.items():
+        if aside.exists():  # else it never left
+            aside.replace(path)
 
 
 def _fill(handle: int, content: bytes) -> None:
