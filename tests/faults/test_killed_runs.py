@@ -11,8 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from netdesign.site import template
-
 KILLER = Path(__file__).with_name("kill_runs.py")
 FAILS = 1  # R7 of the example is too weak
 IN_THE_SUITE, ALL = 5, 100
@@ -20,24 +18,7 @@ IN_THE_SUITE, ALL = 5, 100
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="forks its runs")
 
 
-@pytest.fixture
-def site(tmp_path):
-    """Two net rows of the example, four cases each."""
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in ("R1", "R7")]
-    for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
-        line["samples"] = samples
-        if samples == 1:
-            line["high"] = line["low"]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(tmp_path / "site.xlsx", example=True)
-    return tmp_path / "site.xlsx"
-
-
-def kill(site, kills, seed):
-    folder = site.parent / "runs"
-    folder.mkdir()
+def kill(site, folder, kills, seed):
     command = [sys.executable, KILLER, site, folder, str(kills), str(seed)]
     ended = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ended.returncode == 0, ended.stderr
@@ -48,15 +29,15 @@ def kill(site, kills, seed):
     return document
 
 
-def test_killed_runs_leave_nothing_half_and_continue_to_the_same_bytes(site):
-    document = kill(site, IN_THE_SUITE, seed=4)
+def test_killed_runs_leave_nothing_half_and_continue_to_the_same_bytes(site, tmp_path):
+    document = kill(site, tmp_path, IN_THE_SUITE, seed=4)
     assert document["faults"] == []
     assert document["in_time"] >= IN_THE_SUITE - 1
 
 
 @pytest.mark.faults
-def test_a_hundred_killed_runs(site):
-    document = kill(site, ALL, seed=20)
+def test_a_hundred_killed_runs(site, tmp_path):
+    document = kill(site, tmp_path, ALL, seed=20)
     sys.stdout.write(
         f"{ALL} runs, {document['in_time']} of them killed before their end; "
         f"{document['steps']} steps to choose from; {len(document['faults'])} faults\n"
