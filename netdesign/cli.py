@@ -30,6 +30,7 @@ from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.solving import open_rows, solving_options
 from netdesign.commands.standards import standards
+from netdesign.commands.verify import verify
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.given_files import make_printable
 from netdesign.outcome import Verdict
@@ -71,6 +72,7 @@ cli.add_command(glide)
 cli.add_command(paper)
 cli.add_command(report)
 cli.add_command(standards)
+cli.add_command(verify)
 
 
 @cli.command(cls=ConfiguredCommand)
@@ -289,31 +291,6 @@ def solve(
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
-
-
-@cli.command()
-@click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
-def verify(*, as_json: bool) -> None:
-    """Run the verification pack: closed forms, invariants, other codes.
-
-    \b
-    netdesign verify
-    netdesign verify --json
-    """
-    from netdesign.progress import show_progress
-    from netdesign.verification.pack import GROUPS, run_pack, write_pack
-
-    with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
-        cases = run_pack(advance)
-    if as_json:
-        click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
-    else:
-        from rich.console import Console
-
-        from netdesign.report.verification_table import print_cases
-
-        print_cases(cases, Console())
-    sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
 def main() -> NoReturn:

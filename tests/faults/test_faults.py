@@ -85,8 +85,8 @@ steps = itertools.count()
 time.time = lambda: 1.7e9 - 86_400.0 * next(steps)
 class Clock(datetime.datetime):
     @classmethod
-    def now(cls, zone=None):
-        return cls.fromtimestamp(time.time(), zone)
+    def now(cls, tz=None):
+        return cls.fromtimestamp(time.time(), tz)
 datetime.datetime = Clock
 """
 
