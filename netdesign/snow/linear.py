@@ -190,7 +190,7 @@ def _build_ordering(
         size[: template.n_vertices] = 3
     graph.sum_duplicates()
     rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
-    columns = graph.indices
+    columns = graph.indices.astype(np.int64)
     orders = [_narrow(order, rows, columns) for order in _list_orders(graph, template)]
     starts = [_place_in(order, size) for order in orders]
     reaches = [int(np.abs(start[rows] - start[columns]).max()) for start in starts]
@@ -287,21 +287,19 @@ def _solve_cholesky(
     return np.asarray(solution[ordering.place])
 
 
-def _collect_friction(
-    parts: Sequence[Blocks], friction: Floats, free: Mask
-) -> Floats:
+def _collect_friction(parts: Sequence[Blocks], friction: Floats, free: Mask) -> Floats:
     """What friction adds to the rows of slipping nodes, shape (n_slipping, n_dofs)."""
     slipping = np.flatnonzero(friction)
     place = np.full(friction.size, -1)
     place[slipping] = np.arange(slipping.size)
-    rows = np.zeros(slipping.size * friction.size)
+    sums = np.zeros(slipping.size * friction.size)
     for part in parts:
         wanted = place[part.dofs[:, 1 : part.n_paired : 2]]
         block, pair = np.nonzero(wanted >= 0)
         at = wanted[block, pair, None] * friction.size + part.dofs[block]
         normal = part.values[block, 2 * pair]
-        rows += np.bincount(at.ravel(), normal.ravel(), minlength=rows.size)
-    rows = rows.reshape(slipping.size, friction.size)
+        sums += np.bincount(at.ravel(), normal.ravel(), minlength=sums.size)
+    rows = sums.reshape(slipping.size, friction.size)
     return np.asarray(rows * free * friction[slipping, None])
 
 
