@@ -259,7 +259,7 @@ def _measure_one_row() -> dict[str, Any]:
 
 
 def _measure_grid(size: BenchSize) -> dict[str, Any]:
-    with closing(ProcessPool(_PROCESSES)) as pool, Clock() as clock:
+    with Clock() as clock, closing(ProcessPool(_PROCESSES)) as pool:
         runner = Runner(workers=pool)
         results = run_grid(_example_task(), dict.fromkeys(_AXES, size.grid), runner)
     failed = sum(not result.is_converged for result in results)

@@ -86,20 +86,32 @@ def _read_defaults(
             raise click.UsageError(f"{place}: {_suggest(key, list(options))}")
         if "\\x00" in repr(value):  # no command line can hold one
             raise click.UsageError(f"{place} = {value!r}: holds a zero character")
-        if not _is_typed(value, many=options[key].multiple):
-            raise click.UsageError(f"{place} = {value!r:.200}: no such value fits")
         try:
-            options[key].type_cast_value(ctx, value)
+            word = _write_as_typed(options[key], value)
+            options[key].type_cast_value(ctx, word)
         except (click.BadParameter, ValueError, OverflowError) as error:
             raise click.UsageError(f"{place} = {value!r:.200}: {error}") from None
-        defaults[options[key].name or ""] = value
+        defaults[options[key].name or ""] = word
     return defaults
 
 
-def _is_typed(value: object, *, many: bool) -> bool:
-    """Whether a command line could hold it: one word, or a list of them."""
-    words = value if many and isinstance(value, list) else [value]
-    return all(isinstance(word, str | int | float) for word in words)
+def _write_as_typed(option: click.Option, value: object) -> object:
+    """Value as a command line would give it: words, or a truth value for a flag.
+
+    Raises
+    ------
+    ValueError
+        If no command line can hold it.
+    """
+    if isinstance(value, list) and option.multiple:
+        if any(isinstance(word, list) for word in value):
+            raise ValueError("no such value fits")
+        return [_write_as_typed(option, word) for word in value]
+    if isinstance(value, bool) and option.is_flag:
+        return value
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise ValueError("no such value fits")
+    return str(value)
 
 
 def _name_options(command: click.Command) -> dict[str, click.Option]:

@@ -56,13 +56,13 @@ def draw_scale_bar(sketch: Sketch, paper: Paper) -> None:
 
 
 def draw_legend(sketch: Sketch) -> None:
-    """Explain the lines."""
-    left = WIDTH - 98.0
+    """Explain the lines; the words end at them, however wide their font is."""
+    right = WIDTH - 11.0
     for place, (text, stroke, width, dash) in enumerate(_LEGEND):
         y = 12.0 + 13.0 * place
-        ends = [(left, y), (left + 19.0, y)]
+        ends = [(right - 19.0, y), (right, y)]
         sketch.line(ends, stroke=stroke, width=width, dash=dash)
-        sketch.words((left + 25.0, y + 2.6), text)
+        sketch.words((right - 25.0, y + 2.6), text, anchor="end")
 
 
 def draw_dimensions(sketch: Sketch, paper: Paper) -> None:

@@ -1,7 +1,6 @@
 """``netdesign bench`` on the command line."""
 
 import json
-from copy import deepcopy
 
 import pytest
 from click.testing import CliRunner
@@ -48,22 +47,45 @@ def test_a_failure_decides_the_exit_code(monkeypatch, kind, exit_code):
     assert run("--stress", "1").exit_code == exit_code
 
 
-def test_envelope_prints_every_figure_of_its_document(monkeypatch):
-    document = {
-        "schema": envelope.SCHEMA,
-        "rows": [{"what": "one row", "wall_s": 1.5, "points": [{"rows": 2}, 7]}],
-    }
-    monkeypatch.setattr(envelope, "run_envelope_bench", lambda: deepcopy(document))
-    assert json.loads(run("--envelope", "--json").stdout) == document
-    shown = run("--envelope").stdout
-    assert [line.split() for line in shown.splitlines()] == [
+ROW = {"what": "one row", "reach": "<= 1 s", "reached": False, "wall_s": 1.5,
+       "points": [{"rows": 2}, 7]}  # fmt: skip
+
+
+@pytest.fixture
+def sizes(monkeypatch):
+    """Sizes that were asked for; every figure is missed."""
+    asked = []
+
+    def measure(_render, size, on_row):
+        asked.append(size)
+        on_row(dict(ROW))
+        return {"schema": envelope.SCHEMA, "pass": False, "rows": [dict(ROW)]}
+
+    monkeypatch.setattr(envelope, "run_envelope_bench", measure)
+    return asked
+
+
+def test_envelope_prints_every_figure_of_its_document(sizes):
+    printed = run("--envelope", "--json")
+    assert json.loads(printed.stdout)["rows"] == [ROW]
+    shown = run("--envelope")
+    assert [line.split() for line in shown.stdout.splitlines()] == [
         ["one", "row"],
+        ["<=", "1", "s:", "NOT", "reached"],
         ["wall_s", "1.5"],
         ["points", "{'rows':", "2}"],
         ["points", "7"],
     ]
+    assert (printed.exit_code, shown.exit_code) == (1, 1)
+
+
+def test_envelope_in_short_and_at_length(sizes):
+    assert run("--envelope", "--quick").exit_code == 0
+    run("--envelope", "--missed", "200")
+    assert sizes[0] == envelope.QUICK
+    assert sizes[1] == envelope.BenchSize(missed_scenes=200)
     assert run("--envelope", "--stress", "2").exit_code == 2
-    assert run("--envelope", "--quick").exit_code == 2
+    assert run("--envelope", "--plot", "x.svg").exit_code == 2
 
 
 def test_errors_of_one_scene():

@@ -103,7 +103,7 @@ def time_limit() -> Iterator[None]:
 
 
 def is_shown_only(text: str) -> bool:
-    return all(sign.isprintable() or sign == "\n" for sign in text)
+    return all(sign.isprintable() or sign in "\n\u00a0" for sign in text)
 
 
 def attempt(read: Callable[[], Any]) -> Any:

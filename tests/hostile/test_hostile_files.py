@@ -69,6 +69,12 @@ def ends(tmp_path_factory):
         name, *end = json.loads(line)
         found[name] = end
     assert found.keys() == commands.keys(), ended.stderr
+    memory = max(end[2] for end in found.values())
+    slowest = max(found, key=lambda name: found[name][3])
+    print(  # noqa: T201  (shown with -s)
+        f"\n{len(found)} files: at most {memory:.0f} MB above idle; the slowest is "
+        f"{slowest} with {found[slowest][3]:.1f} s"
+    )
     return found
 
 

@@ -25,7 +25,10 @@ _DEAD = ("killed", "timeout", "caught by type check")
 
 def call_mutmut(*arguments: str) -> str:
     return subprocess.run(
-        ["mutmut", *arguments], check=True, capture_output=True, text=True
+        [sys.executable, "-m", "mutmut", *arguments],
+        check=True,
+        capture_output=True,
+        text=True,
     ).stdout
 
 

@@ -96,6 +96,22 @@ def test_pull_along_the_guy_leaves_the_post_at_zero_not_below():
         assert forces.uphill_guy_tension == pytest.approx(expected, rel=1e-12)
 
 
+def test_pull_along_a_guy_close_to_a_tilted_post_is_told_from_tension():
+    """Close to the smallest angle rounding is largest, and still no tension."""
+    for degrees in range(1, 90):
+        tilt, between = math.radians(degrees), 1.0001 * MIN_GUY_ANGLE
+        guy = (-math.sin(tilt + between), -math.cos(tilt + between))
+        head = (4.0 * math.sin(tilt), 4.0 * math.cos(tilt))
+        points = some_points(
+            head=head, uphill_anchor=(head[0] + 5.0 * guy[0], head[1] + 5.0 * guy[1])
+        )
+        for share in (1.0, 1.7, 3.1):
+            pull = (-share * KN * guy[0], -share * KN * guy[1])
+            forces = compute_head_forces(pull, points)
+            assert 0.0 <= forces.post_compression <= 1e-11 * KN
+            assert forces.uphill_guy_tension == pytest.approx(share * KN, rel=1e-11)
+
+
 def test_lifting_pull_has_no_equilibrium_and_no_number():
     failed = compute_head_forces((0.0, 10 * KN), some_points())
     assert isinstance(failed, FailedSupport)
