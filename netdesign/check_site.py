@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import repeat
 from types import MappingProxyType
+from typing import Literal
 
 from netdesign import __version__
 from netdesign.checks import Standard
@@ -53,7 +54,7 @@ from netdesign.units import (
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
-_METHODS = {
+METHODS: dict[Literal["steady", "transient"], str] = {
     "steady": "steady",
     "transient": "steady; governing cases confirmed by a history from a sagged net",
 }
@@ -353,9 +354,9 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": _METHODS[run.method],
-            "creep law": f"{run.creep_law.name} ({run.creep_law.source})",
-            "accuracy": f"{settings.accuracy:g}",
+            "method": METHODS[run.method],
+            "creep law": name_law(run.creep_law),
+            "accuracy": repr(settings.accuracy),  # in full: the study is solved again
             "stress tolerance": f"{settings.stress_tolerance:g}",
             "shape tolerance": f"{settings.shape_tolerance:g}",
             "balance tolerance": f"{settings.balance_tolerance:g}",
@@ -365,6 +366,11 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
             **{name: importlib.metadata.version(name) for name in _LIBRARIES},
         },
     )
+
+
+def name_law(law: CreepLaw) -> str:
+    """Name and source of a creep law, as a study states it."""
+    return f"{law.name} ({law.source})"
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[str]:

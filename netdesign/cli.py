@@ -9,6 +9,7 @@ import gc
 import io
 import json
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
@@ -30,6 +31,7 @@ from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options
 from netdesign.commands.solving import open_rows, solving_options
 from netdesign.commands.standards import standards
+from netdesign.commands.verify import verify
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.given_files import make_printable
 from netdesign.outcome import Verdict
@@ -73,6 +75,7 @@ cli.add_command(glide)
 cli.add_command(paper)
 cli.add_command(report)
 cli.add_command(standards)
+cli.add_command(verify)
 
 
 @cli.command(cls=ConfiguredCommand)
@@ -196,7 +199,7 @@ def check(
             for profile in profiles
         ]
     style = ReportStyle(language=language, detail=detail)
-    write_files(render_files(studies, names, style))
+    write_files(render_files(studies, names, style), overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(_exit_code(studies))
@@ -278,7 +281,9 @@ def solve(
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
     if out is not None:
-        written = write_solution_folder(out, solution, document, scene_file.name)
+        written = write_solution_folder(
+            out, solution, document, scene_file.name, overwrite=force
+        )
         _report_places([written], quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
@@ -289,31 +294,6 @@ def solve(
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
-
-
-@cli.command()
-@click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
-def verify(*, as_json: bool) -> None:
-    """Run the verification pack: closed forms, invariants, other codes.
-
-    \b
-    netdesign verify
-    netdesign verify --json
-    """
-    from netdesign.progress import show_progress
-    from netdesign.verification.pack import GROUPS, run_pack, write_pack
-
-    with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
-        cases = run_pack(advance)
-    if as_json:
-        click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
-    else:
-        from rich.console import Console
-
-        from netdesign.report.verification_table import print_cases
-
-        print_cases(cases, Console())
-    sys.exit(0 if all(case.passes for case in cases) else EXIT_CODES[Verdict.FAIL])
 
 
 def main() -> NoReturn:
@@ -330,6 +310,7 @@ def main() -> NoReturn:
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second one changes nothing
         click.echo(f"interrupted; to continue: {_own_command()}", err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import os
+import re
+import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from netdesign.errors import OutputError
+
+_OLD = ".old"
+_RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name
 
 
 def require_free(paths: list[Path], *, overwrite: bool) -> None:
@@ -32,30 +38,98 @@ def require_free(paths: list[Path], *, overwrite: bool) -> None:
             raise OutputError(f"{nearest} cannot be written to: choose another folder")
 
 
-def write_files(contents: Mapping[Path, bytes]) -> None:
-    """Write all files under temporary names, then put them all in place."""
-    waiting: list[tuple[Path, Path]] = []
+def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
+    """Write all files under temporary names, then put them all in place.
+
+    Of two runs that write to one folder at once, one waits for the other. Old files
+    leave before the first new one comes: whenever a run is killed, the files that are
+    there are whole, and of one run. What a killed run left is removed by the next.
+
+    Raises
+    ------
+    OutputError
+        If a file appeared since ``require_free`` and may not be replaced, or the
+        place is full or unfit; the old files are then as they were.
+    """
+    folders = {path.parent for path in contents}
     try:
-        for path, content in contents.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-            waiting.append((Path(name), path))
-            _fill(handle, content)
-        for temporary, path in waiting:
-            temporary.chmod(_usual_mode())
-            temporary.replace(path)
+        for folder in folders:
+            folder.mkdir(parents=True, exist_ok=True)
+        with _alone_in(folders) as is_alone:
+            require_free(list(contents), overwrite=overwrite)
+            if is_alone:
+                _remove_leftovers(contents)
+            _exchange(contents)
     except OSError as error:
         raise OutputError(f"cannot write: {error}") from error
+
+
+@contextmanager
+def _alone_in(folders: Iterable[Path]) -> Iterator[bool]:
+    """Hold back other runs that write there; False where no lock is to be had."""
+    with ExitStack() as held:
+        yield all([_lock(folder, held) for folder in sorted(folders)])
+
+
+def _lock(folder: Path, held: ExitStack) -> bool:
+    """Lock a folder until the stack closes, or the process ends however it does."""
+    if sys.platform == "win32":
+        return False
+    import fcntl
+
+    handle = os.open(folder, os.O_RDONLY)
+    held.callback(os.close, handle)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+    except OSError:  # some file systems of networks have no locks
+        return False
+    return True
+
+
+def _remove_leftovers(paths: Iterable[Path]) -> None:
+    """Delete temporary files of runs that were killed; nobody else writes now."""
+    for path in paths:
+        start = f".{path.name}"
+        for one in path.parent.iterdir():
+            if one.name.startswith(start) and _RANDOM_END.fullmatch(
+                one.name.removeprefix(start)
+            ):
+                one.unlink(missing_ok=True)
+
+
+def _exchange(contents: Mapping[Path, bytes]) -> None:
+    """Replace old files by new ones; if that fails, the old ones come back."""
+    new: dict[Path, Path] = {}
+    old: dict[Path, Path] = {}
+    try:
+        for path, content in contents.items():
+            handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+            new[path] = Path(name)
+            _fill(handle, content)
+            new[path].chmod(_usual_mode())
+        for path, temporary in new.items():
+            if path.exists():
+                old[path] = temporary.with_name(temporary.name + _OLD)
+                path.replace(old[path])
+        for path, temporary in new.items():
+            temporary.replace(path)
+    except BaseException:
+        _undo(new, old)
+        raise
     finally:
-        for temporary, _ in waiting:
+        for temporary in new.values():
             temporary.unlink(missing_ok=True)
+    for aside in old.values():
+        aside.unlink(missing_ok=True)
 
 
-def _usual_mode() -> int:
-    """Mode of a new file under the user's umask, which can only be read by setting."""
-    umask = os.umask(0o077)
-    os.umask(umask)
-    return 0o666 & ~umask
+def _undo(new: Mapping[Path, Path], old: Mapping[Path, Path]) -> None:
+    for path, temporary in new.items():
+        if not temporary.exists():
+            path.unlink(missing_ok=True)  # it is in place already
+    for path, aside in old.items():
+        if aside.exists():  # else it never left
+            aside.replace(path)
 
 
 def _fill(handle: int, content: bytes) -> None:
@@ -63,3 +137,10 @@ def _fill(handle: int, content: bytes) -> None:
         file.write(content)
         file.flush()
         os.fsync(file.fileno())
+
+
+def _usual_mode() -> int:
+    """Mode of a new file under the user's umask, which can only be read by setting."""
+    umask = os.umask(0o077)
+    os.umask(umask)
+    return 0o666 & ~umask

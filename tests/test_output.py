@@ -1,4 +1,6 @@
 import os
+import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -16,20 +18,20 @@ def test_files_are_written_with_their_folders(tmp_path):
         tmp_path / "new" / "deep" / "a.json": b"{}",
         tmp_path / "new" / "b.html": b"<p>\r\n",
     }
-    write_files(contents)
+    write_files(contents, overwrite=True)
     assert {path: path.read_bytes() for path in contents} == contents
     assert listing(tmp_path) == ["a.json", "b.html"]
 
 
 def test_written_files_are_as_readable_as_others(tmp_path):
-    write_files({tmp_path / "a": b""})
+    write_files({tmp_path / "a": b""}, overwrite=True)
     assert (tmp_path / "a").stat().st_mode & 0o777 == 0o644
 
 
 def test_existing_files_are_replaced_whole(tmp_path):
     path = tmp_path / "a"
     path.write_bytes(b"long old content")
-    write_files({path: b"new"})
+    write_files({path: b"new"}, overwrite=True)
     assert path.read_bytes() == b"new"
 
 
@@ -47,7 +49,7 @@ def test_a_failing_write_leaves_no_trace(tmp_path, monkeypatch, step):
     owner = os if step == "fsync" else Path
     monkeypatch.setattr(owner, step, fail)
     with pytest.raises(OutputError, match=r"cannot write: .*No space left"):
-        write_files({old: b"new", tmp_path / "other.xlsx": b"new"})
+        write_files({old: b"new", tmp_path / "other.xlsx": b"new"}, overwrite=True)
     assert failures == [step]
     assert listing(tmp_path) == ["old.html"]
     assert old.read_bytes() == b"old"
@@ -66,7 +68,7 @@ def test_nothing_is_put_in_place_before_all_is_written(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "fsync", fail_at_second)
     with pytest.raises(OutputError, match="No space left"):
-        write_files({tmp_path / "a": b"1", tmp_path / "b": b"2"})
+        write_files({tmp_path / "a": b"1", tmp_path / "b": b"2"}, overwrite=True)
     assert len(calls) == 2
     assert listing(tmp_path) == []
 
@@ -74,7 +76,7 @@ def test_nothing_is_put_in_place_before_all_is_written(tmp_path, monkeypatch):
 def test_a_file_in_the_place_of_a_folder_is_told(tmp_path):
     (tmp_path / "out").write_bytes(b"")
     with pytest.raises(OutputError, match="cannot write"):
-        write_files({tmp_path / "out" / "a": b"1"})
+        write_files({tmp_path / "out" / "a": b"1"}, overwrite=True)
     assert listing(tmp_path) == ["out"]
 
 
@@ -114,3 +116,69 @@ def test_a_place_without_leave_to_write_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(OutputError, match="cannot be written to"):
         require_free([tmp_path / "new" / "a"], overwrite=False)
+
+
+# --- two runs, and runs that were killed ---------------------------------------------
+
+
+def test_a_file_that_appeared_meanwhile_is_not_replaced(tmp_path):
+    """Another run without --force finished while this one was solving."""
+    path = tmp_path / "study.json"
+    require_free([path, tmp_path / "a"], overwrite=False)
+    path.write_bytes(b"of the other")
+    with pytest.raises(OutputError, match=r"exists already: .*study\.json;"):
+        write_files({tmp_path / "a": b"1", path: b"mine"}, overwrite=False)
+    assert path.read_bytes() == b"of the other"
+    assert listing(tmp_path) == ["study.json"]
+
+
+@pytest.mark.parametrize("failing", [1, 2, 3, 4, 5])
+def test_old_files_come_back_if_a_new_one_cannot_be_placed(
+    tmp_path, monkeypatch, failing
+):
+    """Two old files leave, three new ones come: whichever step fails, all is undone."""
+    old = {tmp_path / "a": b"old a", tmp_path / "b": b""}
+    for path, content in old.items():
+        path.write_bytes(content)
+    steps = []
+    replace = Path.replace
+
+    def fail_once(self, target):
+        steps.append(target)
+        if len(steps) == failing:
+            raise OSError(5, "Input/output error")
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", fail_once)
+    new = {tmp_path / name: b"new" for name in ("a", "c", "b")}
+    with pytest.raises(OutputError, match="Input/output error"):
+        write_files(new, overwrite=True)
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == old
+
+
+def test_what_a_killed_run_left_is_removed_and_nothing_else(tmp_path):
+    left = {".a.x1y2z3_4", ".a.x1y2z3_4.old"}
+    others = {".a.x1y2z3_4.bak", ".b.x1y2z3_4", "a.x1y2z3_4", ".a.", ".a.json"}
+    for name in left | others:
+        (tmp_path / name).write_bytes(b"half")
+    write_files({tmp_path / "a": b"whole"}, overwrite=False)
+    assert set(listing(tmp_path)) == {"a"} | others
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders there")
+def test_a_run_waits_for_another_that_writes_to_the_same_folder(tmp_path):
+    import fcntl
+
+    (tmp_path / ".a.other_is").write_bytes(b"half")  # in the hands of the other
+    other = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(other, fcntl.LOCK_EX)
+    waiting = threading.Thread(
+        target=write_files, args=({tmp_path / "a": b"1"},), kwargs={"overwrite": True}
+    )
+    waiting.start()
+    waiting.join(0.2)
+    assert waiting.is_alive()
+    assert listing(tmp_path) == [".a.other_is"]
+    os.close(other)
+    waiting.join(10.0)
+    assert listing(tmp_path) == ["a"]

@@ -20,6 +20,7 @@ from netdesign.outcome import Outcome
 Floats = NDArray[np.float64]
 
 _GAUSS = 1.0 / np.sqrt(3.0)
+_UNIT = np.eye(2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -88,19 +89,22 @@ def solve_funicular(
     bend = -0.75 * forces[:, 1::2]  # half the change of tension over an element
     offset = _tension_offsets(forces, bend)
     total = float(lengths.sum())
-    weights = lengths / (2.0 * total)
+
+    weights = np.tile(lengths / (2.0 * total), 2)  # of all Gauss points
+    flat = offset.reshape(2, -1)
 
     def gap_at_head(pull: Floats) -> tuple[Floats, Floats]:
-        """Gradient of the complementary energy (C4), and its Hessian."""
-        vector = pull[:, None, None] + offset
+        """Gradient of the complementary energy (C4), and its Hessian.
+
+        With the tension vectors v: sums of (1 / |v| + 1 / ES) v, and of
+        (1 / |v| + 1 / ES) I - v v^T / |v|^3.
+        """
+        vector = pull[:, None] + flat
         size = np.hypot(*vector)
-        direction = vector / size
-        stretch = 1.0 + size / stiffness
-        gradient = (weights * stretch * direction).sum(axis=(1, 2)) - head / total
-        along = np.einsum("iqe,jqe->ijqe", direction, direction)
-        across = np.eye(2)[:, :, None, None] - along
-        curvature = along / stiffness + across * stretch / size
-        return gradient, (weights * curvature).sum(axis=(2, 3))
+        share = weights / size
+        give = share + weights / stiffness
+        along = (vector * (share / size**2)) @ vector.T
+        return vector @ give - head / total, give.sum() * _UNIT - along
 
     minimum = minimise_convex(gap_at_head, start, tolerance=tolerance)
     converged = minimum.outcome is Outcome.CONVERGED

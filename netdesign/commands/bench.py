@@ -190,7 +190,7 @@ def _run_named(
     if plot is not None:
         from netdesign.report.bench_figure import draw_work_precision
 
-        write_files({plot: draw_work_precision(rows).encode()})
+        write_files({plot: draw_work_precision(rows).encode()}, overwrite=force)
         click.echo(f"wrote {plot}", err=True)
     if as_json:
         _print_json(write_bench(rows))

@@ -123,7 +123,8 @@ def envelope(
             document, record = write_envelope_document(found, runner.counts, elapsed)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
-        write_files(dict(zip(paths, _render(record, text), strict=True)))
+        files = dict(zip(paths, _render(record, text), strict=True))
+        write_files(files, overwrite=force)
     if as_json:
         click.echo(text)
     else:

@@ -41,8 +41,7 @@ def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
     with show_progress(len(list_cases(settings)), "runs", quiet=quiet) as on_done:
         study = run_study(settings, jobs=jobs or os.cpu_count() or 1, on_done=on_done)
     files = {out / name: content for name, content in render_paper(study).items()}
-    require_free(list(files), overwrite=force)
-    write_files(files)
+    write_files(files, overwrite=force)
     if not quiet:
         click.echo(f"wrote {out / PAGE_FILE} and {len(files) - 1} more", err=True)
     if any(run.failure for run in study.runs.values()):

@@ -40,7 +40,8 @@ def report(study_file: Path, *, out: Path, force: bool, **options: Any) -> None:
     study = load_study(study_file)
     names = name_files(out, [study.profile.id], list_wanted(options))
     require_free(names[0], overwrite=force)
-    write_files(render_files([study], names, ReportStyle(**options)))
+    files = render_files([study], names, ReportStyle(**options))
+    write_files(files, overwrite=force)
     for path in names[0]:
         click.echo(f"wrote {path}", err=True)
     sys.exit(VERDICTS[study.verdict].exit_code)

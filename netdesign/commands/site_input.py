@@ -87,14 +87,19 @@ def open_site(
     try:
         site = read_site(path, text_format)
     except SiteDataError as error:
-        _write_copy(path, annotate, text_format, error)
+        _write_copy(path, annotate, text_format, error, overwrite=overwrite)
         raise
-    _write_copy(path, annotate, text_format, site)
+    _write_copy(path, annotate, text_format, site, overwrite=overwrite)
     return site
 
 
 def _write_copy(
-    path: Path, copy: Path, text_format: TextFormat, read: Site | SiteDataError
+    path: Path,
+    copy: Path,
+    text_format: TextFormat,
+    read: Site | SiteDataError,
+    *,
+    overwrite: bool,
 ) -> None:
     from netdesign.output import write_files
     from netdesign.site.annotate import annotate_workbook
@@ -106,5 +111,5 @@ def _write_copy(
     except SiteDataError as error:
         click.echo(f"no annotated copy: {error}", err=True)
         return
-    write_files({copy: content})
+    write_files({copy: content}, overwrite=overwrite)
     click.echo(f"wrote {copy}", err=True)

@@ -32,10 +32,15 @@ def require_free_folder(
 
 
 def write_solution_folder(
-    folder: Path, solution: Solved, document: dict[str, Any], scene_file: str
+    folder: Path,
+    solution: Solved,
+    document: dict[str, Any],
+    scene_file: str,
+    *,
+    overwrite: bool,
 ) -> list[Path]:
     """Write page, drawings, tables and document; their paths."""
     contents = render_solution(solution, document, scene_file)
     files = {folder / name: content for name, content in contents.items()}
-    write_files(files)
+    write_files(files, overwrite=overwrite)
     return list(files)

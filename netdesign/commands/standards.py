@@ -86,7 +86,8 @@ def copy_profile(name: str, folder: Path) -> None:
     texts["document.toml"] = texts["document.toml"].replace(
         f'id = "{profile.id}"', f'id = "{own}"', 1
     )
-    write_files({folder / n: text.encode("utf-8") for n, text in texts.items()})
+    files = {folder / name: text.encode("utf-8") for name, text in texts.items()}
+    write_files(files, overwrite=False)
     click.echo(_summarise(load_standard(folder)))
 
 

@@ -132,22 +132,23 @@ class RowEnvelope:
     @property
     def gap(self) -> str:
         """Why the maxima do not cover every case; "" if they do."""
-        failed = describe_gap(self.results)
-        lost = {
-            one.confirmed.reason
-            for one in self.confirmations
-            if not one.confirmed.is_converged
-        }
-        if failed:
+        failed = describe_gap(self.results) or self._describe_unconfirmed()
+        if failed or self.maxima.is_closed:
             return failed
-        if lost:
-            return f"a governing case was not confirmed ({'; '.join(sorted(lost))})"
-        if self.maxima.is_closed:
-            return ""
         return (
             f"after {len(self.results)} cases a force between them could still exceed "
             "the largest one by more than the gap asked for"
         )
+
+    def _describe_unconfirmed(self) -> str:
+        """Which governing case could not be solved again; "" if all could."""
+        for one in self.confirmations:
+            if not one.confirmed.is_converged:
+                return (
+                    f"the governing case of {one.member} could not be solved again "
+                    f"({one.confirmed.reason})"
+                )
+        return ""
 
     def hidden(self, member: str) -> float:
         """How much larger a member's force may be between the cases [N]."""

@@ -114,7 +114,7 @@ def write_site_workbook(
     for plan in SHEETS:
         _write_sheet(book, plan, lines.get(plan.name, ()))
     workbook.close()
-    write_files({path: content.getvalue()})
+    write_files({path: content.getvalue()}, overwrite=overwrite)
 
 
 def load_example() -> dict[str, _Lines]:

@@ -278,14 +278,22 @@ def build_strain_operator(
     template: MeshTemplate, gradients: Floats, axes: Floats
 ) -> Floats:
     """Strains (xx, yy, xy) per velocity, shape (n_triangles, n_points, 3, 12)."""
-    cosine, sine = axes[:, template.triangles.T][:, :, None, :]
     d_dx, d_dy = gradients
-    operator = np.empty((*d_dx.shape[:2], 3, 12))
-    for first, (x, y) in enumerate(((cosine, sine), (-sine, cosine))):
-        operator[..., 0, first::2] = x * d_dx
-        operator[..., 1, first::2] = y * d_dy
-        operator[..., 2, first::2] = x * d_dy + y * d_dx
+    operator = np.zeros((*d_dx.shape[:2], 3, 12))
+    operator[..., 0, ::2] = operator[..., 2, 1::2] = d_dx
+    operator[..., 1, 1::2] = operator[..., 2, ::2] = d_dy
+    on_net = _touch_net(template)
+    cosine, sine = axes[:, template.triangles.T[on_net]][:, :, None, None, :]
+    in_x, in_y = operator[on_net, :, :, ::2], operator[on_net, :, :, 1::2]
+    operator[on_net, :, :, ::2] = cosine * in_x + sine * in_y
+    operator[on_net, :, :, 1::2] = cosine * in_y - sine * in_x
     return operator
+
+
+@lru_cache(maxsize=256)
+def _touch_net(template: MeshTemplate) -> Ints:
+    """Triangles with a node on the net, whose axes are turned."""
+    return np.flatnonzero(np.isin(template.triangles, template.net).any(axis=0))
 
 
 def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
@@ -298,11 +306,10 @@ def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
     tangent_x, tangent_y = np.einsum("aei,qi->aeq", curve, slope)
     outward = np.array([tangent_y, -tangent_x]) * _EDGE_WEIGHTS
     shares = np.einsum("aeq,qi->aei", outward, shape)
-    normals = np.zeros_like(nodes)
-    for axis in range(2):
-        for place, ends in enumerate((start, middle, end)):
-            np.add.at(normals[axis], ends, shares[axis, :, place])
-    normals = normals[:, template.net]
+    normals = np.zeros((2, template.net.size))
+    normals[:, :-2:2] = shares[..., 0]
+    normals[:, 1::2] = shares[..., 1]
+    normals[:, 2::2] += shares[..., 2]
     return np.asarray(normals / np.hypot(*normals))
 
 

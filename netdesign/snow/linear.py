@@ -24,8 +24,12 @@ from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 
 Mask = NDArray[np.bool_]
 
-# Above these half bandwidths SuperLU is faster (measured at 220 to 1600 unknowns).
-_WIDEST_CHOLESKY, _WIDEST_LU = 150, 100
+# Above these half bandwidths SuperLU is faster (measured at 470 to 4100 unknowns).
+_WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
+# Slipping nodes whose friction is cheaper beside a Cholesky factor than in an LU one.
+_MOST_SLIPPING = 12
+# Sweeps that narrow an order (no more is gained after 25), and how far they move.
+_SWEEPS, _SWEEP = 25, 0.7
 
 
 class SingularError(Exception):
@@ -149,17 +153,22 @@ def solve_blocks(
     SingularError
         If there is no unique solution.
     """
-    if friction is not None:
-        parts = [_add_friction(part, friction) for part in parts]
-        force = force.copy()
-        shares = friction[1::2] if force.ndim == 1 else friction[1::2, None]
-        force[1::2] += shares * force[: len(force) - 1 : 2]
     held = ~free
     load = -force
+    if friction is not None:
+        shares = friction[1::2] if load.ndim == 1 else friction[1::2, None]
+        load[1::2] += shares * load[: len(load) - 1 : 2]
     load[held] = 0.0
+    if is_definite and ordering.band <= _WIDEST_CHOLESKY:
+        masked = [_mask(part, free) for part in parts]
+        if friction is None:
+            return _solve_cholesky(ordering, masked, load, held)
+        if np.count_nonzero(friction) <= _MOST_SLIPPING:
+            rows = _collect_friction(parts, friction, free)
+            return _solve_slipping(ordering, masked, rows, friction, load, held)
+    if friction is not None:
+        parts = [_add_friction(part, friction) for part in parts]
     masked = [_mask(part, free) for part in parts]
-    if is_definite and friction is None and ordering.band <= _WIDEST_CHOLESKY:
-        return _solve_cholesky(ordering, masked, load, held)
     if ordering.band <= _WIDEST_LU:
         return _solve_lu(ordering, masked, load, held)
     return _solve_sparse(masked, load, held)
@@ -179,7 +188,11 @@ def _build_ordering(
     size = np.full(n_nodes, 2)
     if has_pressures:
         size[: template.n_vertices] = 3
-    starts = [_place_in(order, size) for order in _list_orders(graph, template)]
+    graph.sum_duplicates()
+    rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
+    columns = graph.indices.astype(np.int64)
+    orders = [_narrow(order, rows, columns) for order in _list_orders(graph, template)]
+    starts = [_place_in(order, size) for order in orders]
     reaches = [int(np.abs(start[rows] - start[columns]).max()) for start in starts]
     best = int(np.argmin(reaches))
     start = starts[best]
@@ -203,6 +216,28 @@ def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]
     ]
     narrow = reverse_cuthill_mckee(graph, symmetric_mode=True)
     return [order.astype(np.int64) for order in (narrow, *fronts)]
+
+
+def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
+    """The narrowest of the orders found by moving nodes between their neighbours.
+
+    In each sweep every node goes most of the way to the middle between its first and
+    its last neighbour. That takes a quarter of the bandwidth away, half of the work.
+    ``rows`` and ``columns`` are the entries of the graph, sorted by row.
+    """
+    begins = np.searchsorted(rows, np.arange(order.size))
+    best, narrowest = order, order.size
+    for _ in range(_SWEEPS + 1):
+        place = np.empty(order.size)
+        place[order] = np.arange(order.size)
+        reach = int(np.abs(place[rows] - place[columns]).max())
+        if reach < narrowest:
+            best, narrowest = order, reach
+        first = np.minimum.reduceat(place[columns], begins)
+        last = np.maximum.reduceat(place[columns], begins)
+        moved = (1.0 - _SWEEP) * place + _SWEEP * (first + last) / 2.0
+        order = np.argsort(moved, kind="stable")
+    return best
 
 
 def _place_in(order: Ints, size: Ints) -> Ints:
@@ -250,6 +285,46 @@ def _solve_cholesky(
     if fault != 0:
         raise SingularError("not positive definite")
     return np.asarray(solution[ordering.place])
+
+
+def _collect_friction(parts: Sequence[Blocks], friction: Floats, free: Mask) -> Floats:
+    """What friction adds to the rows of slipping nodes, shape (n_slipping, n_dofs)."""
+    slipping = np.flatnonzero(friction)
+    place = np.full(friction.size, -1)
+    place[slipping] = np.arange(slipping.size)
+    sums = np.zeros(slipping.size * friction.size)
+    for part in parts:
+        wanted = place[part.dofs[:, 1 : part.n_paired : 2]]
+        block, pair = np.nonzero(wanted >= 0)
+        at = wanted[block, pair, None] * friction.size + part.dofs[block]
+        normal = part.values[block, 2 * pair]
+        sums += np.bincount(at.ravel(), normal.ravel(), minlength=sums.size)
+    rows = sums.reshape(slipping.size, friction.size)
+    return np.asarray(rows * free * friction[slipping, None])
+
+
+def _solve_slipping(
+    ordering: Ordering,
+    parts: Sequence[Blocks],
+    rows: Floats,
+    friction: Floats,
+    load: Floats,
+    held: Mask,
+) -> Floats:
+    """The symmetric matrix with a few rows added, by Woodbury's formula."""
+    slipping = np.flatnonzero(friction)
+    loads = load.reshape(len(load), -1)
+    at_slipping = np.zeros((len(load), slipping.size))
+    at_slipping[slipping, np.arange(slipping.size)] = 1.0
+    both = np.concatenate([loads, at_slipping], axis=1)
+    answers = _solve_cholesky(ordering, parts, both, held)
+    plain, inverse = np.split(answers, [loads.shape[1]], axis=1)
+    try:
+        small = np.eye(slipping.size) + rows @ inverse
+        shared = np.linalg.solve(small, rows @ plain)
+    except np.linalg.LinAlgError:
+        raise SingularError("singular") from None
+    return np.asarray((plain - inverse @ shared).reshape(load.shape))
 
 
 def _in_order(ordering: Ordering, load: Floats) -> Floats:

@@ -233,6 +233,8 @@ def start(scene, store, out):
          "--out", str(out), "--force"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env=environment(store), start_new_session=True,
+        # a shell that runs tests in the background lets its children ignore SIGINT
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
 
 

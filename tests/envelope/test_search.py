@@ -100,6 +100,18 @@ def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
         )
 
 
+def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
+    one = found.confirmations[0]
+    failed = replace(
+        one.confirmed, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
+    )
+    lost = replace(found, confirmations=(replace(one, confirmed=failed),))
+    assert found.gap == ""
+    assert lost.gap == (
+        f"the governing case of {one.member} could not be solved again (spoilt)"
+    )
+
+
 def test_rows_that_share_net_and_snow_share_cases(found):
     other = replace(LAYOUT, post_spacing=2.5)
     runner = Runner()

@@ -103,7 +103,6 @@ def time_limit() -> Iterator[None]:
 
 
 def is_shown_only(text: str) -> bool:
-    """No sign that steers a terminal; lines and blanks that hold words are text."""
     return all(sign.isprintable() or sign in "\n\u00a0" for sign in text)
 
 

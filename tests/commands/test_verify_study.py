@@ -1,0 +1,189 @@
+"""``netdesign verify --study``: what was stored comes out again, or it is said."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from netdesign import cli
+from netdesign.site import template
+
+DIFFERS, REFUSED = 1, 3
+PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory):
+    """Folder with a site of one net row, four cases, and its study."""
+    folder = tmp_path_factory.mktemp("stored")
+    lines = template.load_example()
+    lines["Nets"] = [line for line in lines["Nets"] if line["id"] == "R7"]
+    for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
+        line["samples"] = samples
+        if samples == 1:
+            line["high"] = line["low"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(template, "load_example", lambda: lines)
+        template.write_site_workbook(folder / "site.xlsx", example=True)
+        patch.chdir(folder)
+        options = ["--accuracy", "0.0512345678", "--jobs", "1", "--no-html"]
+        argv = ["netdesign", "check", "site.xlsx", "--quiet", "--no-excel", *options]
+        patch.setattr("sys.argv", argv)
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+    assert caught.value.code == DIFFERS  # the row fails: this is its verdict
+    return folder
+
+
+@pytest.fixture
+def verify(home, call, tmp_path):
+    """Verifies the study after it, or its site, was changed by hand."""
+    text = (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
+
+    def run(change=lambda _: None, *options):
+        study = json.loads(text)
+        change(study)
+        (tmp_path / "study.json").write_text(json.dumps(study), encoding="utf-8")
+        given = options or ("--site", home / "site.xlsx")
+        return call("verify", "--study", "study.json", "--jobs", 1, *given)
+
+    return run
+
+
+def test_a_study_comes_out_again_from_its_site_file(home):
+    ended = subprocess.run(
+        [*PROGRAM, "verify", "--study", "netdesign-out/study.json", "--jobs", "1"],
+        cwd=home, env=os.environ | {"NETDESIGN_STORE": str(home / "none.sqlite")},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "site file, SHA-256: equal" in ended.stdout
+    assert "limit profile, SHA-256: equal" in ended.stdout
+    assert "results, SHA-256: equal" in ended.stdout
+    assert "4 cases solved again" in ended.stdout
+    assert ended.stdout.endswith("same bytes\n")
+    assert not (home / "none.sqlite").exists()  # no stored case was believed
+
+
+def first_check(study):
+    return next(c for c in study["rows"][0]["checks"] if c["id"] == "post.compression")
+
+
+def to_pass(study):
+    study["verdict"] = study["rows"][0]["verdict"] = "pass"
+
+
+def weaker_demand(study):
+    """All numbers of one check agree with each other; only a new solve tells."""
+    check = first_check(study)
+    for name in ("demand_kN", "demand_low_kN", "demand_high_kN", "action_kN"):
+        check[name] *= 0.99
+    check["utilisation"] = check["demand_kN"] / check["resistance_kN"]
+    for spread in check["spreads"]:
+        for end in ("low", "high"):
+            spread[end] = spread[end] and spread[end] * 0.99
+
+
+def last_digits(study):
+    study["rows"][0]["cases"][0]["post_kN"] *= 1.0 + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("change", "place"),
+    [
+        (to_pass, "verdict: stored 'pass', again 'fail'"),
+        (weaker_demand, "rows.R7.checks.post.compression.demand_kN: stored "),
+        (
+            lambda s: s["rows"][0]["cases"][2].update(post_kN=1.0),
+            "rows.R7.cases.2.post_kN: stored 1.0, again ",
+        ),
+        (
+            lambda s: s["rows"][0]["cases"].pop(),
+            "rows.R7.cases.3.outcome: stored None, again 'converged'",
+        ),
+        (
+            lambda s: s["rows"][0]["checks"].append(s["rows"][0]["checks"][0]),
+            "again None",
+        ),
+        (
+            lambda s: s["profile"]["values"][0].update(value=0.5),
+            "profile.values.geometry.inclination.min.value: stored 0.5, again 25.0",
+        ),
+        (
+            lambda s: s["project"].update(author="\x1b[31mA. N. Other"),
+            "project.author: stored '",
+        ),
+        (lambda s: s["notes"].clear(), "notes.0: stored None, again "),
+    ],
+)
+def test_a_changed_study_ends_with_1_and_the_place(verify, change, place):
+    ended = verify(change)
+    assert ended.code == DIFFERS
+    assert place in ended.out
+    assert "\x1b" not in ended.out
+    assert "same" not in ended.out
+
+
+def test_contradictions_are_told_before_anything_is_solved(verify):
+    assert "its own arithmetic: DIFFERS: net row 'R7' says pass" in verify(to_pass).out
+    assert "its own arithmetic: holds" in verify(weaker_demand).out
+
+
+def test_the_last_digits_of_another_machine_are_no_difference(verify):
+    ended = verify(last_digits)
+    assert ended.code == 0
+    assert ended.out.endswith("same numbers, within 1e-06 of each\n")
+
+
+def test_other_versions_are_told_and_decide_nothing(verify):
+    def age(study):
+        study["provenance"]["version"] = "0.0.9"
+        study["provenance"]["libraries"]["numpy"] = "1.26.4"
+
+    ended = verify(age)
+    assert ended.code == 0
+    assert "other version: netdesign 0.0.9 then, " in ended.out
+    assert "other version: numpy 1.26.4 then, " in ended.out
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        (lambda s: s["provenance"].update(site_sha256="0" * 64), "site file"),
+        (lambda s: s["profile"].update(sha256="0" * 64), "limit profile"),
+    ],
+)
+def test_other_inputs_are_named_and_not_solved(verify, change, what):
+    ended = verify(change)
+    assert ended.code == DIFFERS
+    assert f"{what}, SHA-256: DIFFERS\n  stored {'0' * 64}\n" in ended.out
+    assert "not solved again" in ended.out
+
+
+def test_without_its_site_file_nothing_is_verified(verify, tmp_path):
+    ended = verify(lambda _: None, "--standard", "nf-p-95-304-style")
+    assert ended.code == REFUSED
+    assert "no site file 'site.xlsx' beside it or one folder up" in ended.err
+    assert "--site" in ended.err
+
+
+def test_settings_that_cannot_be_had_again_are_refused(verify):
+    def change(study):
+        study["provenance"]["settings"]["creep law"] = "my own"
+
+    ended = verify(change)
+    assert ended.code == REFUSED
+    assert "creep law 'my own'" in ended.err
+
+
+@pytest.mark.parametrize("content", [b"", b"{}", b"\xff\xfe", b"[1]"])
+def test_what_is_no_study_ends_with_3(call, tmp_path, content):
+    (tmp_path / "study.json").write_bytes(content)
+    assert call("verify", "--study", "study.json").code == REFUSED
+
+
+def test_options_of_a_study_are_refused_without_one(call):
+    assert call("verify", "--jobs", 1).code == 2
+    assert call("verify", "--study", "study.json", "--json").code == 2

@@ -1,0 +1,105 @@
+"""Solves many cases of many net rows; says what memory and file handles come to.
+
+A program of its own: ``python tests/faults/soak.py CASES PROCESSES``. Each net row has
+an upslope length of its own, hence meshes of its own; the cases of a row follow each
+other, all of them go through one store. A line a twentieth of the way.
+"""
+
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from netdesign.cable.net import Net
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.store import CaseStore
+from netdesign.envelope.workers import Job, OwnProcess, ProcessPool
+from netdesign.outcome import Outcome
+from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Snowpack
+
+COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+STEPS = 20
+CASES_OF_A_ROW = 20
+KIB = 1024.0
+
+
+def build_job(number):
+    """Case of a row; ranges as of the example."""
+    draw = np.random.default_rng([number])
+    row = np.random.default_rng([number // CASES_OF_A_ROW, 1])
+    return Job(
+        scene=Scene(
+            snowpack=Snowpack(
+                slope_angle=math.radians(38.0),
+                thickness=3.0,
+                upslope_length=float(row.uniform(6.0, 30.0)),
+                density=float(draw.uniform(270.0, 400.0)),
+            ),
+            ground=GroundLaw(kind="free"),
+            net=Net(
+                height_normal=3.0,
+                inclination=math.radians(draw.uniform(25.0, 35.0)),
+                stiffness_per_m=1e7,
+                slack=0.05,
+                friction_angle=math.radians(draw.uniform(15.0, 45.0)),
+            ),
+        ),
+        settings=COARSE,
+    )
+
+
+def list_processes():
+    """This process and its workers."""
+    own = os.getpid()
+    children = Path(f"/proc/{own}/task/{own}/children").read_text().split()
+    return [own, *map(int, children)]
+
+
+def measure():
+    """Resident memory [MiB] and open files of this process and its workers."""
+    memory = files = 0
+    for process in list_processes():
+        place = Path(f"/proc/{process}")
+        lines = (place / "status").read_text().splitlines()
+        (resident,) = (line.split()[1] for line in lines if line.startswith("VmRSS"))
+        memory += int(resident) / KIB
+        files += len(list((place / "fd").iterdir()))
+    return {"memory_MiB": round(memory, 1), "files": files}
+
+
+def soak(cases, processes, place):
+    """Measurements, first after one twentieth of the cases."""
+    workers = OwnProcess() if processes == 1 else ProcessPool(processes, worth=1)
+    begin, found = time.monotonic(), []
+    with CaseStore(place / "cases.sqlite", sys.stderr.write) as store:
+        runner = Runner(workers=workers, store=store)
+        for step in range(STEPS):
+            numbers = range(step * cases // STEPS, (step + 1) * cases // STEPS)
+            ends = runner.solve([build_job(number) for number in numbers])
+            failed = sum(end.outcome is not Outcome.CONVERGED for end in ends)
+            found.append(
+                {"cases": numbers.stop, "failed": failed}
+                | measure()
+                | {"elapsed_s": round(time.monotonic() - begin, 1)}
+            )
+            sys.stdout.write(json.dumps(found[-1]) + "\n")
+            sys.stdout.flush()
+    workers.close()
+    return found
+
+
+def main():
+    cases, processes = (int(one) for one in sys.argv[1:])
+    with tempfile.TemporaryDirectory() as place:
+        soak(cases, processes, Path(place))
+
+
+if __name__ == "__main__":
+    main()

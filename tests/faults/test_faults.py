@@ -1,0 +1,171 @@
+"""Full disks, places that cannot be written, two runs at once, clocks, Ctrl-C.
+
+What is the same for any bytes is tested in ``tests/test_output.py``, dying workers in
+``tests/envelope/test_workers.py``, damaged stores in ``tests/envelope/test_store.py``.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+FAIL, USAGE, INTERRUPTED = 1, 2, 130
+OUTPUTS = {"study.json", "report.html", "report.xlsx"}
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX limits, signals")
+
+
+def long(*values):
+    """Values of a test that are tried with ``-m faults`` only."""
+    return pytest.param(*values, marks=pytest.mark.faults)
+
+
+def end(process):
+    """Exit code and messages."""
+    _, messages = process.communicate(timeout=120)
+    assert "Traceback" not in messages
+    return process.returncode, messages
+
+
+def read(folder):
+    return {p.name: p.read_bytes() for p in folder.iterdir() if p.is_file()}
+
+
+def limit_files(size):
+    """Lines of Python after which no file of the process can be larger [bytes]."""
+    return (
+        f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({size},) * 2)\n"
+    )
+
+
+@pytest.mark.parametrize("size", [2_000, long(60_000), long(110_000)])
+def test_a_full_disk_leaves_nothing_and_costs_nothing(begin, clean, tmp_path, size):
+    """No room for the store, for the first output, for the second; then there is."""
+    code, messages = end(begin("--out", "out", "--jobs", 1, before=limit_files(size)))
+    assert code == USAGE
+    assert "cannot write: [Errno 27] File too large" in messages
+    is_store_lost = size < 60_000
+    assert ("going on without it" in messages) == is_store_lost
+    assert read(tmp_path / "out") == {}
+    assert end(begin("--out", "out", "--jobs", 1))[0] == FAIL
+    assert read(tmp_path / "out") == clean
+
+
+def test_two_runs_at_once_leave_the_outputs_of_one(begin, tmp_path):
+    """Both may overwrite: whoever comes last, the three outputs are of one run."""
+    runs = [
+        begin("--out", "out", "--force", "--jobs", 1, env={"SOURCE_DATE_EPOCH": epoch})
+        for epoch in ("1700000000", "1800000000")
+    ]
+    assert [end(run)[0] for run in runs] == [FAIL, FAIL]
+    found = read(tmp_path / "out")
+    assert found.keys() == OUTPUTS
+    year = json.loads(found["study.json"])["provenance"]["started"][:4]
+    (other,) = {"2023", "2027"} - {year}
+    assert f"{year}-" in found["report.html"].decode()
+    assert f"{other}-" not in found["report.html"].decode()
+
+
+def test_of_two_runs_that_may_not_overwrite_one_is_refused(begin, clean, tmp_path):
+    ends = [end(run) for run in [begin("--out", "out", "--jobs", 1) for _ in "ab"]]
+    assert sorted(code for code, _ in ends) == [FAIL, USAGE]
+    (refusal,) = (messages for code, messages in ends if code == USAGE)
+    assert "exists already" in refusal
+    assert read(tmp_path / "out") == clean
+
+
+# Wall clock and file times go back by a day at each look; nothing is pinned.
+BACKWARDS = """
+import itertools, time, datetime
+steps = itertools.count()
+time.time = lambda: 1.7e9 - 86_400.0 * next(steps)
+class Clock(datetime.datetime):
+    @classmethod
+    def now(cls, tz=None):
+        return cls.fromtimestamp(time.time(), tz)
+datetime.datetime = Clock
+"""
+
+
+@pytest.mark.parametrize(
+    ("before", "epoch"),
+    [(BACKWARDS, ""), long("", "0"), long("", "-86400"), long("", "253402300799")],
+    ids=["back a day at each look", "1970", "1969", "9999"],
+)
+def test_the_clock_decides_nothing_but_the_date(begin, clean, tmp_path, before, epoch):
+    run = begin(
+        *("--out", "out", "--jobs", 1), before=before, env={"SOURCE_DATE_EPOCH": epoch}
+    )
+    assert end(run)[0] == FAIL
+    found = read(tmp_path / "out")
+    assert found.keys() == OUTPUTS
+    study, expected = json.loads(found["study.json"]), json.loads(clean["study.json"])
+    started = study["provenance"].pop("started")
+    assert started != expected["provenance"].pop("started")
+    assert study == expected
+
+
+@pytest.mark.parametrize("pause", [long(0.0), 0.05, long(0.4)])
+def test_ctrl_c_twice_ends_as_once(begin, clean, tmp_path, pause):
+    """In the midst of a pool; nothing is written, and a run continues it."""
+    options = ("--out", "out", "--jobs", 2)
+    pool = "import netdesign.envelope.workers as w; w._WORTH_A_POOL = 1\n"
+    run = begin(*options, before=pool, start_new_session=True)
+    assert run.stderr.readline() == "2 of 8 cases\n"
+    run.send_signal(signal.SIGINT)
+    time.sleep(pause)
+    run.send_signal(signal.SIGINT)
+    code, messages = end(run)
+    assert code == INTERRUPTED
+    assert messages.splitlines()[-1].startswith("interrupted; to continue: netdesign")
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(ProcessLookupError):  # its workers are gone too
+        os.killpg(run.pid, 0)
+    assert end(begin("--out", "out", "--jobs", 1))[0] == FAIL
+    assert read(tmp_path / "out") == clean
+
+
+KILL_A_WORKER = """
+import os, signal
+import netdesign.envelope.workers as w
+w._WORTH_A_POOL = 1
+feed = w.ProcessPool._feed
+def kill_one(pool, waiting):
+    arrivals = feed(pool, waiting)
+    yield next(arrivals)
+    os.kill(next(iter(pool._pool._processes)), signal.SIGKILL)
+    return (yield from arrivals)
+w.ProcessPool._feed = kill_one
+"""
+
+
+def test_a_worker_killed_from_outside_changes_nothing(begin, clean, tmp_path):
+    """The case in its hands was no culprit: it is solved again."""
+    run = begin("--out", "out", "--jobs", 2, before=KILL_A_WORKER)
+    assert end(run)[0] == FAIL
+    assert read(tmp_path / "out").keys() == OUTPUTS
+    found = json.loads((tmp_path / "out" / "study.json").read_text(encoding="utf-8"))
+    expected = json.loads(clean["study.json"])
+    assert found["rows"] == expected["rows"]
+
+
+READ_ONLY = 'mount --bind out out && mount -o remount,ro,bind out && exec "$@"'
+
+
+def test_a_folder_of_a_read_only_disk_is_refused_before_solving(begin, tmp_path):
+    (tmp_path / "out").mkdir()
+    own = ["unshare", "--mount", "sh", "-c", READ_ONLY, "sh"]
+    try:
+        subprocess.run([*own, "true"], cwd=tmp_path, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("no leave to make a disk read-only here")
+    run = begin("--out", "out", "--jobs", 1, under=own)
+    code, messages = end(run)
+    assert code == USAGE
+    assert "out cannot be written to" in messages
+    assert "cases" not in messages
+    assert not (tmp_path / "cases.sqlite").exists()
