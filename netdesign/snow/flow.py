@@ -155,7 +155,7 @@ def solve_flow(
             outcome = Outcome.NONFINITE
             break
         solves += 1
-        change = _estimate_left(law, material, mesh, state, before)
+        change = _estimate_left(law, material, mesh, state, before, tolerance)
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
             break
@@ -273,14 +273,17 @@ def _estimate_left(
     mesh: PlacedMesh,
     state: FlowState,
     before: FlowState,
+    tolerance: float,
 ) -> float:
-    """Relative error that a step leaves, eq. (F12)."""
-    size = _stress_norm(law, material, mesh, state.stress)
-    field = _stress_norm(law, material, mesh, state.stress - before.stress) / size
+    """Relative error that a step leaves, eq. (F12); of the forces alone if too much."""
     sums = _sum_along_net(mesh, state.reaction)
     moved = _sum_along_net(mesh, state.reaction - before.reaction)
-    force = float(np.hypot(*moved).max() / np.hypot(*sums).max())
-    return float(np.maximum(_left(force), _FIELD_WEIGHT * _left(field)))
+    force = _left(float(np.hypot(*moved).max() / np.hypot(*sums).max()))
+    if force >= tolerance:
+        return force
+    size = _stress_norm(law, material, mesh, state.stress)
+    field = _stress_norm(law, material, mesh, state.stress - before.stress) / size
+    return float(np.maximum(force, _FIELD_WEIGHT * _left(field)))
 
 
 def _left(change: float) -> float:
