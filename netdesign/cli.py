@@ -301,6 +301,8 @@ def main() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
+    if os.environ.get("SOURCE_DATE_EPOCH") == "":
+        del os.environ["SOURCE_DATE_EPOCH"]  # empty is unset; numpy would stumble
     try:
         # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
         with cli.make_context(
