@@ -332,15 +332,19 @@ def main() -> NoReturn:
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
-        click.echo(
-            make_printable(
-                f"internal error, please report it: {type(error).__name__}: {error}\n"
-            )
-            + "(NETDESIGN_TRACEBACK=1 shows where)",
-            err=True,
-        )
-        sys.exit(_EXIT_INTERNAL)
+        sys.exit(_tell_unexpected(error))
     sys.exit(0)
+
+
+def _tell_unexpected(error: Exception) -> int:
+    """Say what nobody handled; a path that no file can have is no bug."""
+    if isinstance(error, OSError) and error.filename:
+        text = f"error: {error.filename}: {error.strerror}"
+        click.echo(make_printable(text), err=True)
+        return _EXIT_USAGE
+    text = f"internal error, please report it: {type(error).__name__}: {error}"
+    click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
+    return _EXIT_INTERNAL
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:
