@@ -301,6 +301,7 @@ def main() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
+    _unset_empty("SOURCE_DATE_EPOCH")
     try:
         # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
         with cli.make_context(
@@ -440,6 +441,12 @@ def _own_command() -> str:
     import shlex
 
     return make_printable(shlex.join(["netdesign", *sys.argv[1:]]))
+
+
+def _unset_empty(name: str) -> None:
+    """An empty variable counts as none; numpy would stumble over this one."""
+    if not os.environ.get(name):
+        os.environ.pop(name, None)
 
 
 def _now() -> str:
