@@ -1,7 +1,7 @@
 """Whole ranges of friction, inclination, slack, stiffness, mesh: nothing fails.
 
 The suite runs a thinned part of them; ``python -m pytest -m robustness`` runs all,
-in about half an hour. A scene may be refused before it is solved, and a history may
+in about ten minutes. A scene may be refused before it is solved, and a history may
 end early with a reason; neither may hide in a result.
 """
 
