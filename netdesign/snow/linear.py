@@ -191,17 +191,16 @@ def _build_ordering(
     graph.sum_duplicates()
     rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
     columns = graph.indices.astype(np.int64)
-    orders = [_narrow(order, rows, columns) for order in _list_orders(graph, template)]
-    starts = [_place_in(order, size) for order in orders]
-    reaches = [int(np.abs(start[rows] - start[columns]).max()) for start in starts]
-    best = int(np.argmin(reaches))
-    start = starts[best]
+    orders = _list_orders(graph, template)
+    narrowest = min(orders, key=lambda order: _find_reach(order, rows, columns))
+    start = _place_in(_narrow(narrowest, rows, columns), size)
+    reach = int(np.abs(start[rows] - start[columns]).max())
     place = np.empty(int(size.sum()), dtype=np.int64)
     place[: 2 * n_nodes : 2] = start
     place[1 : 2 * n_nodes : 2] = start + 1
     if has_pressures:
         place[2 * n_nodes :] = start[: template.n_vertices] + 2
-    return Ordering(place=place, band=reaches[best] + int(size.max()) - 1)
+    return Ordering(place=place, band=reach + int(size.max()) - 1)
 
 
 def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]:
@@ -230,7 +229,7 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
     for _ in range(_SWEEPS + 1):
         place = np.empty(order.size)
         place[order] = np.arange(order.size)
-        reach = int(np.abs(place[rows] - place[columns]).max())
+        reach = _find_reach(order, rows, columns)
         if reach < narrowest:
             best, narrowest = order, reach
         first = np.minimum.reduceat(place[columns], begins)
@@ -238,6 +237,12 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
         moved = (1.0 - _SWEEP) * place + _SWEEP * (first + last) / 2.0
         order = np.argsort(moved, kind="stable")
     return best
+
+
+def _find_reach(order: Ints, rows: Ints, columns: Ints) -> int:
+    """How far apart neighbours are in an order, at most."""
+    place = np.argsort(order)
+    return int(np.abs(place[rows] - place[columns]).max())
 
 
 def _place_in(order: Ints, size: Ints) -> Ints:
