@@ -10,6 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
+from typing import NamedTuple
 
 import numpy as np
 
@@ -94,6 +97,14 @@ class FlowResult:
     state: FlowState
     linear_solves: int
     change: float  # relative error that the last step left, eq. (F12) [-]
+
+
+class _Linear(NamedTuple):
+    """Laws linearised about a state, and the blocks of their matrix."""
+
+    creep: Tangent
+    base: Tangent | None  # None where the ground does not slide by a law
+    blocks: list[Blocks]
 
 
 # A Newton step to the next state.
@@ -194,15 +205,8 @@ def linearise_reaction(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> Floa
         If nothing holds the snow.
     """
     material = sample_material(law, mesh.template)
-    blocks = [
-        build_stiffness(mesh, linearise_creep(law, material, state.stress).modulus)
-    ]
-    if state.base_shear is not None:
-        base = _linearise_base(law, state.base_shear, state.contact)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
-    matrix = blocks[0].to_matrix(mesh.n_dofs)
-    for block in blocks[1:]:
-        matrix = matrix + block.to_matrix(mesh.n_dofs)
+    blocks = _linearise(law, material, mesh, state, state.contact).blocks
+    matrix = reduce(add, (block.to_matrix(mesh.n_dofs) for block in blocks))
     normal, _ = net_components(mesh)
     held = np.flatnonzero(~state.contact.is_open)
     unknowns = np.zeros((mesh.n_dofs, normal.size))
@@ -228,24 +232,19 @@ def remove_rounding(law: FlowLaw, mesh: PlacedMesh, state: FlowState) -> FlowSta
         If nothing holds the snow.
     """
     material = sample_material(law, mesh.template)
-    tangent = linearise_creep(law, material, state.stress)
-    blocks = [build_stiffness(mesh, tangent.modulus)]
-    base = None
-    if state.base_shear is not None:
-        base = _linearise_base(law, state.base_shear, state.contact)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
+    linear = _linearise(law, material, mesh, state, state.contact)
     residual = compute_residual(law, mesh, state)
-    change = _solve_step(law, mesh, state.contact, blocks, residual)
-    still = Tangent(modulus=tangent.modulus, kept=np.zeros_like(state.stress))
-    stress = state.stress + advance_stress(law, still, compute_strain(mesh, change))
+    change = _solve_step(law, mesh, state.contact, linear.blocks, residual)
+    still = linear.creep._replace(kept=np.zeros_like(state.stress))
     base_shear = state.base_shear
-    if base is not None and base_shear is not None:
-        base_shear = base_shear + base.modulus * compute_base_velocity(mesh, change)
+    if linear.base is not None and base_shear is not None:
+        more = linear.base.modulus * compute_base_velocity(mesh, change)
+        base_shear = base_shear + more
     return replace(
         state,
         unknowns=state.unknowns + change,
-        reaction=residual + sum(block.multiply(change) for block in blocks),
-        stress=stress,
+        reaction=residual + sum(block.multiply(change) for block in linear.blocks),
+        stress=state.stress + advance_stress(law, still, compute_strain(mesh, change)),
         base_shear=base_shear,
     )
 
@@ -325,23 +324,18 @@ def _advance(
     contact: Contact,
 ) -> FlowState:
     """One Newton step on the stress, eq. (F5)."""
-    tangent = linearise_creep(law, material, state.stress)
-    blocks = [build_stiffness(mesh, tangent.modulus)]
-    force = assemble_stress(mesh, tangent.kept) - _gravity_load(law, material, mesh)
-    base = None
-    if state.base_shear is not None:
-        base = _linearise_base(law, state.base_shear, contact)
-        blocks.append(build_base_stiffness(mesh, base.modulus))
+    creep, base, blocks = _linearise(law, material, mesh, state, contact)
+    force = assemble_stress(mesh, creep.kept) - _gravity_load(law, material, mesh)
+    if base is not None:
         force += assemble_base_force(mesh, base.kept)
     unknowns = _solve_step(law, mesh, contact, blocks, force)
-    stress = advance_stress(law, tangent, compute_strain(mesh, unknowns))
     base_shear = None
     if base is not None:
         base_shear = base.kept + base.modulus * compute_base_velocity(mesh, unknowns)
     return FlowState(
         unknowns=unknowns,
         reaction=force + sum(block.multiply(unknowns) for block in blocks),
-        stress=stress,
+        stress=advance_stress(law, creep, compute_strain(mesh, unknowns)),
         base_shear=base_shear,
         contact=contact,
     )
@@ -365,6 +359,23 @@ def _solve_step(
         friction_shares(law, mesh, contact),
         is_definite=law.element == "velocity",
     )
+
+
+def _linearise(
+    law: FlowLaw,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    contact: Contact,
+) -> _Linear:
+    """Creep and sliding about a state, under a contact."""
+    creep = linearise_creep(law, material, state.stress)
+    blocks = [build_stiffness(mesh, creep.modulus)]
+    base = None
+    if state.base_shear is not None:
+        base = _linearise_base(law, state.base_shear, contact)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+    return _Linear(creep=creep, base=base, blocks=blocks)
 
 
 def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
