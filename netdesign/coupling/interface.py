@@ -8,11 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.snow.contact import free_unknowns, may_lift, net_components
-from netdesign.snow.flow import FlowState, compute_residual
+from netdesign.snow.flow import (
+    FlowState,
+    compute_residual,
+    compute_weight,
+    remove_rounding,
+)
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
 
 Floats = NDArray[np.float64]
+
+# Forces left on free nodes, over the weight, that are more than rounding elsewhere.
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -71,3 +79,20 @@ def compute_support_forces(
         ground_normal=-ground[1, may_lift(template)],
         unbalanced=float(np.linalg.norm(residual[free])),
     )
+
+
+def mend_rounding(
+    law: FlowLaw, mesh: PlacedMesh, state: FlowState, forces: SupportForces
+) -> tuple[FlowState, SupportForces]:
+    """State and forces, those given unless rounding shows in their balance.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    weight = float(np.hypot(*compute_weight(law, mesh)))
+    if forces.unbalanced <= _ROUNDING * weight:
+        return state, forces
+    mended = remove_rounding(law, mesh, state)
+    return mended, compute_support_forces(law, mesh, mended)

@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.coupling.balance import check_balance, measure_balance
-from netdesign.coupling.interface import SupportForces, compute_support_forces
+from netdesign.coupling.interface import (
+    SupportForces,
+    compute_support_forces,
+    mend_rounding,
+)
 from netdesign.coupling.refine import refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
@@ -124,10 +128,12 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
     )
     if flow.outcome is not Outcome.CONVERGED:
         raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+    forces = compute_support_forces(law, mesh, flow.state)
+    state, forces = mend_rounding(law, mesh, flow.state, forces)
     return _Pressed(
         law=law,
         mesh=mesh,
-        state=flow.state,
-        forces=compute_support_forces(law, mesh, flow.state),
+        state=state,
+        forces=forces,
         linear_solves=flow.linear_solves,
     )

@@ -19,7 +19,11 @@ from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.cable.net import Net
 from netdesign.coupling.balance import check_balance, measure_balance
-from netdesign.coupling.interface import SupportForces, compute_support_forces
+from netdesign.coupling.interface import (
+    SupportForces,
+    compute_support_forces,
+    mend_rounding,
+)
 from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.round_tangent import linearise_round
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -33,14 +37,10 @@ from netdesign.coupling.solution import (
 )
 from netdesign.coupling.start import guess_pressure
 from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
-from netdesign.snow.flow import (
-    FlowState,
-    compute_weight,
-    remove_rounding,
-    solve_flow,
-)
+from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.linear import SingularError
@@ -49,6 +49,8 @@ from netdesign.snow.transfer import transfer_state
 
 Floats = NDArray[np.float64]
 
+# What iterations may leave of the accuracy asked for; the meshes take the rest.
+_ITERATED_SHARE = 0.04
 # The flow of a round is solved this much more tightly than the net still moves.
 _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
@@ -58,8 +60,6 @@ _CONTACT_ROUNDS = 30
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
 _LAYER_CONTRAST = 500.0
-# Forces left on free nodes, over the weight, that are more than rounding elsewhere.
-_ROUNDING = 1e-9
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
 # Corrected rounds remember little: contacts that changed make old ones mislead.
@@ -204,9 +204,7 @@ def _couple(
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
     moved, solves = 1.0, 0
-    rough = _FIRST_MESH if guess is None else 1.0
-    tolerance = rough * min(settings.stress_tolerance, settings.accuracy / 50)
-    still = rough * settings.shape_tolerance
+    tolerance, still = _choose_tolerances(settings, is_first=guess is None)
     curves: list[Floats] = []
     misses: list[Floats] = []
     inverse: Floats | None = None
@@ -215,42 +213,23 @@ def _couple(
         if state is None and guess is not None:
             state = transfer_state(guess.state, guess.mesh, mesh)
         wanted = max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
-        flow = solve_flow(
-            problem.law,
-            mesh,
-            state,
-            tolerance=wanted,
-            max_iterations=settings.max_iterations,
-            step=settings.step,
-        )
-        solves += flow.linear_solves
-        if flow.outcome is not Outcome.CONVERGED:
-            raise _fail(
-                problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}"
-            )
-        state = flow.state
+        flow = _flow_along(problem, mesh, state, settings, wanted)
+        state, solves = flow.state, solves + flow.linear_solves
         forces = compute_support_forces(problem.law, mesh, state)
-        hanging = _hang(
-            problem, forces.on_net, hanging.cable.pull, hanging.contact_length
-        )
+        hanging = _hang_again(problem, hanging, forces)
         curves.append(curve)
         misses.append(_contact_curve(problem, hanging) - curve)
         moved = float(np.abs(misses[-1]).max())
         if moved < still and flow.change < tolerance:
-            if forces.unbalanced > _ROUNDING * np.hypot(
-                *compute_weight(problem.law, mesh)
-            ):
-                state = remove_rounding(problem.law, mesh, state)
-                forces = compute_support_forces(problem.law, mesh, state)
-                hanging = _hang(
-                    problem, forces.on_net, hanging.cable.pull, hanging.contact_length
-                )
+            state, mended = mend_rounding(problem.law, mesh, state, forces)
+            if mended is not forces:
+                hanging = _hang_again(problem, hanging, mended)
             return _Coupled(
                 problem=problem,
                 mesh=mesh,
                 state=state,
                 hanging=hanging,
-                forces=forces,
+                forces=mended,
                 linear_solves=solves,
                 rounds=round_number,
             )
@@ -263,6 +242,45 @@ def _couple(
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {settings.max_rounds} rounds",
     )
+
+
+def _choose_tolerances(
+    settings: SolverSettings, *, is_first: bool
+) -> tuple[float, float]:
+    """What the last Newton step may leave, and how far the last round may move."""
+    rough = _FIRST_MESH if is_first else 1.0
+    share = _ITERATED_SHARE * settings.accuracy
+    return (
+        rough * min(settings.stress_tolerance, share),
+        rough * min(settings.shape_tolerance, share),
+    )
+
+
+def _flow_along(
+    problem: _Problem,
+    mesh: PlacedMesh,
+    start: FlowState | None,
+    settings: SolverSettings,
+    tolerance: float,
+) -> FlowResult:
+    """Converged flow along a net at rest."""
+    flow = solve_flow(
+        problem.law,
+        mesh,
+        start,
+        tolerance=tolerance,
+        max_iterations=settings.max_iterations,
+        step=settings.step,
+    )
+    if flow.outcome is not Outcome.CONVERGED:
+        raise _fail(problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}")
+    return flow
+
+
+def _hang_again(
+    problem: _Problem, hanging: _Hanging, forces: SupportForces
+) -> _Hanging:
+    return _hang(problem, forces.on_net, hanging.cable.pull, hanging.contact_length)
 
 
 def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
@@ -430,7 +448,8 @@ def _start_curve(
     known = guess.problem.template.net_fractions
     curve = _contact_curve(guess.problem, hanging)
     wanted = problem.template.net_fractions
-    return np.array([np.interp(wanted, known, axis) for axis in curve])
+    # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
+    return interpolate_curve(known, curve, wanted)
 
 
 def _build_solution(

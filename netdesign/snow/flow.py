@@ -276,7 +276,7 @@ def _estimate_left(
 ) -> float:
     """Relative error that a step leaves, eq. (F12); of the forces alone if too much."""
     sums = _sum_along_net(mesh, state.reaction)
-    moved = _sum_along_net(mesh, state.reaction - before.reaction)
+    moved = sums - _sum_along_net(mesh, before.reaction)
     force = _left(float(np.hypot(*moved).max() / np.hypot(*sums).max()))
     if force >= tolerance:
         return force
