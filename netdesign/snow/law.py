@@ -24,6 +24,7 @@ Sides = Literal["one-sided", "two-sided"]
 
 # Plane part of the unit tensor, and the compliance of a deviatoric stress (F8).
 _UNIT = np.array([1.0, 1.0, 0.0])
+_SHEAR, _VOLUME = np.diag([2.0, 2.0, 1.0]), np.outer(_UNIT, _UNIT)
 _DEVIATOR_COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])
 _DEVIATOR_STIFFNESS = np.linalg.inv(_DEVIATOR_COMPLIANCE)
 
@@ -105,8 +106,7 @@ class Material(NamedTuple):
     def stiffness(self) -> Floats:
         """M of eq. (F2), shape (.., 3, 3): stress over strain rate, linear law."""
         coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
-        shear = np.diag([2.0, 2.0, 1.0])
-        return np.asarray(shear + coupling[..., None, None] * np.outer(_UNIT, _UNIT))
+        return np.asarray(_SHEAR + coupling[..., None, None] * _VOLUME)
 
 
 class Tangent(NamedTuple):

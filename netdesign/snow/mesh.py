@@ -169,7 +169,8 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
     placed = np.array([follow * x_net - distance, height + follow * (y_net - height)])
-    placed[:, template.n_vertices :] = placed[:, template.edges].mean(axis=1)
+    start, end = template.edges
+    placed[:, template.n_vertices :] = (placed[:, start] + placed[:, end]) / 2.0
     placed[:, template.net] = net_curve
     return placed
 
