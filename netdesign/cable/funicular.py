@@ -90,7 +90,8 @@ def solve_funicular(
     offset = _tension_offsets(forces, bend)
     total = float(lengths.sum())
 
-    weights = np.tile(lengths / (2.0 * total), 2)  # of all Gauss points
+    half = lengths / (2.0 * total)
+    weights = np.concatenate([half, half])  # of all Gauss points
     flat = offset.reshape(2, -1)
 
     def gap_at_head(pull: Floats) -> tuple[Floats, Floats]:
@@ -110,7 +111,7 @@ def solve_funicular(
     converged = minimum.outcome is Outcome.CONVERGED
     vector = minimum.point[:, None, None] + offset
     size = np.hypot(*vector)
-    middle = vector.mean(axis=1)
+    middle = (vector[:, 0] + vector[:, 1]) / 2.0
     return Funicular(
         outcome=Outcome.CONVERGED if converged else Outcome.NO_EQUILIBRIUM,
         curve=_integrate_curve(vector * (1.0 / size + 1.0 / stiffness), lengths),
@@ -162,12 +163,16 @@ def _tension_offsets(forces: Floats, bend: Floats) -> Floats:
     """Tension vectors at the Gauss points less the pull, shape (.., 2, 2, n); (C3)."""
     steps = 2.0 / 3.0 * (bend[..., :-1] + bend[..., 1:]) - forces[..., 2:-1:2]
     middle = _sum_from_zero(steps)
-    return np.stack([middle - bend * _GAUSS, middle + bend * _GAUSS], axis=-2)
+    turn = bend * _GAUSS
+    offsets = np.empty((*bend.shape[:-1], 2, bend.shape[-1]))
+    np.subtract(middle, turn, out=offsets[..., 0, :])
+    np.add(middle, turn, out=offsets[..., 1, :])
+    return offsets
 
 
 def _integrate_curve(slope: Floats, lengths: Floats) -> Floats:
     """Node positions from dx/dS at the Gauss points, shape (.., 2, 2, n)."""
-    mean = slope.mean(axis=-2)
+    mean = (slope[..., 0, :] + slope[..., 1, :]) / 2.0
     change = (slope[..., 1, :] - slope[..., 0, :]) / (2.0 * _GAUSS)
     ends = _sum_from_zero(lengths * mean)
     curve = np.empty((*mean.shape[:-1], 2 * lengths.size + 1))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import lapack
 
 from netdesign.outcome import Outcome
 
@@ -71,12 +73,14 @@ def minimise_convex(
     point = np.asarray(start, dtype=float)
     gradient, hessian = evaluate(point)
     for iteration in range(max_iterations):
-        norm = float(np.linalg.norm(gradient))
-        if not np.isfinite(norm):
+        norm = math.sqrt(float(gradient @ gradient))
+        if not math.isfinite(norm):
             return _end(Outcome.NONFINITE, point, norm, iteration)
         if norm <= tolerance:
             return _end(Outcome.CONVERGED, point, norm, iteration)
-        direction = -np.linalg.solve(hessian, gradient)
+        _, direction, fault = lapack.dposv(hessian, -gradient)
+        if fault != 0:  # not convex here
+            return _end(Outcome.DIVERGED, point, norm, iteration)
         descent = -float(gradient @ direction)
         step = 1.0
         candidate = point + direction
@@ -88,7 +92,7 @@ def minimise_convex(
             candidate = point + step * direction
             gradient, hessian = evaluate(candidate)
         point = candidate
-    norm = float(np.linalg.norm(gradient))
+    norm = math.sqrt(float(gradient @ gradient))
     outcome = Outcome.CONVERGED if norm <= tolerance else Outcome.MAX_ITERATIONS
     return _end(outcome, point, norm, max_iterations)
 

@@ -167,12 +167,14 @@ def _update_slip(
     against_sign = velocity * contact.sign <= 0.0
     exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
     released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
-    with_friction = np.where(against_sign, released, contact.sign)
+    with_friction = np.where(against_sign, released, contact.sign).astype(np.int64)
+    if contact.is_pressed.all() and limit.all():
+        return with_friction
     as_it_moves = np.where(velocity < 0.0, -1, 1)
     # snow that slid without friction goes on the way it went
     was_loose = (contact.sign != 0) & ~contact.is_pressed & (velocity != 0.0)
     keeps_friction = (limit > 0.0) & ~was_loose
-    return np.where(keeps_friction, with_friction, as_it_moves).astype(np.int64)
+    return np.where(keeps_friction, with_friction, as_it_moves)
 
 
 def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:
