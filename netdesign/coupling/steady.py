@@ -59,7 +59,7 @@ _FIRST_MESH = 5.0
 _CONTACT_ROUNDS = 30
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
-_LAYER_CONTRAST = 500.0
+_LAYER_CONTRAST = 1e3
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
 # Corrected rounds remember little: contacts that changed make old ones mislead.

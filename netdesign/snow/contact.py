@@ -6,7 +6,7 @@ are (normal, tangential); pressures and shears are forces of the snow on its sup
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,20 +97,29 @@ def may_lift(template: MeshTemplate) -> Mask:
 
 
 def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:
-    """Contact with some of the wanted changes.
+    """Contact with some of the wanted changes, friction of slipping nodes included.
 
     Where changing every node at once goes round in circles, changing the first half
     of each row of neighbours rarely does, and changing a single node on the net and
     one on the ground, the first (Murty's rule), hardly ever.
     """
     sign, is_open = contact.sign.copy(), contact.is_open.copy()
-    changes = (sign != wanted.sign) | (is_open != wanted.is_open)
+    is_pressed = contact.is_pressed.copy()
+    slips = (sign != 0) & (wanted.sign != 0)
+    changes = (
+        (sign != wanted.sign)
+        | (is_open != wanted.is_open)
+        | (slips & (is_pressed != wanted.is_pressed))
+    )
     chosen = _choose(changes, only_first=only_first)
     sign[chosen], is_open[chosen] = wanted.sign[chosen], wanted.is_open[chosen]
+    is_pressed[chosen] = wanted.is_pressed[chosen]
     is_lifted = contact.is_lifted.copy()
     chosen = _choose(is_lifted != wanted.is_lifted, only_first=only_first)
     is_lifted[chosen] = wanted.is_lifted[chosen]
-    return replace(wanted, sign=sign, is_open=is_open, is_lifted=is_lifted)
+    return Contact(
+        sign=sign, is_pressed=is_pressed, is_open=is_open, is_lifted=is_lifted
+    )
 
 
 def _choose(changes: Mask, *, only_first: bool) -> Ints:
