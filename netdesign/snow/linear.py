@@ -26,8 +26,9 @@ Mask = NDArray[np.bool_]
 
 # Above these half bandwidths SuperLU is faster (measured at 470 to 4100 unknowns).
 _WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
-# Slipping nodes whose friction is cheaper beside a Cholesky factor than in an LU one.
-_MOST_SLIPPING = 12
+# Slipping nodes, over the half bandwidth, whose friction is cheaper beside a Cholesky
+# factor than in an LU one.
+_MOST_SLIPPING = 0.25
 # Sweeps that narrow an order (no more is gained after 25), and how far they move.
 _SWEEPS, _SWEEP = 25, 0.7
 
@@ -163,7 +164,7 @@ def solve_blocks(
         masked = [_mask(part, free) for part in parts]
         if friction is None:
             return _solve_cholesky(ordering, masked, load, held)
-        if np.count_nonzero(friction) <= _MOST_SLIPPING:
+        if np.count_nonzero(friction) <= _MOST_SLIPPING * ordering.band:
             rows = _collect_friction(parts, friction, free)
             return _solve_slipping(ordering, masked, rows, friction, load, held)
     if friction is not None:

@@ -27,7 +27,11 @@ _RING_RATIO = 0.4  # aimed ratio of the radii of neighbouring rings
 _RING_REACH = 2.2  # outermost ring, in units of the net spacing
 _RING_SHARE = 0.6  # size of triangles near an end over their distance from it
 _CLEARANCE = 1.3  # points of the background keep this many ring reaches away
+_LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
 _UPSLOPE_GROWTH = 1.35  # of neighbouring columns
+# Upslope of this many thicknesses the flow changes over lengths like the distance: the
+# columns widen with it. Along layers triangles may be long from nearer on.
+_FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
 NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
 
 
@@ -122,14 +126,21 @@ def build_template(
     # a short snowpack: the rings must not reach beyond its upslope end
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
+    far = _FAR_ALONG_LAYERS if interfaces else _FAR
     for line in _interface_points(aspect, size, interfaces):
-        points = np.vstack([_clear_line(points, line), line])
-    return triangulate(np.unique(points.round(12), axis=0), aspect)
+        is_clear = _is_clear(_squeeze(points, far), _squeeze(line, far))
+        points = np.vstack([points[is_clear], line])
+    points = np.unique(points.round(12), axis=0)
+    return _build_mesh(points, _connect(_squeeze(points, far)), aspect)
 
 
 def triangulate(points: Floats, aspect: float) -> MeshTemplate:
     """Reference mesh of given points (n, 2) that fill the rectangle to its sides."""
-    mesh = skfem.MeshTri(points.T.copy(), _connect(points).T.copy())
+    return _build_mesh(points, _connect(points), aspect)
+
+
+def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
+    mesh = skfem.MeshTri(points.T.copy(), triangles.T.copy())
     basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
     nodes = np.array(basis.doflocs)
     # placing maps xi to -X and so turns every triangle over
@@ -194,12 +205,13 @@ def _background_points(aspect: float, size: MeshSize) -> Floats:
     step = size.net_spacing
     while columns[-1] < aspect:
         columns.append(columns[-1] + step)
-        step = min(step * _UPSLOPE_GROWTH, size.upslope_spacing)
+        step = min(step * _UPSLOPE_GROWTH, _widest(columns[-1], size))
     places = np.array(columns) * (aspect / columns[-1])
     spacing = np.append(np.diff(places), places[-1] - places[-2])
     points = []
     for place, step in zip(places, spacing, strict=True):
-        rows = max(2, round(1.0 / max(step, size.net_spacing)))
+        across = min(max(step, size.net_spacing), size.upslope_spacing)
+        rows = max(2, round(1.0 / across))
         heights = np.linspace(0.0, 1.0, rows + 1)
         points.append(np.column_stack([np.full_like(heights, place), heights]))
     cloud = np.vstack(points)
@@ -222,9 +234,10 @@ def _interface_points(
             to_end = np.hypot(places[-1], min(height, 1.0 - height))
             column = min(
                 size.net_spacing + (_UPSLOPE_GROWTH - 1.0) * places[-1],
-                size.upslope_spacing,
+                _widest(places[-1], size),
             )
-            places.append(places[-1] + min(gap, column, _RING_SHARE * to_end))
+            long = gap * max(1.0, places[-1] / _FAR_ALONG_LAYERS)
+            places.append(places[-1] + min(long, column, _RING_SHARE * to_end))
         stretch = aspect / places[-1]
         lines.append(
             np.column_stack([np.array(places) * stretch, np.full(len(places), height)])
@@ -232,16 +245,31 @@ def _interface_points(
     return lines
 
 
-def _clear_line(points: Floats, line: Floats) -> Floats:
-    """Drop points inside the circles over the line's pieces.
+def _widest(distance: float, size: MeshSize) -> float:
+    """Largest column at a distance upslope of the net."""
+    return size.upslope_spacing * max(1.0, distance / _FAR)
 
-    A piece whose circle is empty is an edge of the Delaunay triangulation.
+
+def _squeeze(points: Floats, far: float) -> Floats:
+    """Points (n, 2) in coordinates in which triangles that are long far off are not."""
+    distance, height = points.T
+    log = np.log(np.maximum(distance, far) / far)
+    return np.column_stack([np.minimum(distance, far) + far * log, height])
+
+
+def _is_clear(points: Floats, line: Floats) -> NDArray[np.bool_]:
+    """Points outside the circles over a level line's pieces, and not close to them.
+
+    A piece whose circle is empty is an edge of the Delaunay triangulation. A point
+    close to it, on the net above all, would be the corner of a sliver.
     """
     centres, radii = (line[1:] + line[:-1]) / 2, np.diff(line[:, 0]) / 2
     nearest = np.searchsorted(line[:, 0], points[:, 0], side="right") - 1
     nearest = np.clip(nearest, 0, len(centres) - 1)
     distance = np.hypot(*(points - centres[nearest]).T)
-    return np.asarray(points[distance > radii[nearest] * (1.0 + 1e-9)])
+    off = np.abs(points[:, 1] - line[0, 1])
+    radius = radii[nearest]
+    return np.asarray((distance > radius * (1.0 + 1e-9)) & (off > _LEAST_OFF * radius))
 
 
 def _connect(points: Floats) -> Ints:

@@ -54,6 +54,48 @@ def test_smallest_edges_stand_at_both_ends_of_the_net(size):
     assert np.diff(vertices).max() <= 2.0 * size.net_spacing
 
 
+def draw_interfaces(seed):
+    """Sides of two to four layers, none thinner than a twentieth."""
+    rng = np.random.default_rng(seed)
+    shares = 0.05 + rng.dirichlet(np.ones(rng.integers(2, 5))) * 0.8
+    return tuple((np.cumsum(shares) / shares.sum())[:-1].round(6).tolist())
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("aspect", [3.0, 9.0, 60.0])
+@pytest.mark.parametrize("size", MESH_LEVELS[:4])
+def test_layers_have_sides_and_no_slivers_on_the_net(aspect, seed, size):
+    """Longest side squared over twice the area: 2.3 of equal sides, 4 of half squares.
+
+    The nodes of a sliver (44) carried pressures of -14, +513 and -34 instead of 7.
+    """
+    interfaces = draw_interfaces(seed)
+    template = build_template(aspect, size, interfaces)
+    corners = template.nodes[:, template.triangles[:3]]
+    assert np.abs(areas(template.nodes, template.triangles)).sum() == pytest.approx(
+        aspect, rel=1e-12
+    )
+    for height in interfaces:  # no triangle on both sides
+        above = corners[1] - height
+        assert not ((above.max(axis=0) > 1e-9) & (above.min(axis=0) < -1e-9)).any()
+    on_net = corners[:, :, (corners[0] == 0.0).sum(axis=0) == 2]
+    longest = np.hypot(*(on_net - np.roll(on_net, 1, axis=1))).max(axis=0)
+    x, y = on_net - on_net[:, :1]
+    doubled = np.abs(x[1] * y[2] - x[2] * y[1])
+    assert (longest**2 / doubled).max() < 7.0
+
+
+def test_a_long_snowpack_costs_little_more():
+    """Columns widen with their distance: as many for each doubling of the length."""
+    counts = [
+        build_template(aspect, COARSE).triangles.shape[1]
+        for aspect in (12.5, 25.0, 50.0, 100.0, 200.0)
+    ]
+    added = np.diff(counts)
+    assert (added > 0).all()
+    assert added.max() < 1.5 * added.min()
+
+
 def test_midpoints_follow_the_vertices():
     template = build_template(5.0, COARSE)
     n_vertices = template.nodes.shape[1] - template.edges.shape[1]
