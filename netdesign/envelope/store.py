@@ -67,18 +67,22 @@ def identify_solver() -> str:
 
 def name_case(scene: object, settings: object) -> str:
     """Key of a case: equal for equal inputs, whoever asks."""
-    text = json.dumps([_describe(scene), _describe(settings)], sort_keys=True)
+    text = json.dumps([scene, settings], sort_keys=True, default=_describe)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _describe(value: Any) -> Any:
-    """Plain values of a frozen dataclass, its name and those of its parts included."""
-    if is_dataclass(value) and not isinstance(value, type):
-        fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
-        return [type(value).__name__, {k: _describe(v) for k, v in fields.items()}]
-    if isinstance(value, tuple | list):
-        return [_describe(one) for one in value]
-    return value
+    """Name and fields of a dataclass; ``json`` asks for those of its parts, too.
+
+    Raises
+    ------
+    TypeError
+        For anything else that is no plain value: it cannot be told from its like.
+    """
+    if not is_dataclass(value) or isinstance(value, type):
+        raise TypeError(f"{value!r:.60}: no part of a case's name")
+    fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
+    return [type(value).__name__, fields]
 
 
 class CaseStore:
