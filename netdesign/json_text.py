@@ -44,21 +44,21 @@ def _write_value(value: Any, margin: str) -> str:
     objects of plain values, in which most of a document lies.
     """
     inside = f"{margin} "
+    encode = _build_encoder(inside).encode
     if is_dataclass(value):
         value = {one.name: getattr(value, one.name) for one in fields(value)}
-    is_object = isinstance(value, dict)
     if not value or not isinstance(value, dict | list | tuple):
-        return _build_encoder(inside).encode(value)
-    if _PLAIN.issuperset(map(type, value.values() if is_object else value)):
-        flat = _build_encoder(inside).encode(value)
+        return encode(value)
+    parts = value.values() if isinstance(value, dict) else value
+    if _PLAIN.issuperset(map(type, parts)):
+        flat = encode(value)
         return f"{flat[0]}{inside}{flat[1:-1]}{margin}{flat[-1]}"
-    if not is_object:
-        parts = (_write_value(one, inside) for one in value)
-        return f"[{inside}{f',{inside}'.join(parts)}{margin}]"
-    members = (
-        f"{_build_encoder(inside).encode(key)}: {_write_value(one, inside)}"
-        for key, one in value.items()
-    )
+    written = [_write_value(one, inside) for one in parts]
+    if not isinstance(value, dict):
+        return f"[{inside}{f',{inside}'.join(written)}{margin}]"
+    members = [
+        f"{encode(key)}: {text}" for key, text in zip(value, written, strict=True)
+    ]
     return f"{{{inside}{f',{inside}'.join(members)}{margin}}}"
 
 

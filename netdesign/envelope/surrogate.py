@@ -45,11 +45,14 @@ class Surrogate:
         Error of each case predicted from all others, in the quantity's unit.
     scores : ndarray, shape (n, quantities)
         Size of those errors over what the model expected of them.
+    noise : ndarray, shape (quantities,) or ()
+        Errors up to this size were no evidence, in the quantity's unit.
     """
 
     places: Floats
     held_out: Floats
     scores: Floats
+    noise: Floats
     _inverse: Floats
     _trend: Floats
     _trend_covariance: Floats
@@ -134,6 +137,7 @@ def fit_surrogate(
         places=places,
         held_out=weights / diagonal,
         scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
+        noise=np.asarray(noise, dtype=np.float64),
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,
