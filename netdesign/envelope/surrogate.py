@@ -82,14 +82,13 @@ class Surrogate:
         scale = _fade_scores(distances, self.scores[:, chosen])
         return Prediction(mean=mean, claim=scale * spread[:, None])
 
-    def evaluate(self, at: Floats, quantity: int) -> Floats:
-        """Mean of one quantity at places of shape (n, dimension)."""
-        near = _correlate(_measure_distances(at, self.places))
-        result: Floats = (
-            _build_trend(at) @ self._trend_weights[:, quantity]
-            + near @ self._weights[:, quantity]
-        )
-        return result
+    def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
+        """Mean of some quantities at places of shape (n, dimension), n values each."""
+        trend, near = _build_trend(at), _correlate(_measure_distances(at, self.places))
+        return [
+            trend @ self._trend_weights[:, one] + near @ self._weights[:, one]
+            for one in quantities
+        ]
 
 
 def _fade_scores(distances: Floats, scores: Floats) -> Floats:
