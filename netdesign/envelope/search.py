@@ -20,7 +20,12 @@ from netdesign.envelope.adaptive import (
     Watched,
     search_maxima,
 )
-from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
+from netdesign.envelope.extremes import (
+    Extreme,
+    describe_gap,
+    find_extreme,
+    find_extremes,
+)
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.grid import Case
 from netdesign.envelope.known_search import KnownSearch
@@ -188,7 +193,7 @@ class RowEnvelope:
 
     def governing(self, member: str) -> CaseResult:
         """Case of a member's largest force; carries the coincident forces."""
-        return find_extremes(self.results)[member].governing
+        return find_extreme(member, self.results).governing
 
     @property
     def extremes(self) -> dict[str, Extreme]:
