@@ -12,6 +12,7 @@ from netdesign.envelope.grid import Case
 from netdesign.envelope.parameters import PARAMETERS, Box
 from netdesign.envelope.search import Confirmation, RowEnvelope
 from netdesign.envelope.sensitivity import (
+    Sensitivity,
     find_crossings,
     follow_axis,
     measure_sensitivity,
@@ -69,6 +70,7 @@ def record_envelope(
     """
     maxima, task = envelope.maxima, envelope.task
     shown = [member for member in members if member in envelope.members]
+    answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
         axes=[
             AxisRecord(
@@ -88,8 +90,10 @@ def record_envelope(
         skips_tested=envelope.skips_tested,
         failed=sum(not result.is_converged for result in envelope.results),
         bounds=[
-            _record_bound(envelope, member, shown, (levels or {}).get(member, ()))
-            for member in shown
+            _record_bound(
+                envelope, member, shown, (levels or {}).get(member, ()), found
+            )
+            for member, found in zip(shown, answers, strict=True)
         ],
         log=[_record_addition(envelope, one) for one in maxima.log],
     )
@@ -100,6 +104,7 @@ def _record_bound(
     member: str,
     shown: Sequence[str],
     levels: Sequence[tuple[str, float]],
+    answers: Sequence[Sensitivity],
 ) -> BoundRecord:
     place = envelope.members.index(member)
     maxima = envelope.maxima
@@ -115,7 +120,7 @@ def _record_bound(
             if other != member
         },
         unexplained=measure_unexplained(maxima, place),
-        drivers=_record_drivers(envelope, place),
+        drivers=_record_drivers(envelope.task.box.axes, answers),
         flips=_find_flips(envelope, place, levels),
         lines=_record_lines(envelope, place),
         maps=_record_maps(envelope, place),
@@ -123,8 +128,9 @@ def _record_bound(
     )
 
 
-def _record_drivers(envelope: RowEnvelope, place: int) -> list[DriverRecord]:
-    axes = envelope.task.box.axes
+def _record_drivers(
+    axes: Sequence[str], answers: Sequence[Sensitivity]
+) -> list[DriverRecord]:
     return [
         DriverRecord(
             key=PARAMETERS[axes[one.axis]].key,
@@ -135,7 +141,7 @@ def _record_drivers(envelope: RowEnvelope, place: int) -> list[DriverRecord]:
             first_order=one.first_order,
             total=one.total,
         )
-        for one in measure_sensitivity(envelope.maxima, place)
+        for one in answers
     ]
 
 
@@ -201,7 +207,7 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
         at = np.tile(through, (_MAP_POINTS**2, 1))
         at[:, friction] = np.repeat(shares, _MAP_POINTS)
         at[:, density] = np.tile(shares, _MAP_POINTS)
-        force = maxima.surrogate.evaluate(at, place).reshape(_MAP_POINTS, _MAP_POINTS)
+        (force,) = maxima.surrogate.evaluate(at, place)
         values = box.place(through)
         inclination = values.get("inclination", envelope.results[0].case.inclination)
         found.append(
@@ -213,7 +219,8 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
                     for s in shares
                 ],
                 force_kN=[
-                    [kilonewton_from_newton(f) for f in row] for row in force.tolist()
+                    [kilonewton_from_newton(f) for f in row]
+                    for row in force.reshape(_MAP_POINTS, _MAP_POINTS).tolist()
                 ],
             )
         )

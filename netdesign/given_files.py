@@ -65,7 +65,7 @@ def make_printable(text: str) -> str:
     'a [31mb'
     """
     kept = "\n\u00a0"  # French sets a no-break space before some marks
-    if text.translate(dict.fromkeys(map(ord, kept))).isprintable():
+    if text.replace(kept[0], "").replace(kept[1], "").isprintable():
         return text
     return "".join(sign if sign.isprintable() or sign in kept else " " for sign in text)
 

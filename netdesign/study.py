@@ -7,7 +7,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -438,7 +438,7 @@ class Study:
 
 def write_document(study: Study) -> str:
     """JSON text of a study; numbers in full, keys in the order of the fields."""
-    return write_json(asdict(study))
+    return write_json(study)
 
 
 def read_document(text: str) -> Study:

@@ -19,6 +19,7 @@ from netdesign.envelope.workers import OwnProcess, ProcessPool
 from netdesign.outcome import Outcome, Verdict
 from netdesign.rowcheck.probe import Probe
 from netdesign.site_cases import count_cases, search_site
+from netdesign.snow.snowpack import Layer
 from netdesign.study import read_document, write_document
 
 RANGES = Ranges(
@@ -142,6 +143,32 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
     finally:
         pool.close()
     assert write_document(judge(standard, found)) == expected
+
+
+def test_layered_snow_is_part_of_what_a_search_is_known_by(tmp_path):
+    """Two rows that differ in one layer only, and a second run of both."""
+    thickness = ROWS[0].snow_thickness
+    rows = [
+        replace(
+            ROWS[0],
+            layers=(
+                Layer(thickness=0.5 * thickness, density=350.0),
+                Layer(thickness=0.5 * thickness, density=density),
+            ),
+        )
+        for density in (250.0, 250.5)
+    ]
+    searched = []
+
+    class Recording(CaseStore):
+        def keep_search(self, name, known):
+            searched.append(name)
+            super().keep_search(name, known)
+
+    for row in (*rows, *rows):
+        with Recording(tmp_path / "cases.sqlite", pytest.fail) as store:
+            search_site(build_site(row, ranges=RANGES), RUN, Runner(store=store))
+    assert len(searched) == len(set(searched)) == 2
 
 
 def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):

@@ -189,7 +189,7 @@ def _choose_points(found: RowEnvelope, samples: int) -> list[Point]:
     for place in range(len(found.members)):
         least = _NEAR * maxima.maximum[place]
         if least > 0.0:
-            near = model.evaluate(np.array(grid), place) >= least
+            near = model.evaluate(np.array(grid), place)[0] >= least
             chosen |= {
                 point for point, is_near in zip(grid, near, strict=True) if is_near
             }

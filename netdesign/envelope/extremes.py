@@ -37,8 +37,7 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
     if not converged:
         return {}
     return {
-        member: _find_extreme(member, converged)
-        for member in converged[0].member_forces
+        member: find_extreme(member, converged) for member in converged[0].member_forces
     }
 
 
@@ -53,7 +52,9 @@ def describe_gap(results: Sequence[CaseResult]) -> str:
     return f"{len(failed)} of {len(results)} cases failed ({'; '.join(reasons)})"
 
 
-def _find_extreme(member: str, converged: Sequence[CaseResult]) -> Extreme:
+def find_extreme(member: str, results: Sequence[CaseResult]) -> Extreme:
+    """Extreme of one member over the converged cases, of which there has to be one."""
+    converged = [result for result in results if result.is_converged]
     bands = [result.member_forces[member] for result in converged]
     # Equal forces: the first case of the grid, whatever the order of the results.
     governing = min(

@@ -16,7 +16,7 @@ from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
-from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,10 +140,12 @@ def _resolve_net(task: CaseTask, state: SolvedState) -> CaseResult:
 def _resolve_support(
     task: CaseTask, layout: SupportLayout, solution: SolvedState
 ) -> CaseResult:
-    anchors = _anchor_forces(layout, solution)
+    points = place_support(layout, solution.head_point)
+    width = layout.post_spacing
+    anchors = _anchor_forces(points, width, solution)
     if isinstance(anchors, FailedSupport):
         return _failed(task, anchors.outcome, anchors.reason)
-    bands = _force_bands(layout, solution, anchors)
+    bands = _force_bands(points, width, solution, anchors)
     if isinstance(bands, FailedSupport):
         return _failed(task, bands.outcome, bands.reason)
     return CaseResult(
@@ -156,7 +158,8 @@ def _resolve_support(
 
 
 def _anchor_forces(
-    layout: SupportLayout,
+    points: SupportPoints,
+    width: float,
     solution: SolvedState,
     shift: Sequence[float] = (0.0, 0.0, 0.0, 0.0),
 ) -> AnchorForces | FailedSupport:
@@ -166,7 +169,7 @@ def _anchor_forces(
     """
     foot, head = solution.foot, solution.head
     return compute_anchor_forces(
-        place_support(layout, solution.head_point),
+        points,
         foot_pull_per_m=(
             foot.x + shift[0] * foot.error,
             foot.y + shift[1] * foot.error,
@@ -175,12 +178,12 @@ def _anchor_forces(
             head.x + shift[2] * head.error,
             head.y + shift[3] * head.error,
         ),
-        post_spacing=layout.post_spacing,
+        post_spacing=width,
     )
 
 
 def _force_bands(
-    layout: SupportLayout, solution: SolvedState, anchors: AnchorForces
+    points: SupportPoints, width: float, solution: SolvedState, anchors: AnchorForces
 ) -> dict[str, Band] | FailedSupport:
     """Member forces with the band that the error of the end pulls can cause.
 
@@ -193,7 +196,7 @@ def _force_bands(
         change = dict.fromkeys(values, 0.0)
         for share in (-1.0, 1.0):
             shift = [share if place == component else 0.0 for place in range(4)]
-            moved = _anchor_forces(layout, solution, shift)
+            moved = _anchor_forces(points, width, solution, shift)
             if isinstance(moved, FailedSupport):
                 return moved
             for member, force in moved.member_forces.items():

@@ -6,8 +6,9 @@ import sqlite3
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from netdesign.envelope.known_search import KnownSearch
 from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.store import CaseStore, name_case
+from netdesign.envelope.store import CaseStore, name_case, name_search
 from netdesign.envelope.workers import Job, OwnProcess, Workers
 from netdesign.outcome import Outcome
 
@@ -61,6 +62,29 @@ class Runner:
             self.counts.failed += end.outcome is not Outcome.CONVERGED
             self.on_done(end)
         return [ends[name] for name in names]
+
+    def find_search(self, task: object) -> KnownSearch | None:
+        """What is known of the search of a task."""
+        if self.store is None:
+            return None
+        try:
+            return self.store.find_search(name_search(task))
+        except TypeError:
+            return None  # a task without a name is searched every time
+        except sqlite3.Error as error:
+            self._give_up(error)
+            return None
+
+    def keep_search(self, task: object, known: KnownSearch) -> None:
+        """Keep a finished search for later runs."""
+        if self.store is None:
+            return
+        try:
+            self.store.keep_search(name_search(task), known)
+        except TypeError:
+            return
+        except sqlite3.Error as error:
+            self._give_up(error)
 
     def _look_up(self, names: list[str]) -> dict[str, CaseEnd]:
         if self.store is None:

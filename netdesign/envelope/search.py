@@ -7,6 +7,7 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
+from typing import TypeVar
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -19,10 +20,17 @@ from netdesign.envelope.adaptive import (
     Watched,
     search_maxima,
 )
-from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
+from netdesign.envelope.extremes import (
+    Extreme,
+    describe_gap,
+    find_extreme,
+    find_extremes,
+)
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.grid import Case
+from netdesign.envelope.known_search import KnownSearch
 from netdesign.envelope.parameters import Box, build_case, place_scene
+from netdesign.envelope.result_reader import ResultReader
 from netdesign.envelope.run import (
     CaseResult,
     CaseTask,
@@ -32,7 +40,6 @@ from netdesign.envelope.run import (
     run_cases,
 )
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.signed import choose_watched, name_sources, read_signed
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import Job
 from netdesign.structure.layout import SupportLayout
@@ -41,10 +48,10 @@ from netdesign.structure.layout import SupportLayout
 _CONFIRMED_SHARE = 0.5
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
 
-# A gap closer than this share of the numerical error is not worth a case.
-_WORTH = 0.5
-
 Conversation = Generator[list[Job], list[CaseEnd], "RowEnvelope"]
+_End = TypeVar("_End")
+_Search = Generator[tuple[Point, ...], Sequence[Values | None], _End]
+_Watch = Callable[[], Mapping[int, Watched]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -186,7 +193,7 @@ class RowEnvelope:
 
     def governing(self, member: str) -> CaseResult:
         """Case of a member's largest force; carries the coincident forces."""
-        return find_extremes(self.results)[member].governing
+        return find_extreme(member, self.results).governing
 
     @property
     def extremes(self) -> dict[str, Extreme]:
@@ -219,9 +226,23 @@ def refine_settings(settings: SolverSettings) -> SolverSettings:
 
 
 def search_row(
-    task: RowTask, on_gap: Callable[[float], None] = lambda _: None
+    task: RowTask,
+    on_gap: Callable[[float], None] = lambda _: None,
+    known: KnownSearch | None = None,
+    keep: Callable[[KnownSearch], None] = lambda _: None,
 ) -> Conversation:
     """Ask for the ends of jobs until the row's envelope is known.
+
+    Parameters
+    ----------
+    task : RowTask
+        What is searched.
+    on_gap : callable, optional
+        Takes the largest gap left after each round of a search [-].
+    known : KnownSearch, optional
+        Of the same task, in an earlier run; repeated instead of searching.
+    keep : callable, optional
+        Takes a search that was not known.
 
     Yields
     ------
@@ -237,32 +258,24 @@ def search_row(
     -----------
     tests/envelope/test_search.py
     """
-    skip = FrictionSkip(task.box.axes)
-    results: list[CaseResult] = []
-    reader = _Reader(layout=task.layout)
-    search = search_maxima(len(task.box.axes), task.search, on_gap, reader.watch)
-    points = next(search)
-    while True:
-        tasks = [build_point_task(task, point) for point in points]
-        ends = yield from _ask(points, tasks, skip)
-        answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
-        results += answered
-        try:
-            points = search.send(reader.read(answered))
-        except StopIteration as end:
-            maxima = reader.bound_members(end.value)
-            break
-    members = reader.members
-    confirmations = yield from _confirm(task, members, results, maxima)
+    found = None
+    if known is not None:
+        found, row = yield from _converse(task, known.repeat)
+    if found is None:
+        search = partial(search_maxima, len(task.box.axes), task.search, on_gap)
+        found, row = yield from _converse(task, search)
+        keep(KnownSearch(maxima=found, watched=row.reader.watch()))
+    maxima, members = row.reader.bound_members(found), row.reader.members
+    confirmations = yield from _confirm(task, members, row.results, maxima)
     return RowEnvelope(
         task=task,
         members=members,
-        quantities=reader.quantities,
-        results=tuple(results),
+        quantities=row.reader.quantities,
+        results=tuple(row.results),
         maxima=maxima,
         confirmations=confirmations,
-        skipped=skip.skipped,
-        skips_tested=skip.tested,
+        skipped=row.skip.skipped,
+        skips_tested=row.skip.tested,
     )
 
 
@@ -278,7 +291,8 @@ def search_rows(
     tasks : sequence of RowTask
         One a row.
     runner : Runner
-        Where cases are solved and kept; rows with the same net and snow share them.
+        Where cases are solved and kept, and what was found from them; rows with the
+        same net and snow share cases.
     on_wave : callable, optional
         Called after each wave.
 
@@ -291,7 +305,13 @@ def search_rows(
     finished: dict[RowTask, RowEnvelope] = {}
     gaps = dict.fromkeys(distinct, math.inf)
     open_rows = {
-        task: search_row(task, partial(gaps.__setitem__, task)) for task in distinct
+        task: search_row(
+            task,
+            partial(gaps.__setitem__, task),
+            runner.find_search(task),
+            partial(runner.keep_search, task),
+        )
+        for task in distinct
     }
     asked = {task: next(talk) for task, talk in open_rows.items()}
     while asked:
@@ -332,6 +352,26 @@ def build_point_task(
     )
 
 
+def _converse(
+    task: RowTask, begin: Callable[[_Watch], _Search[_End]]
+) -> Generator[list[Job], list[CaseEnd], tuple[_End, _RowCases]]:
+    """Lead a search to its end, and what was learned of the row's cases."""
+    row = _RowCases(
+        reader=ResultReader(layout=task.layout), skip=FrictionSkip(task.box.axes)
+    )
+    search = begin(row.reader.watch)
+    points = next(search)
+    while True:
+        tasks = [build_point_task(task, point) for point in points]
+        ends = yield from _ask(points, tasks, row.skip)
+        answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
+        row.results += answered
+        try:
+            points = search.send(row.reader.read(answered))
+        except StopIteration as end:
+            return end.value, row
+
+
 def _ask(
     points: Sequence[Point], tasks: Sequence[CaseTask], skip: FrictionSkip
 ) -> Generator[list[Job], list[CaseEnd], list[CaseEnd | None]]:
@@ -350,84 +390,12 @@ def _ask(
 
 
 @dataclass(slots=True, kw_only=True)
-class _Reader:
-    """Turns results into the quantities of a search, and its bounds into members'."""
+class _RowCases:
+    """The cases of a row during a search, and what reads and spares them."""
 
-    layout: SupportLayout | None
-    members: tuple[str, ...] = ()
-    signed: tuple[str, ...] = ()
-    is_shared: bool = False
-    errors: dict[str, float] = field(default_factory=dict)  # smallest of each member
-    largest: dict[str, float] = field(default_factory=dict)  # force of each member
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        return (*self.members, *self.signed)
-
-    def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
-        """Values of some cases; the first decide whether signed forces exist."""
-        behind = [self._find_signed(result) for result in results]
-        for result in results:
-            for member, band in result.member_forces.items():
-                known = self.largest.get(member, 0.0)
-                self.largest[member] = max(known, band.value)
-                if band.value > 0.0:
-                    error = band.high - band.value
-                    self.errors[member] = min(error, self.errors.get(member, error))
-        converged = [k for k, result in enumerate(results) if result.is_converged]
-        if converged and not self.members:
-            first = results[converged[0]]
-            self.members = tuple(first.member_forces)
-            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-            if all(behind[k] is not None for k in converged):
-                self.signed = tuple(behind[converged[0]] or ())
-        return [
-            self._read_one(result, signed)
-            for result, signed in zip(results, behind, strict=True)
-        ]
-
-    def watch(self) -> dict[int, Watched]:
-        """Quantities to be bounded, by place, each as closely as it is worth."""
-        names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
-        return {self.quantities.index(name): self._ask_for(name) for name in names}
-
-    def _ask_for(self, name: str) -> Watched:
-        """Half the numerical error of the members behind which a quantity stands."""
-        behind = [
-            member
-            for member in self.members
-            if name in (member, *name_sources(member, is_shared=self.is_shared))
-        ]
-        floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
-        if name not in self.members and "guy" in name:
-            behind += [member for member in self.members if member.endswith("_guy")]
-        errors = [self.errors[member] for member in behind if member in self.errors]
-        return Watched(worth=_WORTH * max(errors, default=0.0), floor=floor)
-
-    def bound_members(self, maxima: Maxima) -> Maxima:
-        """Bounds of the members from those of the signed forces behind them."""
-        if not self.signed or not maxima.upper_bound:
-            return maxima
-        upper = list(maxima.upper_bound)
-        for place, member in enumerate(self.members):
-            sources = name_sources(member, is_shared=self.is_shared)
-            allowed = [upper[self.quantities.index(name)] for name in sources]
-            if allowed:
-                upper[place] = max(maxima.maximum[place], 0.0, *allowed)
-        return replace(maxima, upper_bound=tuple(upper))
-
-    def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
-        return None if self.layout is None else read_signed(result, self.layout)
-
-    def _read_one(
-        self, result: CaseResult, signed: dict[str, float] | None
-    ) -> Values | None:
-        if not result.is_converged:
-            return None
-        forces = tuple(band.value for band in result.member_forces.values())
-        if not self.signed:
-            return forces
-        return None if signed is None else (*forces, *signed.values())
+    reader: ResultReader
+    skip: FrictionSkip
+    results: list[CaseResult] = field(default_factory=list)
 
 
 def _confirm(

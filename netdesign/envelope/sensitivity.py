@@ -50,15 +50,17 @@ class Sensitivity:
     total: float
 
 
-def measure_sensitivity(maxima: Maxima, quantity: int) -> tuple[Sensitivity, ...]:
-    """Answer of a force to every parameter, in their order; () without a model.
+def measure_sensitivity(
+    maxima: Maxima, *quantities: int
+) -> tuple[tuple[Sensitivity, ...], ...]:
+    """Answer of some forces to every parameter, in their order; () without a model.
 
     Parameters
     ----------
     maxima : Maxima
         End of a search.
-    quantity : int
-        Which force.
+    *quantities : int
+        Which forces; together they cost little more than one.
 
     Verified by
     -----------
@@ -66,13 +68,25 @@ def measure_sensitivity(maxima: Maxima, quantity: int) -> tuple[Sensitivity, ...
     """
     model = maxima.surrogate
     if model is None:
-        return ()
+        return ((),) * len(quantities)
     dimension = model.places.shape[1]
-    first, total = _compute_indices(model, quantity)
+    grid, weights = _build_rule(dimension)
+    found = model.evaluate(grid, *quantities)
+    values = [one.reshape((len(weights),) * dimension) for one in found]
+    return tuple(
+        _measure_one(maxima, model, quantity, _compute_indices(one, weights))
+        for quantity, one in zip(quantities, values, strict=True)
+    )
+
+
+def _measure_one(
+    maxima: Maxima, model: Surrogate, quantity: int, indices: tuple[Floats, Floats]
+) -> tuple[Sensitivity, ...]:
     governing = maxima.points[maxima.governing[quantity]]
     found = []
-    for axis in range(dimension):
-        _, forces, _ = follow_axis(model, governing, axis, quantity)
+    for axis, (first, total) in enumerate(zip(*indices, strict=True)):
+        _, line = _draw_line(governing, axis, _ALONG)
+        (forces,) = model.evaluate(line, quantity)
         found.append(
             Sensitivity(
                 axis=axis,
@@ -80,8 +94,8 @@ def measure_sensitivity(maxima: Maxima, quantity: int) -> tuple[Sensitivity, ...
                 high=float(forces.max()),
                 at_low=float(forces[0]),
                 at_high=float(forces[-1]),
-                first_order=float(first[axis]),
-                total=float(total[axis]),
+                first_order=float(first),
+                total=float(total),
             )
         )
     return tuple(found)
@@ -122,7 +136,8 @@ def find_crossings(
     if maxima.surrogate is None:
         return ()
     governing = maxima.points[maxima.governing[quantity]]
-    shares, forces, _ = follow_axis(maxima.surrogate, governing, axis, quantity)
+    shares, line = _draw_line(governing, axis, _ALONG)
+    (forces,) = maxima.surrogate.evaluate(line, quantity)
     above = forces - level
     flips = np.flatnonzero((above[:-1] > 0.0) != (above[1:] > 0.0))
     return tuple(
@@ -135,28 +150,37 @@ def find_crossings(
 
 
 def follow_axis(
-    model: Surrogate, through: Point, axis: int, quantity: int, count: int = _ALONG
+    model: Surrogate, through: Point, axis: int, quantity: int, count: int
 ) -> tuple[Floats, Floats, Floats]:
     """Shares of a parameter, forces and their standard errors along it."""
-    shares = np.linspace(0.0, 1.0, count)
-    line = np.tile(np.array(through), (count, 1))
-    line[:, axis] = shares
+    shares, line = _draw_line(through, axis, count)
     mean, claim = model.predict(line, (quantity,))
     return shares, mean[:, 0], claim[:, 0]
 
 
-def _compute_indices(model: Surrogate, quantity: int) -> tuple[Floats, Floats]:
-    """First-order and total Sobol indices by a tensor Gauss rule."""
-    dimension = model.places.shape[1]
+def _draw_line(through: Point, axis: int, count: int) -> tuple[Floats, Floats]:
+    """Shares of a parameter, and the places along it through a point."""
+    shares = np.linspace(0.0, 1.0, count)
+    line = np.tile(np.array(through), (count, 1))
+    line[:, axis] = shares
+    return shares, line
+
+
+def _build_rule(dimension: int) -> tuple[Floats, Floats]:
+    """Nodes of a tensor Gauss rule, and the weights along each axis."""
     nodes, weights = np.polynomial.legendre.leggauss(_RULE[dimension])
     nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
-    grid = np.array(list(product(nodes, repeat=dimension)))
-    values = model.evaluate(grid, quantity)
-    values = values.reshape((len(nodes),) * dimension)
+    return np.array(list(product(nodes, repeat=dimension))), weights
+
+
+def _compute_indices(values: Floats, weights: Floats) -> tuple[Floats, Floats]:
+    """First-order and total Sobol indices of values at the rule's nodes."""
+    dimension = values.ndim
+    noise = 1e-9 * abs(values.flat[0])
     values = values - _average(values, range(dimension), weights)
     variance = float(_average(values**2, range(dimension), weights))
     first, total = np.zeros(dimension), np.zeros(dimension)
-    if variance <= (1e-9 * np.abs(model.evaluate(grid[:1], quantity)[0])) ** 2:
+    if variance <= noise**2:
         return first, total
     for axis in range(dimension):
         others = [other for other in range(dimension) if other != axis]

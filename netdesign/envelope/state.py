@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import zlib
-from dataclasses import asdict, astuple, dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -69,7 +69,11 @@ class SolvedState:
     @property
     def is_finite(self) -> bool:
         """Every number from which a force follows is one, and no error is negative."""
-        parts = (*astuple(self.foot), *astuple(self.head), *astuple(self.balance))
+        parts = (
+            getattr(one, key)
+            for one in (self.foot, self.head, self.balance)
+            for key in one.__dataclass_fields__
+        )
         numbers = [self.tension_max, *(part for part in parts if part is not None)]
         shape = (self.net_curve, self.mesh_nodes)
         return (
@@ -161,7 +165,7 @@ def _decode_arrays(content: bytes, shapes: list[list[int]]) -> dict[str, Any]:
     arrays: dict[str, Any] = {}
     start = 0
     for (name, kind), shape in zip(_SHAPE_ARRAYS, shapes, strict=True):
-        size = int(np.prod(shape)) * np.dtype(kind).itemsize
+        size = math.prod(shape) * np.dtype(kind).itemsize
         flat = np.frombuffer(content[start : start + size], dtype=kind)
         arrays[name] = flat.reshape(shape)
         start += size

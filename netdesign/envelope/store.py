@@ -1,8 +1,9 @@
-"""Finished cases on disk: solved once, used by every later run.
+"""Finished cases and searches on disk: used by every later run.
 
-One SQLite file. A case is known by its scene, its settings and the solver's own
-text, so that another version never answers for this one. Each case is one
-transaction in a write-ahead log: a killed run loses nothing that was finished.
+One SQLite file. A case is known by its scene, its settings and the solver's own text,
+a search by its task and the text of the whole program, so that another version never
+answers for this one. Each is one transaction in a write-ahead log: a killed run loses
+nothing that was finished.
 """
 
 from __future__ import annotations
@@ -22,14 +23,16 @@ from types import TracebackType
 from typing import Any
 
 from netdesign import __version__
+from netdesign.envelope.known_search import KnownSearch, decode_search, encode_search
 from netdesign.envelope.state import CaseEnd, decode_end, encode_end
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
 
-_LAYOUT = 1  # of the tables
+_LAYOUT = 2  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "snow", "cable", "coupling")
+_WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 _FORGOTTEN = Outcome.WORKER_FAILED  # says nothing about the case itself
 
 
@@ -48,15 +51,24 @@ def find_store() -> Path:
     return Path(base or Path.home() / ".cache") / "netdesign" / "cases.sqlite"
 
 
-@lru_cache(maxsize=1)
 def identify_solver() -> str:
     """Version of the solver: its text, and the libraries that decide last digits."""
+    return _identify(_SOLVER_PARTS)
+
+
+def identify_program() -> str:
+    """Version of the whole program, as ``identify_solver``."""
+    return _identify(_WHOLE_PROGRAM)
+
+
+@lru_cache
+def _identify(parts: tuple[str, ...]) -> str:
     import numpy
     import scipy
 
     digest = hashlib.sha256()
     root = Path(__file__).resolve().parent.parent
-    for part in _SOLVER_PARTS:
+    for part in parts:
         for path in sorted((root / part).rglob("*")):
             if path.suffix in (".py", ".toml"):
                 digest.update(path.name.encode())
@@ -67,18 +79,34 @@ def identify_solver() -> str:
 
 def name_case(scene: object, settings: object) -> str:
     """Key of a case: equal for equal inputs, whoever asks."""
-    text = json.dumps([_describe(scene), _describe(settings)], sort_keys=True)
+    text = json.dumps([scene, settings], sort_keys=True, default=_describe)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def name_search(task: object) -> str:
+    """Key of the search of a task, under this version of the program.
+
+    Raises
+    ------
+    TypeError
+        If a part of the task is no plain value, for instance a function.
+    """
+    text = json.dumps([identify_program(), task], sort_keys=True, default=_describe)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _describe(value: Any) -> Any:
-    """Plain values of a frozen dataclass, its name and those of its parts included."""
-    if is_dataclass(value) and not isinstance(value, type):
-        fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
-        return [type(value).__name__, {k: _describe(v) for k, v in fields.items()}]
-    if isinstance(value, tuple | list):
-        return [_describe(one) for one in value]
-    return value
+    """Name and fields of a dataclass; ``json`` asks for those of its parts, too.
+
+    Raises
+    ------
+    TypeError
+        For anything else that is no plain value: it cannot be told from its like.
+    """
+    if not is_dataclass(value) or isinstance(value, type):
+        raise TypeError(f"{value!r:.60}: no part of a name")
+    fields = {key: getattr(value, key) for key in value.__dataclass_fields__}
+    return [type(value).__name__, fields]
 
 
 class CaseStore:
@@ -154,6 +182,10 @@ class CaseStore:
                 "CREATE TABLE cases (name TEXT PRIMARY KEY, numbers TEXT NOT NULL, "
                 "shape BLOB NOT NULL, seal TEXT NOT NULL) WITHOUT ROWID"
             )
+            base.execute(
+                "CREATE TABLE searches (name TEXT PRIMARY KEY, text TEXT NOT NULL, "
+                "seal TEXT NOT NULL) WITHOUT ROWID"
+            )
         base.execute("COMMIT")
         if tables and not {"origin", "cases"} <= tables:
             return "is no store of cases"
@@ -192,8 +224,26 @@ class CaseStore:
             (name, numbers, shape, _seal(name, numbers, shape)),
         )
 
+    def find_search(self, name: str) -> KnownSearch | None:
+        """Known search of a name; a damaged one is told and left out."""
+        query = "SELECT text, seal FROM searches WHERE name = ?"
+        for text, seal in self._base.execute(query, (name,)).fetchall():
+            with suppress(ValueError, KeyError, TypeError):
+                if _seal(name, text) == seal:
+                    return decode_search(text)
+            self._say(f"{self._path}: search {name[:12]} is damaged, made anew")
+        return None
 
-def _seal(name: str, numbers: str, shape: bytes) -> str:
+    def keep_search(self, name: str, known: KnownSearch) -> None:
+        """Store one finished search, in a transaction of its own."""
+        text = encode_search(known)
+        self._base.execute(
+            "INSERT OR REPLACE INTO searches VALUES (?, ?, ?)",
+            (name, text, _seal(name, text)),
+        )
+
+
+def _seal(name: str, numbers: str, shape: bytes = b"") -> str:
     return hashlib.sha256(f"{name} {numbers}".encode() + shape).hexdigest()
 
 

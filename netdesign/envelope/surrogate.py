@@ -45,11 +45,14 @@ class Surrogate:
         Error of each case predicted from all others, in the quantity's unit.
     scores : ndarray, shape (n, quantities)
         Size of those errors over what the model expected of them.
+    noise : ndarray, shape (quantities,) or ()
+        Errors up to this size were no evidence, in the quantity's unit.
     """
 
     places: Floats
     held_out: Floats
     scores: Floats
+    noise: Floats
     _inverse: Floats
     _trend: Floats
     _trend_covariance: Floats
@@ -79,14 +82,13 @@ class Surrogate:
         scale = _fade_scores(distances, self.scores[:, chosen])
         return Prediction(mean=mean, claim=scale * spread[:, None])
 
-    def evaluate(self, at: Floats, quantity: int) -> Floats:
-        """Mean of one quantity at places of shape (n, dimension)."""
-        near = _correlate(_measure_distances(at, self.places))
-        result: Floats = (
-            _build_trend(at) @ self._trend_weights[:, quantity]
-            + near @ self._weights[:, quantity]
-        )
-        return result
+    def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
+        """Mean of some quantities at places of shape (n, dimension), n values each."""
+        trend, near = _build_trend(at), _correlate(_measure_distances(at, self.places))
+        return [
+            trend @ self._trend_weights[:, one] + near @ self._weights[:, one]
+            for one in quantities
+        ]
 
 
 def _fade_scores(distances: Floats, scores: Floats) -> Floats:
@@ -134,6 +136,7 @@ def fit_surrogate(
         places=places,
         held_out=weights / diagonal,
         scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
+        noise=np.asarray(noise, dtype=np.float64),
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,

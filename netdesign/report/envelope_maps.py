@@ -168,9 +168,10 @@ def _paint_line(
             ]
         )
 
-    chart.area([*trace(one.force_kN), *trace(one.bound_kN)[::-1]], PALE)
-    chart.line(trace(one.bound_kN), stroke=GREY, width=0.6, dash="3 2")
-    chart.line(trace(one.force_kN), stroke=INK)
+    force, allowed = trace(one.force_kN), trace(one.bound_kN)
+    chart.area([*force, *allowed[::-1]], PALE)
+    chart.line(allowed, stroke=GREY, width=0.6, dash="3 2")
+    chart.line(force, stroke=INK)
     across = frame.y(bound.upper_bound_kN)
     chart.line(
         [(frame.left, across), (frame.left + frame.width, across)],

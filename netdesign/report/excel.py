@@ -13,8 +13,8 @@ from netdesign.report.check_sheet import add_check_sheet
 from netdesign.report.language import Words
 from netdesign.report.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.table import Cell, Column, Table
-from netdesign.report.translation import translate_view
-from netdesign.report.view import ReportView, build_view
+from netdesign.report.translation import show_study, translate_view
+from netdesign.report.view import ReportView
 from netdesign.report.workbook import Book
 from netdesign.report.workbook_charts import add_case_chart, add_force_chart
 from netdesign.study import Study
@@ -37,7 +37,9 @@ SHEETS = (
 )
 
 
-def render_workbook(study: Study, words: Words | None = None) -> bytes:
+def render_workbook(
+    study: Study, words: Words | None = None, view: ReportView | None = None
+) -> bytes:
     """Workbook of a study; the same study gives the same bytes.
 
     Parameters
@@ -46,6 +48,8 @@ def render_workbook(study: Study, words: Words | None = None) -> bytes:
         What is shown.
     words : Words, optional
         Language; English if not given.
+    view : ReportView, optional
+        Of this study in this language, where it is there already.
 
     Raises
     ------
@@ -55,7 +59,7 @@ def render_workbook(study: Study, words: Words | None = None) -> bytes:
     import xlsxwriter
 
     words = words or Words()
-    view = translate_view(build_view(study), words)
+    view = view or show_study(study, words)
     buffer = io.BytesIO()
     options = {
         "in_memory": True,

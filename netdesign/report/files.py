@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -54,28 +54,39 @@ def render_files(
     style: ReportStyle | None = None,
 ) -> dict[Path, bytes]:
     """Contents of all files; what to render follows from their suffix."""
-    return {
-        path: _render(study, path.suffix, style or ReportStyle())
-        for study, of_study in zip(studies, paths, strict=True)
-        for path in of_study
-    }
+    contents: dict[Path, bytes] = {}
+    for study, of_study in zip(studies, paths, strict=True):
+        wanted = {path.suffix for path in of_study}
+        rendered = _render(study, wanted, style or ReportStyle())
+        contents |= {path: rendered[path.suffix] for path in of_study}
+    return contents
 
 
-def _render(study: Study, suffix: str, style: ReportStyle) -> bytes:
-    """One file; modules of formats that are not wanted are not imported."""
+def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, bytes]:
+    """Wanted formats of a study; modules of the others are not imported."""
     words = load_words(style.language)
-    if suffix in (".html", ".pdf"):
+    rendered: dict[str, bytes] = {}
+    if wanted & {".html", ".pdf", ".xlsx"}:
+        from netdesign.report.translation import show_study
+
+        view = show_study(study, words)
+    if wanted & {".html", ".pdf"}:
         from netdesign.report.html import render_html
+
+        page = render_html(study, words, style.detail, view)
+        rendered[".html"] = page.encode()
+    if ".pdf" in wanted:
         from netdesign.report.pdf import render_pdf
 
-        page = render_html(study, words, style.detail)
-        return page.encode() if suffix == ".html" else render_pdf(page)
-    if suffix == ".xlsx":
+        rendered[".pdf"] = render_pdf(page)
+    if ".xlsx" in wanted:
         from netdesign.report.excel import render_workbook
 
-        return render_workbook(study, words)
-    if suffix == ".csv":
+        rendered[".xlsx"] = render_workbook(study, words, view)
+    if ".csv" in wanted:
         from netdesign.report.case_table import render_cases
 
-        return render_cases(study)
-    return write_document(study).encode()
+        rendered[".csv"] = render_cases(study)
+    if ".json" in wanted:
+        rendered[".json"] = write_document(study).encode()
+    return rendered

@@ -19,8 +19,8 @@ from netdesign.report.language import Words
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
-from netdesign.report.translation import Translate, translate_drawing, translate_view
-from netdesign.report.view import ReportView, build_view
+from netdesign.report.translation import Translate, show_study, translate_drawing
+from netdesign.report.view import ReportView
 from netdesign.study import RowStudy, Study
 
 if TYPE_CHECKING:
@@ -56,7 +56,10 @@ _ROW_SECTIONS = (
 
 
 def render_html(
-    study: Study, words: Words | None = None, detail: Detail = "full"
+    study: Study,
+    words: Words | None = None,
+    detail: Detail = "full",
+    view: ReportView | None = None,
 ) -> str:
     """Page of a study: complete, or an error.
 
@@ -68,6 +71,8 @@ def render_html(
         Language; English if not given.
     detail : str
         ``summary`` leaves out what only a reviewer of a net row needs.
+    view : ReportView, optional
+        Of this study in this language, where it is there already.
 
     Raises
     ------
@@ -80,11 +85,10 @@ def render_html(
     environment = build_environment(words)
     environment.filters["subscripts"] = _write_subscripts
     environment.filters["unbroken"] = _keep_units
-    view = build_view(study)
-    shown = translate_view(view, words)
+    view = view or show_study(study, words)
     is_full = detail == "full"
     page = environment.get_template("report.html").render(
-        view=shown,
+        view=view,
         is_full=is_full,
         language=words.language,
         css=load_style("report.css"),

@@ -6,9 +6,8 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import fields
-from typing import Any
 
+from netdesign.json_text import list_fields
 from netdesign.outcome import Outcome
 from netdesign.report.table import (
     Cell,
@@ -279,13 +278,8 @@ def hash_results(study: Study) -> str:
         "profile": study.profile.sha256,
         "rows": study.rows,
     }
-    text = json.dumps(content, default=_list_fields, allow_nan=False)
+    text = json.dumps(content, default=list_fields, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _list_fields(value: Any) -> dict[str, Any]:
-    """Fields of a dataclass, as deep as they are; quicker than a copy of all."""
-    return {one.name: getattr(value, one.name) for one in fields(value)}
 
 
 def stack_tables(caption: str, parts: Sequence[tuple[str, Table]]) -> Table:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from netdesign.report.row_tables import describe_flip
-from netdesign.report.translation import translate_view
-from netdesign.report.view import ReportView, RowView, build_view
+from netdesign.report.translation import show_study
+from netdesign.report.view import ReportView, RowView
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -54,7 +54,7 @@ def print_summary(
     from rich.table import Table
     from rich.text import Text
 
-    view = translate_view(build_view(study), words)
+    view = show_study(study, words)
     is_narrow = console.width < _NARROW
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(words("Net row"), overflow="fold", min_width=4)

@@ -10,8 +10,9 @@ from typing import Any, TypeVar
 
 from netdesign.report.check_view import CheckView, Step, Worked
 from netdesign.report.table import Cell, Column, Table
-from netdesign.report.view import ReportView, RowView
+from netdesign.report.view import ReportView, RowView, build_view
 from netdesign.report.words import VerdictWords
+from netdesign.study import Study
 
 Translate = Callable[[str], str]
 View = TypeVar("View")
@@ -32,6 +33,17 @@ _WORDS: dict[type, tuple[str, ...]] = {
 }
 _TEXT = re.compile(r"(?<=>)[^<>]+(?=</text>)")
 _LABEL = re.compile(r'(?<= aria-label=")[^"]+(?=")')
+
+
+def show_study(study: Study, words: Translate) -> ReportView:
+    """All that page, workbook and terminal print about a study, in a language.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers.
+    """
+    return translate_view(build_view(study), words)
 
 
 def translate_view(view: View, words: Translate) -> View:

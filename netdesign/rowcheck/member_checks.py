@@ -15,7 +15,12 @@ from netdesign.checks import (
     check_member,
 )
 from netdesign.envelope.curvature import EnvelopeGap, estimate_gap
-from netdesign.envelope.extremes import Extreme, describe_gap, find_extremes
+from netdesign.envelope.extremes import (
+    Extreme,
+    describe_gap,
+    find_extreme,
+    find_extremes,
+)
 from netdesign.envelope.grid import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.search import RowEnvelope
@@ -255,7 +260,7 @@ def _list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
-    at_cases = find_extremes(task.results)[given.member].force.high
+    at_cases = find_extreme(given.member, task.results).force.high
     margin = (extreme.force.high + between.size) / at_cases
     on_force = effects.factor(given.member) * (result.action_factor or math.nan)
     target = Target(

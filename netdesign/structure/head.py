@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from dataclasses import dataclass
+from itertools import chain
 from typing import ClassVar
 
 from netdesign.guards import require_within
@@ -191,10 +192,5 @@ def _direction(start: Point, end: Point) -> Point:
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:
-    places = (
-        points.head,
-        points.post_base,
-        points.uphill_anchor,
-        points.downhill_anchor,
-    )
-    return all(math.isfinite(c) for place in (pull, *places) for c in place)
+    places = (points.post_base, points.uphill_anchor, points.downhill_anchor)
+    return all(map(math.isfinite, chain(pull, points.head, *places)))

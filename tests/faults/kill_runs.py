@@ -22,13 +22,15 @@ from netdesign.report import excel, files, html
 
 OUTPUTS = ("study.json", "report.html", "report.xlsx")
 NOW, BEFORE = "1700000000", "1600000000"  # of the run, and of the outputs it finds
-# Where a kill may fall: the solve of a case, its way to the store, each report, and
-# each step of the way to disk.
+# Where a kill may fall: the solve of a case, its way to the store and that of a
+# search, each report, and each step of the way to disk.
 STEPS = (
     (runner, "name_case"),
     (workers, "solve_job"),
     (store.CaseStore, "keep"),
     (store.CaseStore, "find"),
+    (store.CaseStore, "keep_search"),
+    (store.CaseStore, "find_search"),
     (files, "_render"),
     (html, "render_html"),
     (excel, "render_workbook"),

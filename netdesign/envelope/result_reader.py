@@ -1,0 +1,108 @@
+"""From the results of a row to the quantities that a search follows, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from netdesign.envelope.adaptive import Maxima, Values, Watched
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.signed import choose_watched, name_sources, read_signed
+from netdesign.structure.layout import SupportLayout
+
+# A gap closer than this share of the numerical error is not worth a case.
+_WORTH = 0.5
+
+
+@dataclass(slots=True, kw_only=True)
+class ResultReader:
+    """Turns results into the quantities of a search, and its bounds into members'.
+
+    Attributes
+    ----------
+    layout : SupportLayout or None
+        Support of the net; None follows the net's own tensions.
+    members, signed : tuple of str
+        Quantities of the results, and the signed forces behind them.
+    is_shared : bool
+        Net and uphill guy end at one anchor.
+    errors, largest : dict of str to float
+        Smallest numerical error and largest force of each member [N].
+    """
+
+    layout: SupportLayout | None
+    members: tuple[str, ...] = ()
+    signed: tuple[str, ...] = ()
+    is_shared: bool = False
+    errors: dict[str, float] = field(default_factory=dict)
+    largest: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """All that is modelled: members, then signed forces."""
+        return (*self.members, *self.signed)
+
+    def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
+        """Values of some cases; the first decide whether signed forces exist."""
+        behind = [self._find_signed(result) for result in results]
+        for result in results:
+            for member, band in result.member_forces.items():
+                known = self.largest.get(member, 0.0)
+                self.largest[member] = max(known, band.value)
+                if band.value > 0.0:
+                    error = band.high - band.value
+                    self.errors[member] = min(error, self.errors.get(member, error))
+        converged = [k for k, result in enumerate(results) if result.is_converged]
+        if converged and not self.members:
+            first = results[converged[0]]
+            self.members = tuple(first.member_forces)
+            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
+            if all(behind[k] is not None for k in converged):
+                self.signed = tuple(behind[converged[0]] or ())
+        return [
+            self._read_one(result, signed)
+            for result, signed in zip(results, behind, strict=True)
+        ]
+
+    def watch(self) -> dict[int, Watched]:
+        """Quantities to be bounded, by place, each as closely as it is worth."""
+        names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
+        return {self.quantities.index(name): self._ask_for(name) for name in names}
+
+    def _ask_for(self, name: str) -> Watched:
+        """Half the numerical error of the members behind which a quantity stands."""
+        behind = [
+            member
+            for member in self.members
+            if name in (member, *name_sources(member, is_shared=self.is_shared))
+        ]
+        floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
+        if name not in self.members and "guy" in name:
+            behind += [member for member in self.members if member.endswith("_guy")]
+        errors = [self.errors[member] for member in behind if member in self.errors]
+        return Watched(worth=_WORTH * max(errors, default=0.0), floor=floor)
+
+    def bound_members(self, maxima: Maxima) -> Maxima:
+        """Bounds of the members from those of the signed forces behind them."""
+        if not self.signed or not maxima.upper_bound:
+            return maxima
+        upper = list(maxima.upper_bound)
+        for place, member in enumerate(self.members):
+            sources = name_sources(member, is_shared=self.is_shared)
+            allowed = [upper[self.quantities.index(name)] for name in sources]
+            if allowed:
+                upper[place] = max(maxima.maximum[place], 0.0, *allowed)
+        return replace(maxima, upper_bound=tuple(upper))
+
+    def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
+        return None if self.layout is None else read_signed(result, self.layout)
+
+    def _read_one(
+        self, result: CaseResult, signed: dict[str, float] | None
+    ) -> Values | None:
+        if not result.is_converged:
+            return None
+        forces = tuple(band.value for band in result.member_forces.values())
+        if not self.signed:
+            return forces
+        return None if signed is None else (*forces, *signed.values())
