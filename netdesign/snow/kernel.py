@@ -11,15 +11,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
-import scipy.sparse as sparse
-from skfem import ElementTriP1, ElementTriP2
-from skfem.quadrature import get_quadrature
 
 from netdesign.snow.linear import Blocks
 from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+
+if TYPE_CHECKING:
+    import scipy.sparse as sparse
 
 # Degree of exactness: strain rates of straight triangles are linear, the creep law of
 # them is not. Three points a triangle; six (degree 4) move end forces by some 0.005 %,
@@ -375,6 +375,9 @@ def _edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:
 @lru_cache(maxsize=1)
 def reference_element() -> tuple[Floats, Floats, Floats]:
     """Shape functions (n_points, 6), gradients (6, 2, n_points), weights."""
+    from skfem import ElementTriP2
+    from skfem.quadrature import get_quadrature
+
     element = ElementTriP2()
     points, weights = get_quadrature(element.refdom, QUADRATURE_DEGREE)
     values, gradients = zip(*(element.lbasis(points, i) for i in range(6)), strict=True)
@@ -400,6 +403,9 @@ def list_velocity_dofs(template: MeshTemplate) -> Ints:
 
 def add_pressure_rows(strain: Floats) -> Floats:
     """Operator (.., 4, 15) whose fourth strain is the pressure, linear per triangle."""
+    from skfem import ElementTriP1
+    from skfem.quadrature import get_quadrature
+
     element = ElementTriP1()
     points, _ = get_quadrature(element.refdom, QUADRATURE_DEGREE)
     operator = np.zeros((*strain.shape[:2], 4, 15))

@@ -11,16 +11,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import scipy.sparse as sparse
 from numpy.typing import NDArray
 from scipy.linalg import lapack
-from scipy.sparse.csgraph import breadth_first_order, reverse_cuthill_mckee
-from scipy.sparse.linalg import splu
 
 from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+
+if TYPE_CHECKING:
+    import scipy.sparse as sparse
 
 Mask = NDArray[np.bool_]
 
@@ -49,6 +49,8 @@ class Blocks(NamedTuple):
 
     def to_matrix(self, size: int) -> sparse.csr_matrix:
         """The matrix itself, (size, size)."""
+        import scipy.sparse as sparse
+
         count = self.dofs.shape[1]
         rows = np.repeat(self.dofs, count, axis=1).ravel()
         columns = np.tile(self.dofs, (1, count)).ravel()
@@ -179,6 +181,8 @@ def solve_blocks(
 def _build_ordering(
     template: MeshTemplate, has_pressures: bool, couples_net: bool
 ) -> Ordering:
+    import scipy.sparse as sparse
+
     n_nodes = template.nodes.shape[1]
     groups = [template.triangles.T]
     if couples_net:
@@ -210,6 +214,8 @@ def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]
     Fronts that start at an end of the net, where the triangles are smallest, are
     narrower than those of Cuthill and McKee on most templates.
     """
+    from scipy.sparse.csgraph import breadth_first_order, reverse_cuthill_mckee
+
     fronts = [
         breadth_first_order(graph, end, directed=False, return_predecessors=False)
         for end in template.net[[0, -1]]
@@ -360,6 +366,9 @@ def _solve_lu(
 
 
 def _solve_sparse(parts: Sequence[Blocks], load: Floats, held: Mask) -> Floats:
+    import scipy.sparse as sparse
+    from scipy.sparse.linalg import splu
+
     rows, columns, values = [], [], []
     for part in parts:
         count = part.dofs.shape[1]

@@ -14,9 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import skfem
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
 
 from netdesign.guards import require_positive, require_within
 
@@ -140,6 +138,8 @@ def triangulate(points: Floats, aspect: float) -> MeshTemplate:
 
 
 def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
+    import skfem  # here, since runs that solve nothing new need no mesh
+
     mesh = skfem.MeshTri(points.T.copy(), triangles.T.copy())
     basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=1)
     nodes = np.array(basis.doflocs)
@@ -273,6 +273,8 @@ def _is_clear(points: Floats, line: Floats) -> NDArray[np.bool_]:
 
 
 def _connect(points: Floats) -> Ints:
+    from scipy.spatial import Delaunay
+
     triangles = Delaunay(points).simplices
     # collinear boundary points may leave triangles without area
     solid = np.abs(_twice_area(points[triangles])) > 1e-12

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from netdesign.snow.contact import Contact
 from netdesign.snow.flow import FlowState
@@ -47,6 +46,8 @@ def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowSt
 
 @lru_cache(maxsize=256)
 def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(_list_points(source))
     _, nearest = tree.query(_list_points(target))
     return np.asarray(nearest, dtype=np.int64)
