@@ -78,7 +78,7 @@ THIRD_PARTY = {
         *("guideline.comparison", "commands.doctor"),
     ),
     "scipy": (
-        *("snow.*", "envelope.store", "verification.*"),
+        *("numerics.newton", "snow.*", "envelope.store", "verification.*"),
         "benchmark.reference_path",
     ),
     "distributed": ("envelope.workers",),
