@@ -255,8 +255,10 @@ def search_maxima(
         on_round(bounds.gap * settings.gap)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
-        if is_done or not batch or len(points) >= settings.max_cases:
-            is_closed = bounds.is_closed and (is_done or not batch)
+        has_room = len(points) < settings.max_cases
+        if is_done or not batch or not has_room:
+            # without a batch nothing is left to test, or there was no room for it
+            is_closed = bounds.is_closed and (is_done or (not batch and has_room))
             return _finish(points, values, log, model, bounds, is_closed=is_closed)
         answers = yield tuple(point for point, _ in batch)
         held, claimed = _hold_out(model, batch, answers, log, bounds)

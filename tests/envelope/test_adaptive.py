@@ -187,6 +187,17 @@ def test_the_limit_on_cases_leaves_the_gap_open_and_says_so():
     assert not found.is_closed
 
 
+def test_bounds_without_their_tests_are_not_closed():
+    """Cases may run out just when the bounds are closed."""
+    whole = drive(smooth(0), 3)
+    assert whole.is_closed
+    ends = [
+        drive(smooth(0), 3, max_cases=count).is_closed
+        for count in range(36, len(whole.points))
+    ]
+    assert not any(ends)
+
+
 def test_first_design_holds_corners_centre_and_the_parts_between():
     assert list_first_design(1) == ((0.0,), (0.25,), (0.5,), (0.75,), (1.0,))
     for dimension in (2, 3, 4, 5, 6):
