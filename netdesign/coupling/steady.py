@@ -103,6 +103,7 @@ class _Coupled:
     state: FlowState
     hanging: _Hanging
     forces: SupportForces
+    was_slow: bool  # plain rounds gained little
     linear_solves: int
     rounds: int
 
@@ -230,10 +231,11 @@ def _couple(
                 state=state,
                 hanging=hanging,
                 forces=mended,
+                was_slow=inverse is not None,
                 linear_solves=solves,
                 rounds=round_number,
             )
-        if _is_slow(misses, state):
+        if (guess is not None and guess.was_slow) or _is_slow(misses, state):
             inverse = _invert_round(problem, mesh, state, hanging)
         curve = _mix(curves, misses, inverse)
     raise _fail(
