@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -91,6 +92,19 @@ def open_site(
         raise
     _write_copy(path, annotate, text_format, site, overwrite=overwrite)
     return site
+
+
+@contextmanager
+def temporary_example() -> Iterator[Path]:
+    """Workbook of the built-in example, there as long as it is read."""
+    import tempfile
+
+    from netdesign.site.template import write_site_workbook
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "example.xlsx"
+        write_site_workbook(path, example=True)
+        yield path
 
 
 def _write_copy(
