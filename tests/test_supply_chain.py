@@ -51,7 +51,7 @@ def test_everything_a_plain_install_brings_is_pinned_and_its_licence_listed():
     needed = licences.find_needed()
     assert {"numpy", "scipy", "pillow"} <= set(needed)  # the last one by matplotlib
     assert set(needed) <= {name for name, _ in list_pinned(CI / "constraints.txt")}
-    text = (ROOT / "LICENCES.md").read_text(encoding="utf-8")
+    text = (CI / "licences.md").read_text(encoding="utf-8")
     listed = dict(re.findall(r"^\| ([\w-]+) \| (.+) \|$", text, flags=re.MULTILINE))
     assert listed.pop("package") == "licence"
     assert set(listed) == set(needed)
