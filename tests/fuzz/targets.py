@@ -44,9 +44,7 @@ from netdesign.site.columns import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template import write_site_workbook
 from netdesign.study import read_document, write_document
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "report"))
-from build_study import build_study
+from tests.report.build_study import build_study
 
 SECONDS = 20  # for one input; a hang ends as a find
 _REFUSED = 3

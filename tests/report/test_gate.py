@@ -1,11 +1,11 @@
 from dataclasses import replace
 
 import pytest
-from build_study import build_study
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent, require_sections
+from tests.report.build_study import build_study
 
 
 def spoil(row_number, check_number, **changes):

@@ -5,8 +5,6 @@ import json
 import re
 
 import pytest
-from build_study import build_study
-from reading import PageReader, read_rows, read_workbook
 from rich.console import Console
 
 from netdesign.report.excel import render_workbook
@@ -16,6 +14,8 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.view import build_view
 from netdesign.report.words import VERDICTS, show_number
 from netdesign.study import write_document
+from tests.report.build_study import build_study
+from tests.report.reading import PageReader, read_rows, read_workbook
 
 STUDY = build_study()
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")

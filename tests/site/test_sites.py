@@ -5,9 +5,15 @@ import subprocess
 
 import openpyxl
 import pytest
-from ods_files import write_ods
-from programs import require_program
-from whole_sites import (
+
+from netdesign.errors import SiteDataError
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+from netdesign.snow.ground import build_ground_from_glide_factor
+from tests.programs import require_program
+from tests.site.ods_files import write_ods
+from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,
     FRENCH_SLOPES_PERCENT,
@@ -17,12 +23,6 @@ from whole_sites import (
     french_site,
     german_site,
 )
-
-from netdesign.errors import SiteDataError
-from netdesign.site.annotate import annotate_workbook
-from netdesign.site.model import MEMBER_MODES
-from netdesign.site.reader import read_site
-from netdesign.snow.ground import build_ground_from_glide_factor
 
 
 def merge_german_headings(workbook):
