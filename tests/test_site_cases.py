@@ -19,7 +19,7 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.rowcheck.probe import Probe
 from netdesign.site_cases import count_cases, search_site
 from netdesign.study import read_document, write_document
-from tests.test_check_site import ROWS, RUN, build_row, build_site, resist
+from tests.small_site import ROWS, RUN, build_row, build_site, resist
 
 RANGES = Ranges(
     density=Interval(low=270.0, high=400.0),
