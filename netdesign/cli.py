@@ -312,11 +312,7 @@ def main() -> NoReturn:
 
 
 def _tell_unexpected(error: Exception) -> int:
-    """Say what nobody handled; a path that no file can have is no bug."""
-    if isinstance(error, OSError) and error.filename:
-        text = f"error: {error.filename}: {error.strerror}"
-        click.echo(make_printable(text), err=True)
-        return _EXIT_USAGE
+    """Say what nobody handled: what given paths can cause, their readers have."""
     text = f"internal error, please report it: {type(error).__name__}: {error}"
     click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
     return _EXIT_INTERNAL

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.errors import SiteDataError
+from netdesign.errors import OutputError, SiteDataError
 
 if TYPE_CHECKING:
     from netdesign.site.cells import TextFormat
@@ -96,12 +96,22 @@ def open_site(
 
 @contextmanager
 def temporary_example() -> Iterator[Path]:
-    """Workbook of the built-in example, there as long as it is read."""
+    """Workbook of the built-in example, there as long as it is read.
+
+    Raises
+    ------
+    OutputError
+        If there is no room or no place for it.
+    """
     import tempfile
 
     from netdesign.site.template import write_site_workbook
 
-    with tempfile.TemporaryDirectory() as folder:
+    try:
+        place = tempfile.TemporaryDirectory()
+    except OSError as error:
+        raise OutputError(f"no temporary folder: {error}") from error
+    with place as folder:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
         yield path

@@ -123,6 +123,7 @@ def _read_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
         If there is none.
     """
     from netdesign.errors import StudyError
+    from netdesign.given_files import is_there
     from netdesign.site.reader import read_site
 
     name = Path(study.provenance.site_file).name  # never a path out of these folders
@@ -130,7 +131,7 @@ def _read_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
     near = [one / name for one in (folder, folder.parent)]
     if site_file is not None:
         return read_site(site_file)
-    found = next((one for one in near if name and one.exists()), None)
+    found = next((one for one in near if name and is_there(one)), None)
     if found is not None:
         return read_site(found)
     if " --example" not in study.provenance.command:
