@@ -1,7 +1,7 @@
-"""Prints LICENCES.md from the metadata of what is installed here.
+"""Prints .ci/licences.md from the metadata of what is installed here.
 
 Run it in an environment with netdesign and nothing missing:
-``python .ci/licences.py > LICENCES.md``.
+``python .ci/licences.py > .ci/licences.md``.
 """
 
 import re

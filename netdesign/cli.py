@@ -25,11 +25,19 @@ from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
 from netdesign.commands.glide import glide
+from netdesign.commands.options import (
+    accuracy_option,
+    force_option,
+    json_option,
+    language_option,
+    out_option,
+    quiet_option,
+)
 from netdesign.commands.paper import paper
 from netdesign.commands.report import DEFAULT_FOLDER, report
 from netdesign.commands.report_options import list_wanted, report_options
-from netdesign.commands.site_input import open_site, site_options
-from netdesign.commands.solving import open_rows, solving_options
+from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
 from netdesign.errors import NetDesignError, SiteDataError
@@ -39,6 +47,7 @@ from netdesign.outcome import Verdict
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.checks import Standard
     from netdesign.report.language import Language
     from netdesign.site.model import Site
     from netdesign.study import Study
@@ -89,13 +98,7 @@ cli.add_command(verify)
     metavar="ID",
     help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
 )
-@click.option(
-    "--accuracy",
-    type=click.FloatRange(1e-4, 0.1),
-    default=0.01,
-    show_default=True,
-    help="Relative error allowed in every end force of the net.",
-)
+@accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
 @click.option(
     "--method",
     type=click.Choice(["steady", "transient"]),
@@ -104,17 +107,13 @@ cli.add_command(verify)
     help="Steady states; transient confirms governing cases by their histories.",
 )
 @solving_options
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    help=f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].",
-)
+@out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
 @report_options
 @click.option("--explain", is_flag=True, help="Print what would flip each check.")
-@click.option("--json", "as_json", is_flag=True, help="Print the study as JSON.")
+@json_option("study")
 @click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
-@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@force_option
+@quiet_option
 def check(
     site_file: Path | None,
     *,
@@ -153,8 +152,6 @@ def check(
     may stand in netdesign.toml beside it, or in variables such as
     NETDESIGN_CHECK_JOBS.
     """
-    from netdesign.check_site import judge_site
-    from netdesign.checks import load_standard
     from netdesign.coupling.scene import SolverSettings
     from netdesign.output import require_free, write_files
     from netdesign.report.files import (
@@ -163,18 +160,14 @@ def check(
         name_files,
         render_files,
     )
-    from netdesign.rowcheck.probe import Probe
-    from netdesign.site_cases import CheckRun, follow_site
+    from netdesign.site_cases import CheckRun
 
     if example == (site_file is not None):
         raise click.UsageError(
             "give a site workbook, or --example for the built-in one"
         )
     site = _read_site(site_file, overwrite=force, **reading)
-    chosen = standards or ((site.project.standard or DEFAULT_STANDARD),)
-    profiles = [load_standard(name) for name in chosen]
-    if len({profile.id for profile in profiles}) < len(profiles):
-        raise click.UsageError("two of the profiles have the same id")
+    profiles = _load_profiles(standards or (site.project.standard or DEFAULT_STANDARD,))
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,
@@ -190,14 +183,7 @@ def check(
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
-        measured = follow_site(site, run)
-        probe = Probe(run.settings, run.creep_law, solved.runner)
-        studies = [
-            judge_site(
-                site, solved.results, profile, run, probe, measured, solved.envelopes
-            )
-            for profile in profiles
-        ]
+        studies = judge_rows(site, run, solved, profiles)
     style = ReportStyle(language=language, detail=detail)
     write_files(render_files(studies, names, style), overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
@@ -208,13 +194,7 @@ def check(
 @cli.command()
 @click.argument("site_file", type=click.Path(path_type=Path, dir_okay=False))
 @click.option("--example", is_flag=True, help="Fill in the built-in example site.")
-@click.option(
-    "--language",
-    type=click.Choice(["en", "fr", "de"]),
-    default="en",
-    show_default=True,
-    help="Of headings, words and notes; all three are read.",
-)
+@language_option("Of headings, words and notes; all three are read.")
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
 def init(
     site_file: Path, *, example: bool, language: Literal["en", "fr", "de"], force: bool
@@ -241,13 +221,9 @@ def init(
     type=click.Choice(["steady", "transient", "staggered"]),
     help="Steady state, history, or the source paper's exchange [the scene's].",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the solution as JSON.")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for a page with drawings, the solution, a history's table.",
-)
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+@json_option("solution")
+@out_option("Folder for a page with drawings, the solution, a history's table.")
+@force_option
 def solve(
     scene_file: Path,
     *,
@@ -336,11 +312,7 @@ def main() -> NoReturn:
 
 
 def _tell_unexpected(error: Exception) -> int:
-    """Say what nobody handled; a path that no file can have is no bug."""
-    if isinstance(error, OSError) and error.filename:
-        text = f"error: {error.filename}: {error.strerror}"
-        click.echo(make_printable(text), err=True)
-        return _EXIT_USAGE
+    """Say what nobody handled: what given paths can cause, their readers have."""
     text = f"internal error, please report it: {type(error).__name__}: {error}"
     click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
     return _EXIT_INTERNAL
@@ -350,14 +322,17 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
     """Site from a file; the example goes through a real workbook too."""
     if site_file is not None:
         return open_site(site_file, **reading)
-    import tempfile
-
-    from netdesign.site.template import write_site_workbook
-
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "example.xlsx"
-        write_site_workbook(path, example=True)
+    with temporary_example() as path:
         return open_site(path, **reading)
+
+
+def _load_profiles(names: Sequence[str]) -> list[Standard]:
+    from netdesign.checks import load_standard
+
+    profiles = [load_standard(name) for name in names]
+    if len({profile.id for profile in profiles}) < len(profiles):
+        raise click.UsageError("two of the profiles have the same id")
+    return profiles
 
 
 def _show(

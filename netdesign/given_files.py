@@ -14,6 +14,14 @@ _MOST_POINTS = 200
 _MOST_FAULTS = 50
 
 
+def is_there(path: Path) -> bool:
+    """Whether a file or folder can be seen there; at a name that none can have, not."""
+    try:
+        return path.exists()
+    except OSError:
+        return False
+
+
 def read_bounded(path: Path, most: int) -> bytes:
     """Content of a file of at most ``most`` bytes; devices without end are files too.
 

@@ -22,8 +22,15 @@ def require_free(paths: list[Path], *, overwrite: bool) -> None:
     Raises
     ------
     OutputError
-        Naming every path that is in the way.
+        Naming every path that is in the way, or that no file can have.
     """
+    try:
+        _require_free(paths, overwrite=overwrite)
+    except OSError as error:
+        raise OutputError(f"{error.filename}: {error.strerror}") from error
+
+
+def _require_free(paths: list[Path], *, overwrite: bool) -> None:
     taken = [str(path) for path in paths if path.exists()]
     if taken and not overwrite:
         raise OutputError(

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import openpyxl
 import pytest
-from test_cli import SHEETS
 
 from netdesign import cli, site_cases
 from netdesign.outcome import Outcome
+from tests.test_cli import SHEETS
 
 
 @pytest.fixture

@@ -127,10 +127,9 @@ def test_history_table_has_a_column_for_each_node():
 
 
 def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsys):
-    from build_paper import build_study
-
     from netdesign.paper import study as module
     from netdesign.paper.cases import find_history
+    from tests.build_paper import build_study
 
     made = build_study()
     monkeypatch.setattr(module, "run_study", lambda *_, **__: made)

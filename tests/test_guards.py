@@ -63,7 +63,7 @@ def test_a_message_names_field_value_and_unit():
 
 @pytest.mark.parametrize("value", [1, 80])
 def test_counts_are_accepted(value):
-    require_count("rounds", value)
+    assert require_count("rounds", value) is None
 
 
 @pytest.mark.parametrize("value", [0, -1, 1.5, 2.0, math.nan, math.inf, "3", None])

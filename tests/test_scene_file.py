@@ -19,6 +19,7 @@ from netdesign.scene_file import (
 from netdesign.snow.fluidity import compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.solution_file import write_solution_document
+from tests.full_scene import FULL_SCENE
 
 SOUND = """
 [slope]
@@ -30,36 +31,6 @@ density_kg_m3 = 366.8
 [net]
 stiffness_kN_per_m = 20000
 friction_deg = 30
-"""
-
-FULL = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-creep_law = "boutillier-2004"
-creep_exponent = 3
-fluidity_per_MPa3_a = 20
-[ground]
-law = "sliding"
-slip_length_m = 1.5
-contact = "two-sided"
-[net]
-kind = "cable"
-inclination_deg = 25
-height_m = 3.0
-stiffness_kN_per_m = 8000
-slack = 0.05
-friction_deg = 30
-[gravity]
-mode = "parallel"
-[solve]
-method = "steady"
-accuracy = 0.1
-start = "straight"
-horizon_days = 10
 """
 
 
@@ -83,7 +54,7 @@ def build(tables):
 
 
 def test_units_of_the_edge_become_si(read):
-    scene, settings = read(FULL)
+    scene, settings = read(FULL_SCENE)
     assert scene.snowpack.slope_angle == math.radians(38)
     assert scene.snowpack.thickness == 2.5
     assert scene.snowpack.upslope_length == 6.0
@@ -286,7 +257,7 @@ def test_unreadable_files_are_refused(tmp_path):
 
 @pytest.fixture(scope="module")
 def solved():
-    scene, _ = build_scene(SceneFile.model_validate(tomllib.loads(FULL)))
+    scene, _ = build_scene(SceneFile.model_validate(tomllib.loads(FULL_SCENE)))
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
     solution = solve_steady(scene, settings)
     return solution, write_solution_document(solution, settings, wall_s=1.5)

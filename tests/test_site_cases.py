@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 
 import pytest
-from test_check_site import ROWS, RUN, build_row, build_site, resist
 
 from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
@@ -21,6 +20,7 @@ from netdesign.rowcheck.probe import Probe
 from netdesign.site_cases import count_cases, search_site
 from netdesign.snow.snowpack import Layer
 from netdesign.study import read_document, write_document
+from tests.small_site import ROWS, RUN, build_row, build_site, resist
 
 RANGES = Ranges(
     density=Interval(low=270.0, high=400.0),

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.short_example import write_short_example
+
 ROOT = Path(__file__).resolve().parent.parent
 CI = ROOT / ".ci"
 NO_NETWORK = """
@@ -51,7 +53,7 @@ def test_everything_a_plain_install_brings_is_pinned_and_its_licence_listed():
     needed = licences.find_needed()
     assert {"numpy", "scipy", "pillow"} <= set(needed)  # the last one by matplotlib
     assert set(needed) <= {name for name, _ in list_pinned(CI / "constraints.txt")}
-    text = (ROOT / "LICENCES.md").read_text(encoding="utf-8")
+    text = (CI / "licences.md").read_text(encoding="utf-8")
     listed = dict(re.findall(r"^\| ([\w-]+) \| (.+) \|$", text, flags=re.MULTILINE))
     assert listed.pop("package") == "licence"
     assert set(listed) == set(needed)
@@ -68,17 +70,7 @@ def test_every_dependency_has_a_lowest_version(capsys):
 @pytest.mark.skipif(sys.platform == "win32", reason="sockets are otherwise there")
 def test_a_site_is_checked_without_a_network(tmp_path):
     """In two processes; every way to a socket of the network is an error."""
-    from netdesign.site import template
-
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] == "R1"]
-    for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
-        line["samples"] = samples
-        if samples == 1:
-            line["high"] = line["low"]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(tmp_path / "site.xlsx", example=True)
+    write_short_example(tmp_path / "site.xlsx", ["R1"])
     program = [sys.executable, "-c", NO_NETWORK, "check", "site.xlsx"]
     ended = subprocess.run(
         [*cut_off(), *program, "--accuracy", "0.1", "--jobs", "2", "--no-cache"],

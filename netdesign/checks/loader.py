@@ -21,7 +21,12 @@ from netdesign.checks.schema import (
     check_table,
 )
 from netdesign.errors import StandardError
-from netdesign.given_files import MAX_TOML_BYTES, parse_toml, read_bounded
+from netdesign.given_files import (
+    MAX_TOML_BYTES,
+    is_there,
+    parse_toml,
+    read_bounded,
+)
 from netdesign.resources import find_resource
 from netdesign.units import radian_from_degree
 
@@ -187,7 +192,7 @@ def load_standard(id_or_path: str | Path) -> Standard:
     """
     if str(id_or_path) in list_standards():
         return _load_folder(find_resource("standards") / id_or_path)
-    if Path(id_or_path).is_dir():
+    if is_there(Path(id_or_path)) and Path(id_or_path).is_dir():
         return _load_folder(Path(id_or_path))
     raise StandardError(_explain_unknown(str(id_or_path)))
 
@@ -256,6 +261,19 @@ def _choose(
 
 def _read_files(folder: Path) -> dict[str, bytes]:
     """Files of the folder by name, with line ends as on Unix."""
+    try:
+        _require_known_files(folder)
+        return {
+            path.name: _read_unix(path)
+            for path in sorted(folder.iterdir())
+            if path.is_file() and path.suffix in _HASHED_SUFFIXES
+        }
+    except (OSError, ValueError) as error:
+        message = f"{folder}: cannot be read: {error}"
+        raise StandardError(message) from error
+
+
+def _require_known_files(folder: Path) -> None:
     missing = [name for name in _FILES if not (folder / name).is_file()]
     if missing:
         message = f"{folder}: lacks {', '.join(missing)}; needs {', '.join(_FILES)}"
@@ -268,15 +286,6 @@ def _read_files(folder: Path) -> dict[str, bytes]:
             f"{', '.join(accepted)} and *.md"
         )
         raise StandardError(message)
-    try:
-        return {
-            path.name: _read_unix(path)
-            for path in sorted(folder.iterdir())
-            if path.is_file() and path.suffix in _HASHED_SUFFIXES
-        }
-    except (OSError, ValueError) as error:
-        message = f"{folder}: cannot be read: {error}"
-        raise StandardError(message) from error
 
 
 def _read_unix(path: Path) -> bytes:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.options import accuracy_option, jobs_option, json_option
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -48,19 +50,11 @@ _REACHED = {True: "reached", False: "NOT reached"}
 @click.option(
     "--seed", type=click.IntRange(0), default=1, show_default=True, help="Of --stress."
 )
-@click.option(
-    "--accuracy",
-    type=click.FloatRange(1e-4, 0.1),
-    default=0.005,
-    show_default=True,
-    help="Asked of the random scenes.",
-)
-@click.option(
-    "--jobs",
-    type=click.IntRange(1, 256),
+@accuracy_option("Asked of the random scenes.", default=0.005)
+@jobs_option(
+    "Processes for random scenes; more than cores make times useless.",
     default=1,
     show_default=True,
-    help="Processes for random scenes; more than cores make times useless.",
 )
 @click.option("--scenes", metavar="A,B", help="Only these named scenes.")
 @click.option("--quick", is_flag=True, help="Less of everything, for a first look.")
@@ -70,7 +64,7 @@ _REACHED = {True: "reached", False: "NOT reached"}
     help="Write run time against error as SVG.",
 )
 @click.option("--force", is_flag=True, help="Overwrite an existing plot.")
-@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
+@json_option("result")
 def bench(
     *,
     stress: int | None,

@@ -19,7 +19,7 @@ from typing import Any
 
 import click
 
-from netdesign.given_files import read_toml
+from netdesign.given_files import is_there, read_toml
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
@@ -60,7 +60,7 @@ def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
         for name in names
         if isinstance(value := typed.get(name or ""), str)
     ]
-    return next((path for path in beside if path.is_file()), None)
+    return next((one for one in beside if is_there(one) and one.is_file()), None)
 
 
 def _read_defaults(

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import click
 
+from netdesign.commands.options import json_option
+
 
 @click.command()
 @click.argument("old", type=click.Path(path_type=Path))
 @click.argument("new", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="Print the changes as JSON.")
+@json_option("changes")
 def diff(old: Path, new: Path, *, as_json: bool) -> None:
     """Show what changed from one study to another: verdicts, cases, inputs.
 

@@ -14,6 +14,7 @@ from typing import Any
 import click
 
 from netdesign import __version__
+from netdesign.commands.options import json_option
 
 _LIBRARIES = (
     *("numpy", "scipy", "scikit-fem", "pandas", "openpyxl", "defusedxml"),
@@ -33,7 +34,7 @@ class Probe:
 
 
 @click.command()
-@click.option("--json", "as_json", is_flag=True, help="Print the list as JSON.")
+@json_option("list")
 def doctor(*, as_json: bool) -> None:
     """Show versions, threads and data, and test that the program works here.
 

@@ -11,6 +11,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.options import (
+    accuracy_option,
+    force_option,
+    json_option,
+    out_option,
+    quiet_option,
+)
 from netdesign.commands.ranges import RANGE, GivenRange
 from netdesign.commands.solving import solving_options
 
@@ -18,7 +25,9 @@ if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.solve import Settings
     from netdesign.envelope.parameters import Box
+    from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowTask
+    from netdesign.progress import SearchProgress
     from netdesign.study import EnvelopeRecord
 
 _OPTIONS = (
@@ -44,12 +53,10 @@ def _range_options(command: Any) -> Any:
 @click.command()
 @click.argument("scene_file", type=click.Path(path_type=Path))
 @_range_options
-@click.option(
-    "--accuracy",
-    type=click.FloatRange(1e-3, 0.1),
+@accuracy_option(
+    "Relative error allowed in every force, and most that may hide above it.",
     default=0.005,
-    show_default=True,
-    help="Relative error allowed in every force, and most that may hide above it.",
+    least=1e-3,
 )
 @click.option(
     "--confirm",
@@ -59,10 +66,10 @@ def _range_options(command: Any) -> Any:
     help="How the governing cases are solved again.",
 )
 @solving_options
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder.")
-@click.option("--json", "as_json", is_flag=True, help="Print the envelope as JSON.")
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
-@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@out_option("Folder.")
+@json_option("envelope")
+@force_option
+@quiet_option
 def envelope(
     scene_file: Path,
     *,
@@ -85,10 +92,8 @@ def envelope(
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
     from netdesign.envelope.parameters import require_valid
-    from netdesign.envelope.search import run_grid, search_rows
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
-    from netdesign.envelope_file import write_envelope_document, write_grid_document
     from netdesign.output import require_free, write_files
     from netdesign.progress import show_search
     from netdesign.scene_file import read_scene
@@ -112,15 +117,12 @@ def envelope(
         ) as runner,
     ):
         task = _build_task(scene, _read_confirming(scene_file, confirm), box, accuracy)
+        record: EnvelopeRecord | None = None
         if counted:
-            results = run_grid(task, {k: one.count for k, one in given.items()}, runner)
-            elapsed = time.perf_counter() - start
-            document = write_grid_document(box, results, runner.counts, elapsed)
-            record = None
+            counts = {name: one.count for name, one in given.items()}
+            document = _sample(task, counts, runner, start)
         else:
-            (found,) = search_rows([task], runner, progress.tell_wave)
-            elapsed = time.perf_counter() - start
-            document, record = write_envelope_document(found, runner.counts, elapsed)
+            document, record = _search(task, runner, progress, start)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
         files = dict(zip(paths, _render(record, text), strict=True))
@@ -202,6 +204,30 @@ def _read_confirming(
     return read_scene(scene_file, "transient" if confirm == "transient" else "steady")[
         1
     ]
+
+
+def _sample(
+    task: RowTask, counts: dict[str, int | None], runner: Runner, start: float
+) -> dict[str, Any]:
+    """Document of a grid."""
+    from netdesign.envelope.search import run_grid
+    from netdesign.envelope_file import write_grid_document
+
+    results = run_grid(task, counts, runner)
+    elapsed = time.perf_counter() - start
+    return write_grid_document(task.box, results, runner.counts, elapsed)
+
+
+def _search(
+    task: RowTask, runner: Runner, progress: SearchProgress, start: float
+) -> tuple[dict[str, Any], EnvelopeRecord]:
+    """Document of a bounded search, and its model to draw."""
+    from netdesign.envelope.search import search_rows
+    from netdesign.envelope_file import write_envelope_document
+
+    (found,) = search_rows([task], runner, progress.tell_wave)
+    elapsed = time.perf_counter() - start
+    return write_envelope_document(found, runner.counts, elapsed)
 
 
 def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:

@@ -7,21 +7,21 @@ from pathlib import Path
 
 import click
 
+from netdesign.commands.options import (
+    force_option,
+    jobs_option,
+    out_option,
+    quiet_option,
+)
+
 _NOT_PROVEN = 4
 
 
 @click.command()
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    required=True,
-    help="Folder of the page, drawings and tables.",
-)
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
-@click.option(
-    "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
-)
-@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@out_option("Folder of the page, drawings and tables.", required=True)
+@force_option
+@jobs_option()
+@quiet_option
 def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
     """Reproduce the source paper's study: histories, meshes, plateaus.
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from netdesign.commands.options import force_option, out_option
 from netdesign.commands.report_options import list_wanted, report_options
 
 DEFAULT_FOLDER = "netdesign-out"
@@ -15,15 +16,9 @@ DEFAULT_FOLDER = "netdesign-out"
 
 @click.command()
 @click.argument("study_file", type=click.Path(path_type=Path))
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    default=DEFAULT_FOLDER,
-    show_default=True,
-    help="Folder of the outputs.",
-)
+@out_option("Folder of the outputs.", default=DEFAULT_FOLDER, show_default=True)
 @report_options
-@click.option("--force", is_flag=True, help="Overwrite existing outputs.")
+@force_option
 def report(study_file: Path, *, out: Path, force: bool, **options: Any) -> None:
     """Render the reports of a stored study again, without solving.
 

@@ -7,19 +7,15 @@ from typing import Any
 
 import click
 
+from netdesign.commands.options import language_option
+
 _DETAIL_HELP = "Of report.html: summary leaves out what only a reviewer of a row needs."
 
 
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options; ``read_options`` takes their values."""
     for option in (
-        click.option(
-            "--language",
-            type=click.Choice(["en", "fr", "de"]),
-            default="en",
-            show_default=True,
-            help="Of the reports; numbers, symbols and keys stay.",
-        ),
+        language_option("Of the reports; numbers, symbols and keys stay."),
         click.option(
             "--detail",
             type=click.Choice(["summary", "full"]),

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from netdesign.errors import SiteDataError
+from netdesign.errors import OutputError, SiteDataError
 
 if TYPE_CHECKING:
     from netdesign.site.cells import TextFormat
@@ -91,6 +92,29 @@ def open_site(
         raise
     _write_copy(path, annotate, text_format, site, overwrite=overwrite)
     return site
+
+
+@contextmanager
+def temporary_example() -> Iterator[Path]:
+    """Workbook of the built-in example, there as long as it is read.
+
+    Raises
+    ------
+    OutputError
+        If there is no room or no place for it.
+    """
+    import tempfile
+
+    from netdesign.site.template import write_site_workbook
+
+    try:
+        place = tempfile.TemporaryDirectory()
+    except OSError as error:
+        raise OutputError(f"no temporary folder: {error}") from error
+    with place as folder:
+        path = Path(folder) / "example.xlsx"
+        write_site_workbook(path, example=True)
+        yield path
 
 
 def _write_copy(

@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from netdesign.commands.options import jobs_option
+
 if TYPE_CHECKING:
+    from netdesign.checks import Standard
     from netdesign.envelope.run import CaseResult
     from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowEnvelope
     from netdesign.site.model import Site
     from netdesign.site_cases import CheckRun
+    from netdesign.study import Study
 
 
 def solving_options(command: Any) -> Any:
@@ -31,9 +35,7 @@ def solving_options(command: Any) -> Any:
             metavar="dask://HOST:PORT",
             help="Solve on a running Dask cluster [this machine].",
         ),
-        click.option(
-            "--jobs", type=click.IntRange(1, 256), help="Processes [number of cores]."
-        ),
+        jobs_option(),
     ):
         command = option(command)
     return command
@@ -77,6 +79,24 @@ def open_rows(
             results = [list(one.results) for one in envelopes]
         runner.on_done = _ignore
         yield SolvedRows(results=results, envelopes=envelopes, runner=runner)
+
+
+def judge_rows(
+    site: Site, run: CheckRun, solved: SolvedRows, profiles: Sequence[Standard]
+) -> list[Study]:
+    """Study of each profile; what was measured on the site is followed once."""
+    from netdesign.check_site import judge_site
+    from netdesign.rowcheck.probe import Probe
+    from netdesign.site_cases import follow_site
+
+    measured = follow_site(site, run)
+    probe = Probe(run.settings, run.creep_law, solved.runner)
+    return [
+        judge_site(
+            site, solved.results, profile, run, probe, measured, solved.envelopes
+        )
+        for profile in profiles
+    ]
 
 
 def _ignore(_: object) -> None:

@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from netdesign.commands.options import jobs_option, json_option
+from netdesign.commands.site_input import temporary_example
+from netdesign.commands.solving import judge_rows, open_rows
+
 if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.study import Study
@@ -37,10 +41,8 @@ _SHOWN = 20  # differences; more help nobody
     metavar="ID",
     help="Its limit profile, or a folder with it [by its id].",
 )
-@click.option(
-    "--jobs", type=click.IntRange(1, 256), help="Processes of --study [all cores]."
-)
-@click.option("--json", "as_json", is_flag=True, help="Print the cases as JSON.")
+@jobs_option("Processes of --study [all cores].")
+@json_option("cases")
 def verify(
     *,
     study_file: Path | None,
@@ -106,21 +108,8 @@ def _verify_study(
         click.echo("not solved again: these are not the inputs of the study")
         return _FAIL
     is_sound = _show_arithmetic(study)
-    from netdesign.check_site import judge_site
-    from netdesign.commands.solving import open_rows
-    from netdesign.rowcheck.probe import Probe
-    from netdesign.site_cases import follow_site
-
     with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
-        again = judge_site(
-            site,
-            solved.results,
-            profile,
-            run,
-            Probe(run.settings, run.creep_law, solved.runner),
-            follow_site(site, run),
-            solved.envelopes,
-        )
+        (again,) = judge_rows(site, run, solved, [profile])
     is_same = _show_comparison(study, again)
     return 0 if is_sound and is_same else _FAIL
 
@@ -133,18 +122,16 @@ def _read_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
     StudyError
         If there is none.
     """
-    import tempfile
-
     from netdesign.errors import StudyError
+    from netdesign.given_files import is_there
     from netdesign.site.reader import read_site
-    from netdesign.site.template import write_site_workbook
 
     name = Path(study.provenance.site_file).name  # never a path out of these folders
     folder = study_file.absolute().parent
     near = [one / name for one in (folder, folder.parent)]
     if site_file is not None:
         return read_site(site_file)
-    found = next((one for one in near if name and one.exists()), None)
+    found = next((one for one in near if name and is_there(one)), None)
     if found is not None:
         return read_site(found)
     if " --example" not in study.provenance.command:
@@ -152,9 +139,8 @@ def _read_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
             f"{study_file}: no site file {name!r:.60} beside it or one folder up: "
             "give it with --site"
         )
-    with tempfile.TemporaryDirectory() as place:
-        write_site_workbook(Path(place) / "example.xlsx", example=True)
-        return read_site(Path(place) / "example.xlsx")
+    with temporary_example() as path:
+        return read_site(path)
 
 
 def _show_hash(what: str, stored: str, again: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +14,10 @@ from netdesign.coupling.interface import (
     compute_support_forces,
     mend_rounding,
 )
-from netdesign.coupling.refine import refine
+from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
+    Balance,
     Cost,
     EndPull,
     FailedSolution,
@@ -73,9 +75,9 @@ def solve_rigid(
             lambda pressed: [pressed.forces.on_net.sum(axis=1)],
             chosen.accuracy,
         )
-        end, scale = states[-1], scene.force_scale
+        end = states[-1]
         balance = measure_balance(
-            end.law, end.mesh, end.forces, force.vector, None, scale
+            end.law, end.mesh, end.forces, force.vector, None, scene.force_scale
         )
         check_balance(
             balance,
@@ -84,9 +86,16 @@ def solve_rigid(
         )
     except SolveError as failure:
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+    return _build_solution(scene, states, force, balance)
+
+
+def _build_solution(
+    scene: Scene, states: Sequence[_Pressed], force: Estimate, balance: Balance
+) -> WallSolution:
+    """The finest state in SI."""
+    end, scale, thickness = states[-1], scene.force_scale, scene.snowpack.thickness
     nodes = end.mesh.nodes[:, end.mesh.template.net]
     moment = (nodes[1] * end.forces.on_net[0] - nodes[0] * end.forces.on_net[1]).sum()
-    thickness = scene.snowpack.thickness
     return WallSolution(
         scene=scene,
         force=EndPull(

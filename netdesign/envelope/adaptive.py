@@ -11,16 +11,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product, repeat
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.envelope.surrogate import (
-    REACH,
     Surrogate,
     count_trend_terms,
     fit_surrogate,
+)
+from netdesign.envelope.upper_bound import (
+    GRAIN,
+    NOISE,
+    Bounds,
+    Surprise,
+    bound_quantities,
+    build_lattice,
 )
 from netdesign.errors import ModelError
 from netdesign.guards import require_count, require_within
@@ -34,17 +41,8 @@ MOST_PARAMETERS = 6
 # The first design sees features at least as wide at half their height, as a share of
 # a range; narrower ones may hide, and every result says so.
 RESOLVED_SHARE = 0.6
-# Coordinates are multiples of this share of a range: equal cases have equal keys.
-_GRAIN = 1.0 / 64.0
-# Points per axis at which the bound is looked at before it is followed uphill.
-_LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
-_WANTED = 100  # highest lattice points per quantity that may be asked for
-_STARTS = 6  # highest lattice points per quantity that are followed uphill
-_FINEST_STEP = 1.0 / 1024.0
 _BESIDE = 1.0 / 16.0  # from a maximum to the cases that test it
 _MOST_SURPRISE = 2.0  # more would widen what is dense with cases by now
-_NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
-_MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
 _TEST_APART = 0.125  # least distance of a test from every known case
 _APART = 0.2  # least distance between the cases of one batch
 
@@ -154,42 +152,6 @@ class Maxima:
     surrogate: Surrogate | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Surprise:
-    """A case that lay outside what the bound allowed around it."""
-
-    place: Floats
-    ratio: Floats  # error over what was allowed, shape (quantities,)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Bounds:
-    """What the model allows, and where."""
-
-    best: Floats
-    tolerance: Floats  # shape (quantities,)
-    upper: Floats
-    watched: tuple[int, ...]
-    summits: tuple[tuple[Point, int], ...]  # best values of the watched quantities
-    wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
-
-    @property
-    def open(self) -> tuple[int, ...]:
-        """Watched quantities whose gap is larger than its tolerance."""
-        gaps = (self.upper - self.best) / self.tolerance
-        return tuple(q for q in self.watched if gaps[q] > 1.0 + 1e-9)
-
-    @property
-    def gap(self) -> float:
-        """Largest gap over its tolerance."""
-        gaps = (self.upper - self.best) / self.tolerance
-        return float(np.max(gaps[list(self.watched)]))
-
-    @property
-    def is_closed(self) -> bool:
-        return not self.open
-
-
 def search_maxima(
     dimension: int,
     settings: SearchSettings,
@@ -231,16 +193,16 @@ def search_maxima(
     -----------
     tests/envelope/test_adaptive.py
     """
-    if dimension not in _LATTICE:
+    if not 1 <= dimension <= MOST_PARAMETERS:
         raise ModelError(
             f"{dimension} parameters: an envelope takes 1 to {MOST_PARAMETERS}"
         )
     points = list_first_design(dimension)
     values = list((yield points))
     log = [_note_first(*one) for one in zip(points, values, strict=True)]
-    lattice = _build_lattice(dimension)
+    lattice = build_lattice(dimension)
     passed = 0
-    surprises: list[_Surprise] = []
+    surprises: list[Surprise] = []
     while True:
         solved = [k for k, value in enumerate(values) if value is not None]
         if len(solved) <= count_trend_terms(dimension):
@@ -249,9 +211,7 @@ def search_maxima(
         known = np.array([values[k] for k in solved])
         everything = dict.fromkeys(range(known.shape[1]), Watched())
         watched = everything if watch is None else watch()
-        tolerance = _set_tolerance(known, settings, watched)
-        model = fit_surrogate(places, known, _NOISE * tolerance)
-        bounds = _bound(model, known, lattice, settings, surprises, tolerance, watched)
+        model, bounds = _bound(places, known, settings, watched, lattice, surprises)
         on_round(bounds.gap * settings.gap)
         batch = _choose(bounds, points, settings)
         is_done = bounds.is_closed and passed >= settings.tests
@@ -267,7 +227,7 @@ def search_maxima(
         covered = np.maximum(settings.certainty * claimed, bounds.tolerance / 2.0)
         passed = passed + 1 if bounds.is_closed and np.all(held <= covered) else 0
         surprises += [
-            _Surprise(place=np.array(point), ratio=np.minimum(ratio, _MOST_SURPRISE))
+            Surprise(place=np.array(point), ratio=np.minimum(ratio, _MOST_SURPRISE))
             for (point, _), ratio in zip(batch, held / covered, strict=True)
             if np.any(ratio > 1.0)
         ]
@@ -307,62 +267,26 @@ def _note_first(point: Point, value: Values | None) -> Addition:
     )
 
 
-def _build_lattice(dimension: int) -> Floats:
-    axis = np.linspace(0.0, 1.0, _LATTICE[dimension])
-    return np.array(list(product(axis, repeat=dimension)))
-
-
 def _bound(
-    model: Surrogate,
+    places: Floats,
     values: Floats,
-    lattice: Floats,
     settings: SearchSettings,
-    surprises: Sequence[_Surprise],
-    tolerance: Floats,
     watched: Mapping[int, Watched],
-) -> _Bounds:
-    """Largest mean plus ``certainty`` standard errors, and the places near it."""
-    best = _find_best(values, watched)
-    asked = list(watched)
-    around = [model.places[np.argmax(column)] for column in values.T]
-    looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
-
-    def reach(at: Floats) -> Floats:
-        mean, claim = model.predict(at, asked)
-        stretch = _stretch(at, surprises, len(best))[:, asked]
-        result: Floats = np.full((len(at), len(best)), np.inf)
-        result[:, asked] = (
-            mean + settings.certainty * stretch * claim + _NOISE * tolerance[asked]
-        )
-        return result
-
-    allowed = reach(looked_at)
-    upper = allowed.max(axis=0)
-    order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in watched}
-    starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
-    climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
-    wanted: list[tuple[float, Point, int]] = []
-    for quantity, (tops, heights) in climbed.items():
-        upper[quantity] = max(upper[quantity], heights.max())
-        places = np.concatenate([tops, looked_at[order[quantity]]])
-        reached = np.concatenate([heights, allowed[order[quantity], quantity]])
-        excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
-        points = map(tuple, (np.round(places / _GRAIN) * _GRAIN).tolist())
-        wanted += zip(excess.tolist(), points, repeat(quantity), strict=False)
-    margin = _MARGIN * tolerance
-    wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
-    return _Bounds(
-        best=best,
+    lattice: Floats,
+    surprises: Sequence[Surprise],
+) -> tuple[Surrogate, Bounds]:
+    """Model of the cases solved so far, and what it allows."""
+    tolerance = _set_tolerance(values, settings, watched)
+    model = fit_surrogate(places, values, NOISE * tolerance)
+    return model, bound_quantities(
+        model,
+        values,
+        best=_find_best(values, watched),
         tolerance=tolerance,
-        # what is negative everywhere is no force at all: a guy that stays slack
-        upper=np.where(
-            (upper > 0.0) | (best > 0.0), np.maximum(upper, best) + margin, 0.0
-        ),
-        watched=tuple(watched),
-        summits=tuple(
-            (_settle(around[q]), q) for q in watched if values[:, q].max() >= best[q]
-        ),
-        wanted=tuple(wanted),
+        watched=list(watched),
+        lattice=lattice,
+        certainty=settings.certainty,
+        surprises=surprises,
     )
 
 
@@ -385,61 +309,8 @@ def _set_tolerance(
     return result
 
 
-def _stretch(at: Floats, surprises: Sequence[_Surprise], quantities: int) -> Floats:
-    """How much wider than the model's own claims are around what surprised it."""
-    stretch = np.ones((len(at), quantities))
-    for surprise in surprises:
-        distance = np.linalg.norm(at - surprise.place, axis=1)
-        share = np.exp(-((distance / REACH) ** 2))[:, None]
-        stretch = np.maximum(stretch, 1.0 + share * (surprise.ratio - 1.0))
-    return stretch
-
-
-def _surround(place: Floats) -> Floats:
-    """Finer lattice around the best case found."""
-    offsets = np.array(list(product((-0.0625, 0.0, 0.0625), repeat=len(place))))
-    result: Floats = np.clip(place + offsets, 0.0, 1.0)
-    return result
-
-
-def _climb(
-    starts: Mapping[int, Floats], reach: Callable[[Floats], Floats], step: float
-) -> dict[int, tuple[Floats, Floats]]:
-    """Follow each quantity's bound uphill, by halving steps along the axes.
-
-    All quantities go together, since one large question costs less than many small.
-    """
-    places = np.concatenate(list(starts.values()))
-    owners = np.repeat(list(starts), [len(own) for own in starts.values()])
-    count, dimension = places.shape
-    here = np.arange(count)
-    moves = np.concatenate(
-        [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
-    )
-    while True:
-        step /= 2.0
-        for _ in range(dimension):  # one move an axis
-            tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
-            # quantities climb the same way, and steps end at the walls of the box
-            distinct, place = np.unique(
-                tried.reshape(-1, dimension), axis=0, return_inverse=True
-            )
-            reached = reach(distinct)[place.ravel()]
-            heights = reached.reshape(len(moves), count, -1)[:, here, owners]
-            chosen = heights.argmax(axis=0)
-            places = tried[chosen, here]
-        if step <= _FINEST_STEP:
-            tops = heights.max(axis=0)
-            return {q: (places[owners == q], tops[owners == q]) for q in starts}
-
-
-def _settle(place: Floats) -> Point:
-    """Nearest point whose coordinates are multiples of the grain."""
-    return tuple(float(c) for c in np.round(place / _GRAIN) * _GRAIN)
-
-
 def _choose(
-    bounds: _Bounds, points: Sequence[Point], settings: SearchSettings
+    bounds: Bounds, points: Sequence[Point], settings: SearchSettings
 ) -> list[tuple[Point, int]]:
     """Next cases: where a quantity could exceed; once none can, tests of that."""
     room = settings.max_cases - len(points)
@@ -452,13 +323,13 @@ def _choose(
     if bounds.is_closed:
         return _pick(bounds, bounds.watched, points, most, -math.inf, _TEST_APART)
     # all that could exceed may lie on known cases: then the like of them elsewhere
-    return _pick(bounds, bounds.watched, points, most, 0.0, _GRAIN) or _pick(
+    return _pick(bounds, bounds.watched, points, most, 0.0, GRAIN) or _pick(
         bounds, bounds.open, points, most, -math.inf, _BESIDE
     )
 
 
 def _pick(
-    bounds: _Bounds,
+    bounds: Bounds,
     quantities: Sequence[int],
     points: Sequence[Point],
     most: int,
@@ -478,7 +349,7 @@ def _pick(
     return chosen
 
 
-def _list_neighbours(bounds: _Bounds) -> list[tuple[Point, int]]:
+def _list_neighbours(bounds: Bounds) -> list[tuple[Point, int]]:
     """Points just beside every maximum, along each axis: they tell if it is one."""
     found: dict[Point, int] = {}
     for place, quantity in bounds.summits:
@@ -494,7 +365,7 @@ def _hold_out(
     batch: Sequence[tuple[Point, int]],
     answers: Sequence[Values | None],
     log: list[Addition],
-    bounds: _Bounds,
+    bounds: Bounds,
 ) -> tuple[Floats, Floats]:
     """Log a batch against what the model expected of it.
 
@@ -526,7 +397,7 @@ def _finish(
     values: Sequence[Values | None],
     log: Sequence[Addition],
     model: Surrogate | None,
-    bounds: _Bounds | None,
+    bounds: Bounds | None,
     *,
     is_closed: bool,
 ) -> Maxima:

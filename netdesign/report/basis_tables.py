@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from netdesign.outcome import Outcome
 from netdesign.report.table import (
     Table,
@@ -89,68 +91,34 @@ def build_checklist(study: Study) -> Table:
             (
                 given_cell(float(number)),
                 word_cell(question),
-                word_cell(answer),
+                word_cell(answer(study)),
                 word_cell(section),
                 text_cell("☐"),
             )
-            for number, (question, answer, section) in enumerate(_ask(study), 1)
+            for number, (question, answer, section) in enumerate(_QUESTIONS, 1)
         ),
     )
 
 
-def _ask(study: Study) -> tuple[tuple[str, str, str], ...]:
-    made, values = study.provenance, study.profile.values
-    assumed = sum(value.status == ASSUMED for value in values)
+def _describe_site_file(study: Study) -> str:
+    return f"SHA-256 begins {study.provenance.site_sha256[:12]}"
+
+
+def _describe_inputs(study: Study) -> str:
     inputs = [*study.range_inputs, *(one for row in study.rows for one in row.inputs)]
     defaults = sum(one.cell == DEFAULT for one in inputs)
+    return f"{len(inputs)} inputs, {defaults} left to their default"
+
+
+def _describe_profile(study: Study) -> str:
+    values = study.profile.values
+    assumed = sum(value.status == ASSUMED for value in values)
+    return f"{assumed} of {len(values)} values are assumed"
+
+
+def _describe_independent(study: Study) -> str:
     laws = [one for row in study.rows for one in row.independent]
-    return (
-        (
-            "Is the site file the one that was issued?",
-            f"SHA-256 begins {made.site_sha256[:12]}",
-            "Provenance",
-        ),
-        (
-            "Does every input agree with drawings and survey?",
-            f"{len(inputs)} inputs, {defaults} left to their default",
-            "Inputs",
-        ),
-        (
-            "Do the ranges hold all snow, friction and inclinations to expect?",
-            "see the table of ranges",
-            "Ranges",
-        ),
-        (
-            "Is the limit profile agreed, are its assumed values confirmed?",
-            f"{assumed} of {len(values)} values are assumed",
-            "Limit profile",
-        ),
-        (
-            "Does every case have a result, is a missing one explained?",
-            _describe_cases(study),
-            "Solver quality",
-        ),
-        (
-            "Are balance and error estimate of the solutions small?",
-            _describe_quality(study),
-            "Solver quality",
-        ),
-        (
-            "Are the independent checks met, is the guideline's difference explained?",
-            f"{sum(one.is_met for one in laws)} of {len(laws)} are met",
-            "Independent checks",
-        ),
-        (
-            "Would another creep law change a verdict?",
-            _describe_laws(study),
-            "Uncertainty",
-        ),
-        (
-            "Is what the calculation does not treat checked otherwise?",
-            "see the list under Scope",
-            "Scope",
-        ),
-    )
+    return f"{sum(one.is_met for one in laws)} of {len(laws)} are met"
 
 
 def _describe_cases(study: Study) -> str:
@@ -178,3 +146,53 @@ def _describe_laws(study: Study) -> str:
         and check.utilisation is not None and check.utilisation <= 1
     ]  # fmt: skip
     return f"{len(above)} checks at most 1 exceed 1 with another law"
+
+
+# What is asked, what the study says to it, and the section that tells more.
+_QUESTIONS: tuple[tuple[str, Callable[[Study], str], str], ...] = (
+    (
+        "Is the site file the one that was issued?",
+        _describe_site_file,
+        "Provenance",
+    ),
+    (
+        "Does every input agree with drawings and survey?",
+        _describe_inputs,
+        "Inputs",
+    ),
+    (
+        "Do the ranges hold all snow, friction and inclinations to expect?",
+        lambda _: "see the table of ranges",
+        "Ranges",
+    ),
+    (
+        "Is the limit profile agreed, are its assumed values confirmed?",
+        _describe_profile,
+        "Limit profile",
+    ),
+    (
+        "Does every case have a result, is a missing one explained?",
+        _describe_cases,
+        "Solver quality",
+    ),
+    (
+        "Are balance and error estimate of the solutions small?",
+        _describe_quality,
+        "Solver quality",
+    ),
+    (
+        "Are the independent checks met, is the guideline's difference explained?",
+        _describe_independent,
+        "Independent checks",
+    ),
+    (
+        "Would another creep law change a verdict?",
+        _describe_laws,
+        "Uncertainty",
+    ),
+    (
+        "Is what the calculation does not treat checked otherwise?",
+        lambda _: "see the list under Scope",
+        "Scope",
+    ),
+)

@@ -65,26 +65,6 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     tracks = [(run.case, run.track) for run in runs if run.track is not None]
     if len(tracks) < len(runs):
         return None
-    panels = [
-        Panel(
-            title=f"{title}, {axis.upper()} [kN/m]",
-            lines=[
-                replace(
-                    _line(
-                        case,
-                        track,
-                        [part / 1e3 for part in getattr(track, node)[place]],
-                        f"{case.friction_deg:.0f}°",
-                        2 - style,
-                    ),
-                    is_thin=kind == "staggered",
-                )
-                for style, (case, track) in enumerate(tracks)
-            ],
-        )
-        for node, title in _NODES
-        for place, axis in enumerate("xy")
-    ]
     lower, upper = tracks[0][1].heights
     caption = (
         f"Force of the net on the snow at nodes {lower:.2f} m and {upper:.2f} m above "
@@ -101,10 +81,34 @@ def _plate_nodes(study: PaperStudy, kind: str) -> Plate | None:
     else:
         heading = "The same forces, implicit in the net's stiffness"
         caption += "The mesh is finer: a node stands for less of the net."
+    panels = _list_node_panels(tracks, is_thin=kind == "staggered")
     svg = draw_panels(
         panels, f"nodes-{kind}", heading, across=2, time_label=_SINCE, panel_in=1.7
     )
     return Plate(name=f"node-forces-{kind}", heading=heading, caption=caption, svg=svg)
+
+
+def _list_node_panels(
+    tracks: Sequence[tuple[PaperCase, Track]], *, is_thin: bool
+) -> list[Panel]:
+    """Both parts of both nodes' forces, a line for each friction angle."""
+
+    def draw(style: int, case: PaperCase, track: Track, node: str, part: int) -> Line:
+        values = [force / 1e3 for force in getattr(track, node)[part]]
+        line = _line(case, track, values, f"{case.friction_deg:.0f}°", 2 - style)
+        return replace(line, is_thin=is_thin)
+
+    return [
+        Panel(
+            title=f"{title}, {axis.upper()} [kN/m]",
+            lines=[
+                draw(style, case, track, node, part)
+                for style, (case, track) in enumerate(tracks)
+            ],
+        )
+        for node, title in _NODES
+        for part, axis in enumerate("xy")
+    ]
 
 
 _SINCE = "time since the start, logarithmic"

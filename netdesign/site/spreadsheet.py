@@ -62,13 +62,14 @@ def read_workbook(
         With one finding, if the file as a whole cannot be read: missing, not a
         workbook, damaged, hostile or far too large.
     """
-    if path.is_dir() or path.suffix.casefold() in _TEXT_SUFFIXES:
-        paths = sorted(path.glob("*.csv")) if path.is_dir() else [path]
+    is_folder = _is_folder(path)
+    if is_folder or path.suffix.casefold() in _TEXT_SUFFIXES:
+        paths = sorted(path.glob("*.csv")) if is_folder else [path]
         if not paths:
             raise refuse_file(path.name, "is a folder without csv files", "Nets.csv")
         contents = _read_texts(path.name, paths)
         read = read_delimited(
-            contents, is_wanted, is_heading, text_format, by_name=path.is_dir()
+            contents, is_wanted, is_heading, text_format, by_name=is_folder
         )
         content = b"".join(contents.values())
     else:
@@ -81,6 +82,14 @@ def read_workbook(
         unread=read[1],
         remarks=read[2],
     )
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError as error:  # no file can have that name, or nobody may look there
+        rule = f"cannot be looked for at {path} ({error.strerror})"
+        raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
 
 
 def _read_archive(
@@ -125,9 +134,9 @@ def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
 
 
 def _read_file(path: Path, most: int) -> bytes:
-    if not path.is_file():
-        raise refuse_file(path.name, f"does not exist at {path}", _ACCEPTED_FILE)
     try:
+        if not path.is_file():
+            raise refuse_file(path.name, f"does not exist at {path}", _ACCEPTED_FILE)
         return read_bounded(path, most)
     except OSError as error:
         rule = f"cannot be opened ({error.strerror})"

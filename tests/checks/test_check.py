@@ -18,23 +18,11 @@ from netdesign.checks.check import find_characteristic
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
-from netdesign.site.model import Resistance
+from tests.checks.entries import a_resistance, a_value
 
 KN = 1e3
 ABOVE_1 = math.nextafter(1.0, 2.0)
 BELOW_1 = math.nextafter(1.0, 0.0)
-
-
-def a_value(value_id: str, value: float, unit: str = "-") -> StandardValue:
-    return StandardValue(
-        id=value_id,
-        clause="4.2",
-        text="A value.",
-        value=value,
-        unit=unit,
-        status="user",
-        source="test",
-    )
 
 
 def a_standard(*values: StandardValue) -> Standard:
@@ -49,17 +37,6 @@ def plain_standard() -> Standard:
         a_value("geometry.inclination.min", 25.0, "deg"),
         a_value("geometry.inclination.max", 35.0, "deg"),
     )
-
-
-def a_resistance(value: float | None = 1.0, **changes: str) -> Resistance:
-    words = {
-        "member": "foot_anchor",
-        "mode": "tendon",
-        "basis": "declared",
-        "type_id": "GEWI 25",
-        "source": "Anchors!B4",
-    }
-    return Resistance(value=value, **(words | changes))
 
 
 def a_band(value: float, low: float | None = None, high: float | None = None) -> Band:
@@ -426,15 +403,7 @@ def test_tests_need_both_of_their_correlation_factors(left_out):
     """Three tests of 300, 330 and 390 kN; EN 1997 correlates mean and least."""
     standard = load_standard("eurocode")
     tests = PullOutTests(count=3, mean=340 * KN, least=300 * KN)
-    given = Resistance(
-        member="foot_anchor",
-        mode="pull_out",
-        value=None,
-        basis="tested",
-        type_id="A1",
-        source="Anchors!B2",
-        tests=tests,
-    )
+    given = a_resistance(None, mode="pull_out", basis="tested", tests=tests)
     value, lack = find_characteristic(given, standard)
     assert lack == ""
     assert 0.0 < value <= 300 * KN

@@ -9,9 +9,9 @@ Axes: x downslope, y out of the ground, origin at the net's foot.
 """
 
 import pytest
-from given_pulls import judge_row
 
 from netdesign.outcome import Verdict
+from tests.checks.given_pulls import judge_row
 
 CLOSE = {"rel": 1e-3}
 

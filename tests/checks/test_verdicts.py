@@ -15,14 +15,13 @@ from netdesign.checks import (
     Band,
     RowGeometry,
     Standard,
-    StandardValue,
     check_geometry,
     check_member,
     judge,
     load_standard,
 )
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.site.model import Resistance
+from tests.checks.entries import a_resistance, a_value
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
 BARE = replace(load_standard("swiss-guideline-2007"), values=(), tables=())
@@ -36,33 +35,10 @@ NO_NUMBER = st.sampled_from([math.nan, math.inf, -math.inf])
 GAPS = st.sampled_from(["", "1 of 4 cases failed (residual grew)"])
 
 
-def value_of(value_id: str, value: float, unit: str = "-") -> StandardValue:
-    return StandardValue(
-        id=value_id,
-        clause="-",
-        text="A value.",
-        value=value,
-        unit=unit,
-        status="user",
-        source="test",
-    )
-
-
 def profile(on_action: float | None, on_resistance: float | None) -> Standard:
     given = {"action.snow": on_action, "resistance.tendon": on_resistance}
-    values = tuple(value_of(k, v) for k, v in given.items() if v is not None)
+    values = tuple(a_value(k, v) for k, v in given.items() if v is not None)
     return replace(BARE, values=values)
-
-
-def resist(value: float | None) -> Resistance:
-    return Resistance(
-        member="foot_anchor",
-        mode="tendon",
-        value=value,
-        basis="declared",
-        type_id="T1",
-        source="Anchors!B2",
-    )
 
 
 @st.composite
@@ -79,7 +55,7 @@ def use(force: float, on_action: float, strength: float, factor: float) -> Fract
 
 def verdict_of(action, on_action, strength, factor, gap=""):
     standard = profile(on_action, factor)
-    return check_member(action, resist(strength), standard, gap=gap).verdict
+    return check_member(action, a_resistance(strength), standard, gap=gap).verdict
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, GAPS)
@@ -128,11 +104,11 @@ def test_an_unknown_basis_is_not_proven(action, strength, basis):
     on_tested = replace(
         BARE,
         values=(
-            value_of("action.snow", 1.5),
-            value_of("resistance.pull_out.tested", 1.35),
+            a_value("action.snow", 1.5),
+            a_value("resistance.pull_out.tested", 1.35),
         ),
     )
-    given_resistance = replace(resist(strength), mode="pull_out", basis=basis)
+    given_resistance = a_resistance(strength, mode="pull_out", basis=basis)
     assert check_member(action, given_resistance, on_tested, gap="").verdict is OPEN
 
 

@@ -12,7 +12,7 @@ import time
 
 import pytest
 
-from netdesign.site import template
+from tests.short_example import write_short_example
 
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 # Both parties find and leave everything in their own folder, under the same names.
@@ -26,11 +26,7 @@ KILLS = 20
 def folder(tmp_path_factory):
     """Folder with a site of two net rows of the example."""
     place = tmp_path_factory.mktemp("killed")
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in ("R1", "R7")]
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(place / "site.xlsx", example=True)
+    write_short_example(place / "site.xlsx", ["R1", "R7"], is_grid=False)
     return place
 
 

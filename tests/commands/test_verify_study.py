@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from netdesign import cli
-from netdesign.site import template
+from tests.short_example import write_short_example
 
 DIFFERS, REFUSED = 1, 3
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
@@ -18,15 +18,8 @@ PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 def home(tmp_path_factory):
     """Folder with a site of one net row, four cases, and its study."""
     folder = tmp_path_factory.mktemp("stored")
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] == "R7"]
-    for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
-        line["samples"] = samples
-        if samples == 1:
-            line["high"] = line["low"]
+    write_short_example(folder / "site.xlsx", ["R7"])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(folder / "site.xlsx", example=True)
         patch.chdir(folder)
         options = ["--accuracy", "0.0512345678", "--jobs", "1", "--no-html"]
         argv = ["netdesign", "check", "site.xlsx", "--quiet", "--no-excel", *options]

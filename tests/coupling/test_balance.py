@@ -26,7 +26,7 @@ SOUND = Balance(
 
 
 def test_bounds_are_accepted():
-    check_balance(SOUND, TOLERANCE)
+    assert check_balance(SOUND, TOLERANCE) is None
 
 
 REFUSED = [

@@ -29,7 +29,7 @@ def pull(end) -> np.ndarray:
     return np.array([end.x, end.y])
 
 
-def fails_with(outcome, result, reason: str) -> None:
+def assert_fails(outcome, result, reason: str) -> None:
     assert isinstance(result, FailedSolution)
     assert result.outcome is outcome
     assert reason in result.reason
@@ -51,24 +51,24 @@ def test_converged(solved):
 def test_net_that_touches_the_ground(a_scene):
     scene = a_scene(slack=0.05, inclination_deg=60.0)
     result = solve_steady(scene, COARSE)
-    fails_with(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
+    assert_fails(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
 
 
 def test_net_that_folds_the_mesh(a_scene, monkeypatch):
     monkeypatch.setattr(PlacedMesh, "is_valid", property(lambda _: False))
     result = solve_steady(a_scene(), COARSE)
-    fails_with(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
+    assert_fails(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
 
 
 def test_too_few_rounds(a_scene):
     result = solve_steady(a_scene(), replace(COARSE, max_rounds=2))
-    fails_with(Outcome.MAX_ITERATIONS, result, "the net still moves by")
+    assert_fails(Outcome.MAX_ITERATIONS, result, "the net still moves by")
     assert "after 2 rounds" in result.reason
 
 
 def test_too_few_newton_steps(a_scene):
     result = solve_steady(a_scene(), replace(COARSE, max_iterations=1))
-    fails_with(Outcome.MAX_ITERATIONS, result, "snow flow")
+    assert_fails(Outcome.MAX_ITERATIONS, result, "snow flow")
 
 
 def test_net_without_equilibrium(a_scene, monkeypatch):
@@ -79,7 +79,7 @@ def test_net_without_equilibrium(a_scene, monkeypatch):
     solve_funicular = steady.solve_funicular
     monkeypatch.setattr(steady, "solve_funicular", without_equilibrium)
     result = solve_steady(a_scene(), COARSE)
-    fails_with(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
+    assert_fails(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -95,7 +95,7 @@ def test_force_lost_between_snow_and_ground(a_scene, monkeypatch, axis):
     compute = steady.compute_support_forces
     monkeypatch.setattr(steady, "compute_support_forces", lose_some)
     result = solve_steady(a_scene(), COARSE)
-    fails_with(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
 
 
 def test_snow_that_sticks_beyond_its_friction(a_scene, monkeypatch):
@@ -106,7 +106,7 @@ def test_snow_that_sticks_beyond_its_friction(a_scene, monkeypatch):
 
     monkeypatch.setattr(flow, "update_contact", never_slip)
     result = solve_steady(a_scene(inclination_deg=30.0, friction_deg=5.0), COARSE)
-    fails_with(Outcome.BALANCE_VIOLATED, result, "shear beyond the friction limit")
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "shear beyond the friction limit")
 
 
 def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
@@ -126,7 +126,7 @@ def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
     )
     settings = replace(COARSE, shape_tolerance=1e-4)
     result = solve_steady(a_scene(), settings)
-    fails_with(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
 
 
 def test_failure_is_raised_when_asked(a_scene):
@@ -347,5 +347,5 @@ def test_failure_names_what_leaves_no_steady_state(a_scene):
         a_scene(inclination_deg=30.0, friction_deg=5.0), ground_contact="one-sided"
     )
     result = solve_steady(scene, replace(COARSE, max_rounds=2))
-    fails_with(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
+    assert_fails(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
     assert "the net still moves by" in result.reason

@@ -4,12 +4,12 @@ import math
 from collections.abc import Callable
 
 import pytest
-from small_scene import COARSE, LAYOUT, build_scene
 
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseTask, build_task
 from netdesign.structure.layout import SupportLayout
+from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
 BuildTask = Callable[..., CaseTask]
 

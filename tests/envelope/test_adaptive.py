@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from synthetic import drive, peak, ridge, smooth, true_maxima, valley
 
 from netdesign.envelope.adaptive import (
     RESOLVED_SHARE,
@@ -14,6 +13,7 @@ from netdesign.envelope.adaptive import (
     search_maxima,
 )
 from netdesign.errors import ModelError
+from tests.envelope.synthetic import drive, peak, ridge, smooth, true_maxima, valley
 
 FEW = range(6)
 MANY = range(6, 60)

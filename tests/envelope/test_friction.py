@@ -17,7 +17,7 @@ LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
 @pytest.fixture(scope="module")
 def end():
     """One real end; what matters of it is changed by ``sticking``."""
-    from test_store import solve_one
+    from tests.envelope.test_store import solve_one
 
     return solve_one()
 

@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 
 import pytest
-from small_scene import COARSE, LAYOUT, build_scene
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.envelope.adaptive import SearchSettings
@@ -19,6 +18,7 @@ from netdesign.envelope.search import (
 )
 from netdesign.envelope.state import CaseEnd
 from netdesign.outcome import Outcome
+from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
 BOX = Box(

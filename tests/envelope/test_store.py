@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from small_scene import COARSE, build_scene
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope import store as module
@@ -15,6 +14,7 @@ from netdesign.envelope.state import CaseEnd, SolvedState, decode_end, encode_en
 from netdesign.envelope.store import CaseStore, StoreError, find_store, name_case
 from netdesign.envelope.workers import Job, solve_job
 from netdesign.outcome import Outcome
+from tests.envelope.small_scene import COARSE, build_scene
 
 CASE = Case(density=300.0, friction_angle=math.radians(30), inclination=0.5)
 SCENE = build_scene(CASE)

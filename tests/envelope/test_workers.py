@@ -9,7 +9,6 @@ import time
 from pathlib import Path
 
 import pytest
-from small_scene import COARSE, build_scene
 
 from netdesign.coupling.scene import Scene
 from netdesign.envelope import workers as workers_module
@@ -26,6 +25,7 @@ from netdesign.envelope.workers import (
     solve_job,
 )
 from netdesign.outcome import Outcome
+from tests.envelope.small_scene import COARSE, build_scene
 
 
 class DyingScene(Scene):
@@ -116,7 +116,7 @@ def test_an_interrupt_leaves_no_process_behind():
 PARENT = """
 import sys
 sys.path[:0] = {path!r}
-from test_workers import JOBS, ProcessPool
+from tests.envelope.test_workers import JOBS, ProcessPool
 
 if __name__ == "__main__":
     pool = ProcessPool(2, worth=1)

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from netdesign.site import template
+from tests.short_example import write_short_example
 
 PROGRAM = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n\
 from netdesign.cli import main; main()"
@@ -15,16 +15,8 @@ from netdesign.cli import main; main()"
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
     """Two net rows of the example, four cases each; the second row fails."""
-    lines = template.load_example()
-    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in ("R1", "R7")]
-    for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
-        line["samples"] = samples
-        if samples == 1:
-            line["high"] = line["low"]
     path = tmp_path_factory.mktemp("site") / "site.xlsx"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(template, "load_example", lambda: lines)
-        template.write_site_workbook(path, example=True)
+    write_short_example(path, ["R1", "R7"])
     return path
 
 

@@ -1,9 +1,11 @@
-"""Kills runs of ``check`` at chosen and at random moments; says what each one left.
+"""Kills runs of ``check`` at random steps; says what each one left.
 
 A program of its own, ``python tests/faults/kill_runs.py SITE FOLDER KILLS SEED``: the
-solver is imported once, each run is a fork of it, so that a hundred kills take a
-minute. A run is killed either after a random time, or at a random one of the steps
-below, before or after it is carried out. Every second kill finds old outputs there.
+solver is imported once, each run is a fork of it. A run tells down a pipe each of the
+steps below, before and after it is carried out. At the step drawn it either kills
+itself, or is killed from outside a moment later, in the midst of what comes next. No
+moment is counted from the start, so that no run ends unharmed on a slow machine. Every
+second kill finds old outputs there.
 """
 
 import contextlib
@@ -41,14 +43,14 @@ STEPS = (
 )
 
 
-def count_steps(at=None, *, report=None):
-    """Count all steps of this process, or kill it at one of them."""
+def tell_steps(pipe, at=None):
+    """Write a byte for every step of this process, or kill it at one of them."""
     passed = 0
 
     def wrap(owner, name):
         real = getattr(owner, name)
 
-        def counted(*args, **kwargs):
+        def told(*args, **kwargs):
             nonlocal passed
             for is_before in (True, False):
                 if not is_before:
@@ -56,22 +58,23 @@ def count_steps(at=None, *, report=None):
                 if passed == at:
                     os.kill(os.getpid(), signal.SIGKILL)
                 passed += 1
-            if report:
-                report(passed)
+                os.write(pipe, b".")
             return result
 
-        setattr(owner, name, counted)
+        setattr(owner, name, told)
 
     for owner, name in STEPS:
         wrap(owner, name)
 
 
-def start(place, site, epoch=NOW, prepare=lambda: None):
-    """Fork that checks the site in a folder; its process id."""
+def start(place, site, epoch=NOW, at=None):
+    """Fork that checks the site in a folder, or dies at a step; its id, its pipe."""
     place.mkdir(exist_ok=True)
+    steps, pipe = os.pipe()
     child = os.fork()
     if child:
-        return child
+        os.close(pipe)
+        return child, steps
     with contextlib.suppress(BaseException):
         os.chdir(place)
         silence = os.open(os.devnull, os.O_WRONLY)
@@ -80,7 +83,7 @@ def start(place, site, epoch=NOW, prepare=lambda: None):
         os.environ |= {"NETDESIGN_STORE": "cases.sqlite", "SOURCE_DATE_EPOCH": epoch}
         sys.argv = ["netdesign", "check", str(site), "--out", "out", "--force"]
         sys.argv += ["--accuracy", "0.1", "--jobs", "1"]
-        prepare()
+        tell_steps(pipe, at)
         try:
             cli.main()
         except SystemExit as end:
@@ -88,9 +91,29 @@ def start(place, site, epoch=NOW, prepare=lambda: None):
     os._exit(99)
 
 
-def finish(child):
-    """Exit code of a run that is let alone."""
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+def pass_steps(steps, count):
+    """Wait until a run has passed so many steps, or has ended; how many it passed."""
+    passed = 0
+    while passed < count and (told := os.read(steps, min(count - passed, 4096))):
+        passed += len(told)
+    return passed
+
+
+def finish(run):
+    """Exit code of a run that is let alone, and its number of steps."""
+    child, steps = run
+    passed = pass_steps(steps, sys.maxsize)
+    os.close(steps)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), passed
+
+
+def finish_killed(run, at, pause):
+    """Exit code of a run that is killed from outside a moment after a step."""
+    child, steps = run
+    pass_steps(steps, at + 1)
+    time.sleep(pause)
+    os.kill(child, signal.SIGKILL)
+    return finish((child, steps))[0]
 
 
 def read(place):
@@ -114,44 +137,37 @@ def judge(place, old, new):
 
 def kill_one(place, site, draw, whole):
     """Kill one run and continue; what was wrong, and whether the kill came in time."""
-    old = {}
-    if draw.random() < 0.5:
+    old = whole["old"] if draw.random() < 0.5 else {}
+    if old:
         (place / "out").mkdir(parents=True)
-        for name, content in whole["old"].items():
+        for name, content in old.items():
             (place / "out" / name).write_bytes(content)
-        old = whole["old"]
+    at = draw.randrange(whole["steps_over_old"] if old else whole["steps"])
     if draw.random() < 0.5:
-        at = draw.randrange(whole["steps"])
-        code = finish(start(place, site, prepare=lambda: count_steps(at)))
+        code, _ = finish(start(place, site, at=at))
     else:
-        child = start(place, site)
-        time.sleep(draw.uniform(0.0, whole["time"]))
-        os.kill(child, signal.SIGKILL)
-        code = finish(child)
+        code = finish_killed(start(place, site), at, draw.uniform(0.0, whole["pause"]))
     fault = judge(place, old, whole["new"])
-    code_again = finish(start(place, site))
+    code_again, _ = finish(start(place, site))
     if not fault and (code_again != whole["code"] or read(place) != whole["new"]):
         fault = f"continued: exit code {code_again}, outputs {sorted(read(place))}"
     return fault, code == -signal.SIGKILL
 
 
 def measure_whole(folder, site):
-    """Outputs, exit code, time and number of steps of runs that nobody kills."""
+    """Outputs, exit code and steps of runs that nobody kills, and the mean pause."""
     finish(start(folder / "old", site, BEFORE))
+    old = read(folder / "old")
     begin = time.monotonic()
-    code = finish(start(folder / "new", site))
+    code, steps = finish(start(folder / "new", site))
     elapsed = time.monotonic() - begin
-    log = (folder / "steps").resolve()
-
-    def prepare():
-        count_steps(report=lambda passed: log.write_text(str(passed)))
-
-    finish(start(folder / "counted", site, prepare=prepare))
+    (folder / "old" / "cases.sqlite").unlink()
     return {
         "code": code,
-        "time": elapsed,
-        "steps": int(log.read_text()),
-        "old": read(folder / "old"),
+        "steps": steps,
+        "steps_over_old": finish(start(folder / "old", site))[1],
+        "pause": elapsed / steps,
+        "old": old,
         "new": read(folder / "new"),
     }
 

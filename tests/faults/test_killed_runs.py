@@ -1,4 +1,4 @@
-"""Runs of ``check`` killed with SIGKILL; the long form kills a hundred, in a minute::
+"""Runs of ``check`` killed with SIGKILL; the long form kills a hundred, in minutes::
 
 python -m pytest -m faults -s tests/faults
 """
@@ -32,7 +32,7 @@ def kill(site, folder, kills, seed):
 def test_killed_runs_leave_nothing_half_and_continue_to_the_same_bytes(site, tmp_path):
     document = kill(site, tmp_path, IN_THE_SUITE, seed=4)
     assert document["faults"] == []
-    assert document["in_time"]  # how many depends on how busy the machine is
+    assert document["in_time"] == IN_THE_SUITE
 
 
 @pytest.mark.faults
@@ -43,4 +43,4 @@ def test_a_hundred_killed_runs(site, tmp_path):
         f"{document['steps']} steps to choose from; {len(document['faults'])} faults\n"
     )
     assert document["faults"] == []
-    assert document["in_time"] >= ALL / 2
+    assert document["in_time"] >= 0.9 * ALL  # after the last step a run may be done

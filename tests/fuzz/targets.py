@@ -44,42 +44,11 @@ from netdesign.site.columns import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template import write_site_workbook
 from netdesign.study import read_document, write_document
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "report"))
-from build_study import build_study
+from tests.full_scene import FULL_SCENE
+from tests.report.build_study import build_study
 
 SECONDS = 20  # for one input; a hang ends as a find
 _REFUSED = 3
-
-SOUND_SCENE = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-creep_law = "boutillier-2004"
-creep_exponent = 3
-fluidity_per_MPa3_a = 20
-[ground]
-law = "sliding"
-slip_length_m = 1.5
-contact = "two-sided"
-[net]
-kind = "cable"
-inclination_deg = 25
-height_m = 3.0
-stiffness_kN_per_m = 8000
-slack = 0.05
-friction_deg = 30
-[gravity]
-mode = "parallel"
-[solve]
-method = "steady"
-accuracy = 0.1
-start = "straight"
-horizon_days = 10
-"""
 
 # --- what ends soundly ---------------------------------------------------------------
 
@@ -622,7 +591,7 @@ class Target:
 
 
 def _sound_scene() -> Any:
-    return tomllib.loads(SOUND_SCENE)
+    return tomllib.loads(FULL_SCENE)
 
 
 TARGETS = (
@@ -663,7 +632,7 @@ TARGETS = (
         0.15,
     ),
     Target("scene-tables", spoilt_tree(_sound_scene), try_scene_tables, 0.11),
-    Target("scene-bytes", spoilt_bytes(SOUND_SCENE.encode), try_scene, 0.10),
+    Target("scene-bytes", spoilt_bytes(FULL_SCENE.encode), try_scene, 0.10),
     Target("profile", spoilt_profile(), try_profile, 0.06),
     Target("study", spoilt_tree(sound_study), try_study, 0.05),
     Target(

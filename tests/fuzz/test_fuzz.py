@@ -15,7 +15,8 @@ import time
 
 import pytest
 from hypothesis import HealthCheck, Phase, given, seed, settings
-from targets import TARGETS, Target, time_limit
+
+from tests.fuzz.targets import TARGETS, Target, time_limit
 
 IN_THE_SUITE = 450
 EXAMPLES = int(os.environ.get("NETDESIGN_FUZZ_EXAMPLES", "100000"))

@@ -12,10 +12,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from hostile_files import write_all
 
 import netdesign
 from netdesign.site.template import write_site_workbook
+from tests.hostile.hostile_files import write_all
 
 ROOT = Path(netdesign.__file__).parent.parent
 MOST_MEGABYTES = 300  # above the idle program, for any file

@@ -20,24 +20,19 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.solve import solve_scene
 from netdesign.envelope import store as store_module
 from netdesign.envelope import workers as workers_module
-from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.grid import Interval
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome, Verdict
-from netdesign.site.model import MEMBER_MODES, NetRow, Project, Resistance, Site
+from netdesign.site.model import MEMBER_MODES
 from netdesign.site_cases import CheckRun, search_site, solve_site
-from netdesign.snow.ground import GroundLaw
-from netdesign.structure.layout import SupportLayout
+from tests import small_site
+from tests.small_site import RANGES as GRID
+from tests.small_site import STRONG, WEAK, build_row, resist
 
-STRONG, WEAK = 1e7, 1e3  # [N]
 PROFILE = "nf-p-95-304-style"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:3]))
-GRID = Ranges(
-    density=Interval(low=270.0, high=400.0, count=2),
-    friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=2),
-    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
-)
 SEARCHED = replace(
     GRID,
     density=Interval(low=270.0, high=400.0),
@@ -47,38 +42,9 @@ solve_once = lru_cache(maxsize=None)(solve_scene)
 
 
 def build_site(ranges=GRID, *, strength=STRONG, **missing):
-    resistances = tuple(
-        Resistance(
-            member=member,
-            mode=mode,
-            value=missing.get(f"{member}__{mode}", strength),
-            basis="tested" if mode == "pull_out" else "",
-            type_id="T1",
-            source="Anchors!B2",
-        )
-        for member, mode in MEMBER_MODES
-    )
-    row = NetRow(
-        id="R1",
-        slope_angle=math.radians(38.0),
-        snow_thickness=2.5,
-        upslope_length=6.0,
-        ground=GroundLaw(kind="free"),
-        net_height=2.5,
-        net_stiffness_per_m=8e6,
-        slack=0.05,
-        layout=SupportLayout(
-            post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
-        ),
-        resistances=resistances,
-    )
-    return Site(
-        project=Project(),
-        ranges=ranges,
-        rows=(row,),
-        file_name="site.xlsx",
-        sha256="0" * 64,
-    )
+    """Site of one row; ``missing`` are members and modes without that resistance."""
+    row = build_row("R1", resistances=resist(strength, **missing))
+    return small_site.build_site(row, ranges=ranges)
 
 
 def judge(site, runner=None, standard=None):

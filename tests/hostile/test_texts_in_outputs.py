@@ -8,11 +8,9 @@ import dataclasses
 import io
 import json
 import re
-import sys
 import zipfile
 from enum import Enum
 from html.parser import HTMLParser
-from pathlib import Path
 
 import openpyxl
 import pytest
@@ -26,9 +24,7 @@ from netdesign.report.terminal import print_changes, print_summary
 from netdesign.site.annotate import annotate_workbook
 from netdesign.site.reader import read_site
 from netdesign.study import read_document, write_document
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "report"))
-from build_study import build_study
+from tests.report.build_study import build_study
 
 ATTACKS = (
     "=cmd|'/c calc'!A0",

@@ -1,8 +1,6 @@
 """A unit is never taken for another one: stated, it counts; wrong, it is refused."""
 
 import math
-import sys
-from pathlib import Path
 
 import pytest
 
@@ -10,9 +8,7 @@ from netdesign.errors import SiteDataError
 from netdesign.site.columns import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.unit_names import convert_unit
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "fuzz"))
-from targets import example_tables, write_delimited
+from tests.fuzz.targets import example_tables, write_delimited
 
 PLANS = {plan.name: plan for plan in SHEETS}
 # Sheet, label, and the unit that the example has.

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from build_paper import build_study
 
 from netdesign.paper.cases import find_history, find_paper_time
 from netdesign.paper.findings import (
@@ -14,6 +13,7 @@ from netdesign.paper.findings import (
     last_swing,
     list_findings,
 )
+from tests.build_paper import build_study
 
 
 def call_of(study, key):

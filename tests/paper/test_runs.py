@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from build_paper import CURVE, TRIANGLE
 
 from netdesign.coupling.transient import TRANSIENT_LEVELS
 from netdesign.paper.cases import (
@@ -17,6 +16,7 @@ from netdesign.paper.cases import (
 from netdesign.paper.runs import Shape, run_case
 from netdesign.paper.study import run_study
 from netdesign.snow.mesh import MeshSize
+from tests.build_paper import CURVE, TRIANGLE
 
 COARSE = MeshSize(net_spacing=0.34, corner=0.06, sectors=1, upslope_spacing=1.5)
 THIN = PaperSettings(

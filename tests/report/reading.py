@@ -10,7 +10,8 @@ from pathlib import Path
 
 import openpyxl
 from openpyxl.worksheet.worksheet import Worksheet
-from programs import require_program
+
+from tests.programs import require_program
 
 
 class PageReader(HTMLParser):

@@ -4,12 +4,12 @@ import re
 import subprocess
 
 import pytest
-from build_study import build_study
-from programs import require_program
 
 from netdesign.report.html import list_sections, render_html
 from netdesign.report.language import load_words
 from netdesign.report.view import build_view
+from tests.programs import require_program
+from tests.report.build_study import build_study
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 MINIMUM_PT = 595.0, 842.0  # A4

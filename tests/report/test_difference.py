@@ -1,9 +1,8 @@
 from dataclasses import replace
 
-from build_study import build_study
-
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, write_difference
+from tests.report.build_study import build_study
 
 
 def changes_of(old, new):

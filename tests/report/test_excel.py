@@ -3,14 +3,14 @@ import zipfile
 from dataclasses import replace
 
 import pytest
-from build_study import FORMULA, SCRIPT, build_study
-from reading import read_rows, read_workbook, recalculate
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.check_view import find_utilisation_band
 from netdesign.report.excel import SHEETS, render_workbook
 from netdesign.report.language import load_words
 from netdesign.report.words import VERDICTS
+from tests.report.build_study import FORMULA, SCRIPT, build_study
+from tests.report.reading import read_rows, read_workbook, recalculate
 
 LIMIT = 1e-12  # relative: one rounding of a product, with room
 

@@ -4,11 +4,11 @@ from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
-from build_study import build_drawing, build_row
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.head_figure import draw_head
 from netdesign.report.section_figure import draw_section
+from tests.report.build_study import build_drawing, build_row
 
 ROW = build_row("A", 3, scale=0.72, failed_case=True)
 TEXT = "{http://www.w3.org/2000/svg}text"

@@ -1,13 +1,13 @@
 from dataclasses import replace
 
 import pytest
-from build_study import MENTION, SCRIPT, build_study
-from reading import PageReader
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report import html
 from netdesign.report.view import build_view
+from tests.report.build_study import MENTION, SCRIPT, build_study
+from tests.report.reading import PageReader
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 import re
 
 import pytest
-from build_study import SCRIPT, build_study
 
 from netdesign.checks import load_standard
 from netdesign.report.excel import render_workbook
@@ -12,6 +11,7 @@ from netdesign.report.language import LANGUAGES, Words, load_words
 from netdesign.report.table import Cell
 from netdesign.report.translation import translate_drawing, translate_view
 from netdesign.rowcheck.guideline_record import _SENTENCES as GUIDELINE_SENTENCES
+from tests.report.build_study import SCRIPT, build_study
 
 # Not translated: texts of the made-up study, which no solver and no profile writes.
 MADE_UP = (

@@ -1,12 +1,11 @@
 from dataclasses import replace
 from xml.etree import ElementTree
 
-from build_study import build_study
-from reading import PageReader
-
 from netdesign.report.html import render_html
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.study import MonitoringRecord, read_document, write_document
+from tests.report.build_study import build_study
+from tests.report.reading import PageReader
 
 RECORD = MonitoringRecord(
     member="uphill_guy",

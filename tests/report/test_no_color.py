@@ -1,10 +1,10 @@
 import re
 
 import pytest
-from build_study import build_study
 from rich.console import Console
 
 from netdesign.report.terminal import print_summary
+from tests.report.build_study import build_study
 
 COLOUR = re.compile("\x1b\\[[0-9;]*[34][0-9]")  # a colour of letters or ground
 

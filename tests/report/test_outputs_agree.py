@@ -5,8 +5,6 @@ import json
 import re
 
 import pytest
-from build_study import build_study
-from reading import PageReader, read_rows, read_workbook
 from rich.console import Console
 
 from netdesign.report.excel import render_workbook
@@ -16,6 +14,8 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.view import build_view
 from netdesign.report.words import VERDICTS, show_number
 from netdesign.study import write_document
+from tests.report.build_study import build_study
+from tests.report.reading import PageReader, read_rows, read_workbook
 
 STUDY = build_study()
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")
@@ -94,6 +94,11 @@ def test_verdicts_agree(page, book):
     assert f"{overall}" in "".join(page.text)
 
 
+def as_cell(value):
+    """What a cell of the workbook holds of a number, or of none."""
+    return "-" if value is None else pytest.approx(value, rel=1e-12)
+
+
 def test_json_document_and_stdout_agree_with_page_and_workbook(page, book):
     document = json.loads(write_document(STUDY))
     stream = io.StringIO()
@@ -110,9 +115,7 @@ def test_json_document_and_stdout_agree_with_page_and_workbook(page, book):
                 ("resistance_kN", "R_d [kN]"),
                 ("utilisation", "μ"),
             ):
-                value = check[key]
-                expected = "-" if value is None else pytest.approx(value, rel=1e-12)
-                assert line[heading] == expected
+                assert line[heading] == as_cell(check[key])
             assert cells[1:3] == [
                 show_number(key, check[key]) for key in ("demand_kN", "resistance_kN")
             ]
@@ -136,9 +139,7 @@ def test_all_cases_of_the_document_stand_in_the_workbook(book):
                 ("error_percent", "Estimated error [%]"),
                 ("balance_residual", "Balance residual"),
             ):
-                value = case[key]
-                expected = "-" if value is None else pytest.approx(value, rel=1e-12)
-                assert line[heading] == expected
+                assert line[heading] == as_cell(case[key])
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])

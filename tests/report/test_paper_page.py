@@ -5,13 +5,13 @@ import io
 from xml.etree import ElementTree
 
 import pytest
-from build_paper import build_study
-from reading import PageReader
 
 from netdesign.paper.cases import find_history
 from netdesign.paper.findings import list_findings
 from netdesign.report.paper_page import PAGE_FILE, name_history, render_paper
 from netdesign.report.paper_words import word_finding
+from tests.build_paper import build_study
+from tests.report.reading import PageReader
 
 
 @pytest.fixture(scope="module")

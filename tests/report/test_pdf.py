@@ -1,11 +1,11 @@
 from importlib.util import find_spec
 
 import pytest
-from build_study import build_study
 
 from netdesign.errors import NetDesignError
 from netdesign.report import pdf
 from netdesign.report.html import render_html
+from tests.report.build_study import build_study
 
 
 def test_without_the_library_the_wish_is_refused(monkeypatch):

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import pytest
-from build_study import build_study
 
 from netdesign.report.html import render_html
 from netdesign.report.row_tables import (
@@ -16,6 +15,7 @@ from netdesign.report.row_tables import (
     describe_widths,
 )
 from netdesign.study import ChangeRecord
+from tests.report.build_study import build_study
 
 ROW = build_study().rows[0]
 

@@ -1,12 +1,12 @@
 import io
 import re
 
-from build_study import SCRIPT, build_study
 from rich.console import Console
 
 from netdesign.report.language import load_words
 from netdesign.report.terminal import open_console, print_summary
 from netdesign.report.view import build_view
+from tests.report.build_study import SCRIPT, build_study
 
 
 def printed(study, **options):

@@ -5,7 +5,6 @@ import time
 from dataclasses import replace
 
 import pytest
-from build_study import MEMBERS, build_study
 
 from netdesign.report.excel import render_workbook
 from netdesign.report.html import render_html
@@ -18,6 +17,7 @@ from netdesign.study import (
     LineRecord,
     MapRecord,
 )
+from tests.report.build_study import MEMBERS, build_study
 
 RANGES = {
     "density_kg_m3": (250.0, 450.0),

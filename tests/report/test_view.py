@@ -1,12 +1,12 @@
 from dataclasses import replace
 
 import pytest
-from build_study import build_row, build_study
 
 from netdesign.outcome import Verdict
 from netdesign.report.check_view import find_governing, find_highest
 from netdesign.report.tables import build_cases, build_quality
 from netdesign.report.view import build_view
+from tests.report.build_study import build_row, build_study
 
 
 def test_governing_check_is_the_worst_verdict_then_the_largest_ratio():

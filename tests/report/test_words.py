@@ -1,12 +1,12 @@
 import math
 
 import pytest
-from build_study import build_check, build_extreme, build_row
 
 from netdesign.errors import SolveError
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report import words
+from tests.report.build_study import build_check, build_extreme, build_row
 
 
 def test_every_verdict_has_its_own_word_sign_and_exit_code():

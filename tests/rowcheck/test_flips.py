@@ -17,26 +17,23 @@ from netdesign.rowcheck.flips import (
     find_height_change,
     find_spacing_change,
 )
-from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.row_position import LoadedWidth
+from tests.small_site import build_row
 
 RANGES = Ranges(
     density=Interval(low=270.0, high=400.0, count=3),
     friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=3),
     inclination=Interval(low=math.radians(25), high=math.radians(35), count=3),
 )
-ROW = NetRow(
-    id="R",
-    slope_angle=math.radians(38),
+ROW = build_row(
+    "R",
     snow_thickness=2.5,
     upslope_length=15.0,
     ground=GroundLaw(kind="no-slip"),
     net_height=3.0,
-    net_stiffness_per_m=1e7,
-    slack=0.05,
     layout=SupportLayout(
         post_spacing=4.0, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
     ),

@@ -4,12 +4,12 @@ import math
 from dataclasses import replace
 
 import pytest
-from test_row_study import RANGES, ROW, RUN
 
 from netdesign.envelope.grid import build_cases
 from netdesign.rowcheck.independent_record import record_independent
 from netdesign.rowcheck.probe import Probe
 from netdesign.rowcheck.support_record import record_head
+from tests.rowcheck.test_row_study import RANGES, ROW, RUN
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,10 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.rowcheck.probe import Probe
-from netdesign.site.model import MEMBER_MODES, NetRow, Project, Resistance, Site
+from netdesign.site.model import MEMBER_MODES, Resistance
 from netdesign.site_cases import CheckRun, solve_site
 from netdesign.snow.ground import GroundLaw
-from netdesign.structure.layout import SupportLayout
+from tests.small_site import build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
 RANGES = Ranges(
@@ -37,27 +37,18 @@ def a_resistance(member, mode):
     )
 
 
-ROW = NetRow(
-    id="R1",
-    slope_angle=math.radians(38.0),
-    snow_thickness=2.5,
+ROW = build_row(
+    "R1",
     upslope_length=12.0,
     ground=GroundLaw(kind="no-slip"),
     net_height=2.8,
-    net_stiffness_per_m=8e6,
-    slack=0.05,
-    layout=SupportLayout(
-        post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
-    ),
     resistances=tuple(a_resistance(member, mode) for member, mode in MEMBER_MODES),
     gap=1.0,
 )
 
 
 def study(row=ROW, ranges=RANGES, *, probed=False):
-    site = Site(
-        project=Project(), ranges=ranges, rows=(row,), file_name="s", sha256="0" * 64
-    )
+    site = build_site(row, ranges=ranges)
     probe = Probe(RUN.settings, RUN.creep_law) if probed else None
     results = solve_site(site, RUN)
     standard = load_standard("nf-p-95-304-style")

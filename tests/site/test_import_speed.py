@@ -8,10 +8,10 @@ import time
 
 import pytest
 import xlsxwriter
-from ods_files import write_ods
 
 from netdesign.site.columns import NETS
 from netdesign.site.reader import read_site
+from tests.site.ods_files import write_ods
 
 ROWS = 1000
 TYPED = {

@@ -2,10 +2,10 @@ import datetime
 import zipfile
 
 import pytest
-from ods_files import write_ods
 
 from netdesign.errors import SiteDataError
 from netdesign.site.spreadsheet import read_workbook
+from tests.site.ods_files import write_ods
 
 FORMULA = (
     '<table:table-cell table:formula="of:=[.A1]*2" office:value-type="float" '

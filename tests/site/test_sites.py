@@ -5,9 +5,15 @@ import subprocess
 
 import openpyxl
 import pytest
-from ods_files import write_ods
-from programs import require_program
-from whole_sites import (
+
+from netdesign.errors import SiteDataError
+from netdesign.site.annotate import annotate_workbook
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+from netdesign.snow.ground import build_ground_from_glide_factor
+from tests.programs import require_program
+from tests.site.ods_files import write_ods
+from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,
     FRENCH_SLOPES_PERCENT,
@@ -17,12 +23,6 @@ from whole_sites import (
     french_site,
     german_site,
 )
-
-from netdesign.errors import SiteDataError
-from netdesign.site.annotate import annotate_workbook
-from netdesign.site.model import MEMBER_MODES
-from netdesign.site.reader import read_site
-from netdesign.snow.ground import build_ground_from_glide_factor
 
 
 def merge_german_headings(workbook):
@@ -43,7 +43,7 @@ def convert(path, kind):
     return path.with_suffix(f".{kind}")
 
 
-def check_french(site):
+def assert_french(site):
     assert site.project.author == "É. Façade"
     assert [row.id for row in site.rows] == [f"F{k:02}" for k in range(1, 13)]
     for row, slope, height in zip(
@@ -67,7 +67,7 @@ def check_french(site):
     assert '"Remarque" is no known heading' in notes
 
 
-def check_german(site):
+def assert_german(site):
     first, second = site.rows
     assert [row.id for row in site.rows] == ["W1", "W2"]
     assert first.slope_angle == math.radians(38.5)
@@ -92,15 +92,15 @@ def check_german(site):
 
 
 def test_twelve_french_rows_with_commas_and_per_cent(save):
-    check_french(read_site(save(french_site())))
+    assert_french(read_site(save(french_site())))
 
 
 def test_a_german_site_with_units_row_and_grouped_headings(save):
-    check_german(read_site(save(german_site(), merge_german_headings)))
+    assert_german(read_site(save(german_site(), merge_german_headings)))
 
 
 def test_a_french_site_written_by_hand_as_ods(tmp_path):
-    check_french(read_site(write_ods(tmp_path / "site.ods", french_site())))
+    assert_french(read_site(write_ods(tmp_path / "site.ods", french_site())))
 
 
 @pytest.mark.parametrize("kind", ["ods", "xlsx"])
@@ -109,11 +109,11 @@ def test_the_french_site_saved_by_libreoffice(save, tmp_path, kind):
     typed = tmp_path / "typed" / "site.xlsx"
     save(french_site()).rename(typed)
     source = typed if kind == "ods" else convert(typed, "ods")
-    check_french(read_site(convert(source, kind)))
+    assert_french(read_site(convert(source, kind)))
 
 
 def test_the_german_site_saved_by_libreoffice(save):
-    check_german(read_site(convert(save(german_site(), merge_german_headings), "ods")))
+    assert_german(read_site(convert(save(german_site(), merge_german_headings), "ods")))
 
 
 def test_a_damaged_site_gives_every_finding_at_once(save, refused):

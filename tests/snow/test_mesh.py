@@ -1,6 +1,7 @@
 """Reference mesh and its placing against a net's curve."""
 
 import math
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -173,7 +174,8 @@ SIZES_ACCEPTED = [
 
 @pytest.mark.parametrize("changes", SIZES_ACCEPTED, ids=str)
 def test_bounds_of_sizes_are_accepted(changes):
-    MeshSize(**{**SOUND, **changes})
+    sizes = {**SOUND, **changes}
+    assert asdict(MeshSize(**sizes)) == sizes
 
 
 SIZES_REFUSED = [

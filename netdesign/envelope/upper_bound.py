@@ -1,0 +1,200 @@
+"""The most that several quantities could reach anywhere, as far as a model knows.
+
+The bound is the model's mean and some of its standard errors, wider around cases that
+surprised it. It is looked at on a lattice and around the best cases, then followed
+uphill. Theory: envelope/THEORY.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product, repeat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.envelope.surrogate import REACH, Surrogate
+
+Floats = NDArray[np.float64]
+Point = tuple[float, ...]
+
+# Coordinates are multiples of this share of a range: equal cases have equal keys.
+GRAIN = 1.0 / 64.0
+# Points per axis at which the bound is looked at before it is followed uphill.
+_LATTICE = {1: 65, 2: 17, 3: 9, 4: 7, 5: 5, 6: 5}
+NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
+_WANTED = 100  # highest lattice points per quantity that may be asked for
+_STARTS = 6  # highest lattice points per quantity that are followed uphill
+_FINEST_STEP = 1.0 / 1024.0
+_MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Surprise:
+    """A case that lay outside what the bound allowed around it."""
+
+    place: Floats
+    ratio: Floats  # error over what was allowed, shape (quantities,)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Bounds:
+    """What the model allows, and where."""
+
+    best: Floats
+    tolerance: Floats  # shape (quantities,)
+    upper: Floats
+    watched: tuple[int, ...]
+    summits: tuple[tuple[Point, int], ...]  # best values of the watched quantities
+    wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
+
+    @property
+    def open(self) -> tuple[int, ...]:
+        """Watched quantities whose gap is larger than its tolerance."""
+        gaps = (self.upper - self.best) / self.tolerance
+        return tuple(q for q in self.watched if gaps[q] > 1.0 + 1e-9)
+
+    @property
+    def gap(self) -> float:
+        """Largest gap over its tolerance."""
+        gaps = (self.upper - self.best) / self.tolerance
+        return float(np.max(gaps[list(self.watched)]))
+
+    @property
+    def is_closed(self) -> bool:
+        """No gap is larger than its tolerance."""
+        return not self.open
+
+
+def build_lattice(dimension: int) -> Floats:
+    """Places at which a bound is looked at first, shape (n, dimension)."""
+    axis = np.linspace(0.0, 1.0, _LATTICE[dimension])
+    return np.array(list(product(axis, repeat=dimension)))
+
+
+def bound_quantities(
+    model: Surrogate,
+    values: Floats,
+    *,
+    best: Floats,
+    tolerance: Floats,
+    watched: Sequence[int],
+    lattice: Floats,
+    certainty: float,
+    surprises: Sequence[Surprise],
+) -> Bounds:
+    """Largest mean plus ``certainty`` standard errors, and the places near it.
+
+    Parameters
+    ----------
+    model : Surrogate
+        Fitted to the values.
+    values : ndarray, shape (n, quantities)
+        Of the solved cases.
+    best, tolerance : ndarray, shape (quantities,)
+        What each quantity has to exceed to matter, and the gap that it may keep.
+    watched : sequence of int
+        Quantities that are bounded; the others have no bound.
+    lattice : ndarray, shape (m, dimension)
+        Of `build_lattice`.
+    certainty : float
+        Standard errors between mean and bound [-].
+    surprises : sequence of Surprise
+        Cases around which the model claims too little.
+
+    Returns
+    -------
+    Bounds
+        Of a quantity that is negative everywhere 0, of one not watched infinity.
+    """
+    asked = list(watched)
+    around = np.array([model.places[np.argmax(column)] for column in values.T])
+    looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
+
+    def reach(at: Floats) -> Floats:
+        mean, claim = model.predict(at, asked)
+        stretch = _stretch(at, surprises, len(best))[:, asked]
+        result: Floats = np.full((len(at), len(best)), np.inf)
+        result[:, asked] = mean + certainty * stretch * claim + NOISE * tolerance[asked]
+        return result
+
+    allowed = reach(looked_at)
+    upper = allowed.max(axis=0)
+    order = {q: np.argsort(-allowed[:, q], kind="stable")[:_WANTED] for q in asked}
+    starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
+    climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
+    wanted: list[tuple[float, Point, int]] = []
+    for quantity, (tops, heights) in climbed.items():
+        upper[quantity] = max(upper[quantity], heights.max())
+        places = np.concatenate([tops, looked_at[order[quantity]]])
+        reached = np.concatenate([heights, allowed[order[quantity], quantity]])
+        excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
+        wanted += zip(excess.tolist(), _settle(places), repeat(quantity), strict=False)
+    wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
+    margin = _MARGIN * tolerance
+    summits = _settle(around)
+    return Bounds(
+        best=best,
+        tolerance=tolerance,
+        # what is negative everywhere is no force at all: a guy that stays slack
+        upper=np.where(
+            (upper > 0.0) | (best > 0.0), np.maximum(upper, best) + margin, 0.0
+        ),
+        watched=tuple(asked),
+        summits=tuple((summits[q], q) for q in asked if values[:, q].max() >= best[q]),
+        wanted=tuple(wanted),
+    )
+
+
+def _settle(places: Floats) -> list[Point]:
+    """Nearest points whose coordinates are multiples of the grain."""
+    return [tuple(place) for place in (np.round(places / GRAIN) * GRAIN).tolist()]
+
+
+def _stretch(at: Floats, surprises: Sequence[Surprise], quantities: int) -> Floats:
+    """How much wider than the model's own claims are around what surprised it."""
+    stretch = np.ones((len(at), quantities))
+    for surprise in surprises:
+        distance = np.linalg.norm(at - surprise.place, axis=1)
+        share = np.exp(-((distance / REACH) ** 2))[:, None]
+        stretch = np.maximum(stretch, 1.0 + share * (surprise.ratio - 1.0))
+    return stretch
+
+
+def _surround(place: Floats) -> Floats:
+    """Finer lattice around the best case found."""
+    offsets = np.array(list(product((-0.0625, 0.0, 0.0625), repeat=len(place))))
+    result: Floats = np.clip(place + offsets, 0.0, 1.0)
+    return result
+
+
+def _climb(
+    starts: Mapping[int, Floats], reach: Callable[[Floats], Floats], step: float
+) -> dict[int, tuple[Floats, Floats]]:
+    """Follow each quantity's bound uphill, by halving steps along the axes.
+
+    All quantities go together, since one large question costs less than many small.
+    """
+    places = np.concatenate(list(starts.values()))
+    owners = np.repeat(list(starts), [len(own) for own in starts.values()])
+    count, dimension = places.shape
+    here = np.arange(count)
+    moves = np.concatenate(
+        [np.zeros((1, dimension)), np.eye(dimension), -np.eye(dimension)]
+    )
+    while True:
+        step /= 2.0
+        for _ in range(dimension):  # one move an axis
+            tried = np.clip(places[None] + step * moves[:, None], 0.0, 1.0)
+            # quantities climb the same way, and steps end at the walls of the box
+            distinct, place = np.unique(
+                tried.reshape(-1, dimension), axis=0, return_inverse=True
+            )
+            reached = reach(distinct)[place.ravel()]
+            heights = reached.reshape(len(moves), count, -1)[:, here, owners]
+            chosen = heights.argmax(axis=0)
+            places = tried[chosen, here]
+        if step <= _FINEST_STEP:
+            tops = heights.max(axis=0)
+            return {q: (places[owners == q], tops[owners == q]) for q in starts}

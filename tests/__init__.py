@@ -1,0 +1,1 @@
+"""Tests of netdesign; a package, so that none of another name comes before it."""

@@ -1,0 +1,19 @@
+"""The example site with some of its net rows, as a workbook that is soon solved."""
+
+import pytest
+
+from netdesign.site import template
+
+
+def write_short_example(path, rows, *, is_grid=True):
+    """Write these net rows; as a grid at both ends of density and friction alone."""
+    lines = template.load_example()
+    lines["Nets"] = [line for line in lines["Nets"] if line["id"] in rows]
+    if is_grid:
+        for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
+            line["samples"] = samples
+            if samples == 1:
+                line["high"] = line["low"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(template, "load_example", lambda: lines)
+        template.write_site_workbook(path, example=True)

@@ -1,0 +1,81 @@
+"""A small sound site, built in code: what a test is about, it changes itself."""
+
+import math
+
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.envelope.grid import Interval, Ranges
+from netdesign.site.model import (
+    MEMBER_MODES,
+    InputEcho,
+    NetRow,
+    Project,
+    Resistance,
+    Site,
+)
+from netdesign.site_cases import CheckRun
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+
+STRONG, WEAK = 1e7, 1e3  # [N]
+RUN = CheckRun(
+    settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
+    command="netdesign check site.xlsx",
+    started="2026-01-02T03:04:05+00:00",
+)
+RANGES = Ranges(
+    density=Interval(low=270.0, high=400.0, count=2),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=2),
+    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+)
+
+
+def resist(value=STRONG, **special):
+    """Resistances of all members; ``special`` maps ``member__mode`` to a value."""
+    return tuple(
+        Resistance(
+            member=member,
+            mode=mode,
+            value=special.get(f"{member}__{mode}", value),
+            basis="tested" if mode == "pull_out" else "",
+            type_id="T1",
+            source="Anchors!B2",
+        )
+        for member, mode in MEMBER_MODES
+    )
+
+
+def build_row(name, **changes):
+    """Two and a half metres of snow on free ground, behind a net as high."""
+    values = {
+        "id": name,
+        "slope_angle": math.radians(38.0),
+        "snow_thickness": 2.5,
+        "upslope_length": 6.0,
+        "ground": GroundLaw(kind="free"),
+        "net_height": 2.5,
+        "net_stiffness_per_m": 8e6,
+        "slack": 0.05,
+        "layout": SupportLayout(
+            post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
+        ),
+        "resistances": resist(),
+        "inputs": (
+            InputEcho(label="slack", unit="-", text="", value=0.05, cell="default"),
+        ),
+    }
+    return NetRow(**(values | changes))
+
+
+def build_site(*rows, **changes):
+    values = {
+        "project": Project(name="Combe"),
+        "ranges": RANGES,
+        "rows": rows,
+        "file_name": "site.xlsx",
+        "sha256": "0" * 64,
+        "notes": ("column X was not read",),
+    }
+    return Site(**(values | changes))
+
+
+ROWS = (build_row("R1"), build_row("R2", ground=GroundLaw(kind="no-slip")))
