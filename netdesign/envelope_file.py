@@ -11,7 +11,7 @@ from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.runner import Counts
-from netdesign.envelope.search import RowEnvelope
+from netdesign.envelope.search import Grid, RowEnvelope
 from netdesign.envelope_record import record_case, record_envelope
 from netdesign.study import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton
@@ -75,7 +75,7 @@ def write_envelope_document(
 
 
 def write_grid_document(
-    box: Box, results: Sequence[CaseResult], counts: Counts, wall_s: float
+    box: Box, grid: Grid, counts: Counts, wall_s: float
 ) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
@@ -83,13 +83,14 @@ def write_grid_document(
     ----------
     box : Box
         Ranges.
-    results : sequence of CaseResult
-        Of all cases.
+    grid : Grid
+        All cases.
     counts : Counts
         Of the run.
     wall_s : float
         Time that the cases took [s].
     """
+    results = grid.results
     reason = describe_gap(results)
     extremes = find_extremes(results)
     return {
@@ -115,7 +116,7 @@ def write_grid_document(
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
-            "skipped": 0,
+            "skipped": grid.skipped,
             "failed": sum(not result.is_converged for result in results),
             "asked": len(results),
         },

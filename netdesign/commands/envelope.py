@@ -213,9 +213,9 @@ def _sample(
     from netdesign.envelope.search import run_grid
     from netdesign.envelope_file import write_grid_document
 
-    results = run_grid(task, counts, runner)
+    grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
-    return write_grid_document(task.box, results, runner.counts, elapsed)
+    return write_grid_document(task.box, grid, runner.counts, elapsed)
 
 
 def _search(

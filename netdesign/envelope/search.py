@@ -7,7 +7,7 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -37,7 +37,6 @@ from netdesign.envelope.run import (
     build_job,
     build_task,
     resolve_case,
-    run_cases,
 )
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd
@@ -329,14 +328,28 @@ def search_rows(
     return [finished[task] for task in tasks]
 
 
-def run_grid(
-    task: RowTask, counts: Mapping[str, int | None], runner: Runner
-) -> list[CaseResult]:
-    """All cases of a tensor grid with so many samples of each axis."""
+class Grid(NamedTuple):
+    """All cases of a tensor grid, and how many of them needed no solve."""
+
+    results: list[CaseResult]
+    skipped: int
+
+
+def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) -> Grid:
+    """Solve a tensor grid with so many samples of each axis."""
     samples = [counts[name] or 2 for name in task.box.axes]
     axes = [[k / (count - 1) for k in range(count)] for count in samples]
     points = [tuple(point) for point in product(*axes)]
-    return run_cases([build_point_task(task, point) for point in points], runner)
+    tasks = [build_point_task(task, point) for point in points]
+    skip = FrictionSkip(task.box.axes)
+    asking = _ask(points, tasks, skip)
+    jobs = next(asking)
+    while True:
+        try:
+            jobs = asking.send(runner.solve(jobs))
+        except StopIteration as end:
+            results = [resolve_case(*one) for one in zip(tasks, end.value, strict=True)]
+            return Grid(results=results, skipped=skip.skipped)
 
 
 def build_point_task(

@@ -6,6 +6,7 @@ worker that dies costs the one case that kills it, by name.
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -316,12 +317,19 @@ def _try_one_by_one(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
 
 def _start_pool(processes: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(
-        processes, mp_context=multiprocessing.get_context("spawn"), initializer=_begin
+        processes,
+        mp_context=multiprocessing.get_context("spawn"),
+        initializer=_begin,
+        initargs=gc.get_threshold(),
     )
 
 
-def _begin() -> None:
-    """First act of a worker: it leaves Ctrl-C to its parent, and ends with it."""
+def _begin(*collection: int) -> None:
+    """First act of a worker: it leaves Ctrl-C to its parent, and ends with it.
+
+    It looks for unused objects as seldom as its parent does.
+    """
+    gc.set_threshold(*collection)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

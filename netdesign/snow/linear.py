@@ -28,7 +28,7 @@ Mask = NDArray[np.bool_]
 _WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
 # Slipping nodes, over the half bandwidth, whose friction is cheaper beside a Cholesky
 # factor than in an LU one.
-_MOST_SLIPPING = 0.25
+_MOST_SLIPPING = 0.15
 # Sweeps that narrow an order (no more is gained after 25), and how far they move.
 _SWEEPS, _SWEEP = 25, 0.7
 

@@ -6,8 +6,6 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from small_scene import COARSE, LAYOUT, build_scene
-from synthetic import drive, smooth
 
 from netdesign.envelope import search as search_module
 from netdesign.envelope import store as store_module
@@ -22,6 +20,8 @@ from netdesign.envelope.store import CaseStore, name_search
 from netdesign.envelope.surrogate import Surrogate
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome
+from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
+from tests.envelope.synthetic import drive, smooth
 
 WATCHED = {0: Watched(), 2: Watched(worth=0.1, floor=3.0)}
 BOX = Box(

@@ -54,7 +54,7 @@ def found(runner):
 
 @pytest.fixture(scope="module")
 def grid():
-    return run_grid(TASK, {"density": 7, "friction_angle": 9}, Runner())
+    return run_grid(TASK, {"density": 7, "friction_angle": 9}, Runner()).results
 
 
 def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
