@@ -46,26 +46,34 @@ class SupportForces:
     unbalanced: float
 
 
+def find_support_forces(
+    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+) -> tuple[FlowState, SupportForces]:
+    """Forces of a converged flow; its rounding is removed first where it shows.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    forces = compute_support_forces(law, mesh, state)
+    weight = float(np.hypot(*compute_weight(law, mesh)))
+    if forces.unbalanced <= _ROUNDING * weight:
+        return state, forces
+    mended = remove_rounding(law, mesh, state)
+    return mended, compute_support_forces(law, mesh, mended)
+
+
 def compute_support_forces(
     law: FlowLaw, mesh: PlacedMesh, state: FlowState
 ) -> SupportForces:
-    """Forces on net and ground, the corner at the foot shared between them.
-
-    The corner node is held by both. Along a ground without reactions at nodes (free
-    or sliding) its X-force is all the net's; what else the net takes there follows
-    from the next node: a quarter of a midpoint's force, as under uniform traction.
-    The share is one corner element wide; coupling/THEORY.md, section 3.
-    """
+    """Forces on net and ground, from the stresses of the snow alone."""
     residual = compute_residual(law, mesh, state)
     supports = -mesh.to_slope_axes(residual)
     template = mesh.template
-    on_net = supports[:, template.net]
-    corner = on_net[:, 0].copy()
-    on_net[:, 0] = on_net[:, 1] / 4.0
-    if law.ground != "no-slip":
-        on_net[0, 0] = corner[0]
+    on_net = share_net_forces(law, mesh, residual)
     ground = supports[:, template.ground[1:]]
-    on_ground = ground.sum(axis=1) + corner - on_net[:, 0]
+    on_ground = ground.sum(axis=1) + supports[:, template.net[0]] - on_net[:, 0]
     if law.ground != "no-slip":
         on_ground[0] = 0.0
     if state.base_shear is not None:
@@ -81,18 +89,17 @@ def compute_support_forces(
     )
 
 
-def mend_rounding(
-    law: FlowLaw, mesh: PlacedMesh, state: FlowState, forces: SupportForces
-) -> tuple[FlowState, SupportForces]:
-    """State and forces, those given unless rounding shows in their balance.
+def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats:
+    """Forces on the net (2, n_net) of reactions (n_dofs,), the foot's corner shared.
 
-    Raises
-    ------
-    SingularError
-        If nothing holds the snow.
+    The corner node is held by net and ground. Along a ground without reactions at
+    nodes (free or sliding) its X-force is all the net's; what else the net takes
+    there follows from the next node: a quarter of a midpoint's force, as under uniform
+    traction. The share is one corner element wide; coupling/THEORY.md, section 3.
     """
-    weight = float(np.hypot(*compute_weight(law, mesh)))
-    if forces.unbalanced <= _ROUNDING * weight:
-        return state, forces
-    mended = remove_rounding(law, mesh, state)
-    return mended, compute_support_forces(law, mesh, mended)
+    on_net = -mesh.net_in_slope_axes(reaction)
+    corner = on_net[:, 0].copy()
+    on_net[:, 0] = on_net[:, 1] / 4.0
+    if law.ground != "no-slip":
+        on_net[0, 0] = corner[0]
+    return on_net

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
     SupportForces,
-    compute_support_forces,
-    mend_rounding,
+    find_support_forces,
 )
 from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -137,8 +136,7 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
     )
     if flow.outcome is not Outcome.CONVERGED:
         raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
-    forces = compute_support_forces(law, mesh, flow.state)
-    state, forces = mend_rounding(law, mesh, flow.state, forces)
+    state, forces = find_support_forces(law, mesh, flow.state)
     return _Pressed(
         law=law,
         mesh=mesh,

@@ -21,8 +21,8 @@ from netdesign.cable.net import Net
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
     SupportForces,
-    compute_support_forces,
-    mend_rounding,
+    find_support_forces,
+    share_net_forces,
 )
 from netdesign.coupling.refine import Estimate, refine
 from netdesign.coupling.round_tangent import linearise_round
@@ -54,6 +54,8 @@ _ITERATED_SHARE = 0.04
 # The flow of a round is solved this much more tightly than the net still moves.
 _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
+# How far a net that was found on a coarser mesh may still move.
+_REFINED = 4e-3
 # The first mesh is only compared with the next, whose error is far larger.
 _FIRST_MESH = 5.0
 _CONTACT_ROUNDS = 30
@@ -204,7 +206,7 @@ def _couple(
     hanging = guess.hanging if guess is not None else _start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
-    moved, solves = 1.0, 0
+    moved, solves = 1.0 if guess is None else _REFINED, 0
     tolerance, still = _choose_tolerances(settings, is_first=guess is None)
     curves: list[Floats] = []
     misses: list[Floats] = []
@@ -216,21 +218,20 @@ def _couple(
         wanted = max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
         flow = _flow_along(problem, mesh, state, settings, wanted)
         state, solves = flow.state, solves + flow.linear_solves
-        forces = compute_support_forces(problem.law, mesh, state)
-        hanging = _hang_again(problem, hanging, forces)
+        on_net = share_net_forces(problem.law, mesh, state.reaction)
+        hanging = _hang_again(problem, hanging, on_net)
         curves.append(curve)
         misses.append(_contact_curve(problem, hanging) - curve)
         moved = float(np.abs(misses[-1]).max())
         if moved < still and flow.change < tolerance:
-            state, mended = mend_rounding(problem.law, mesh, state, forces)
-            if mended is not forces:
-                hanging = _hang_again(problem, hanging, mended)
+            state, forces = find_support_forces(problem.law, mesh, state)
+            hanging = _hang_again(problem, hanging, forces.on_net)
             return _Coupled(
                 problem=problem,
                 mesh=mesh,
                 state=state,
                 hanging=hanging,
-                forces=mended,
+                forces=forces,
                 was_slow=inverse is not None,
                 linear_solves=solves,
                 rounds=round_number,
@@ -279,10 +280,8 @@ def _flow_along(
     return flow
 
 
-def _hang_again(
-    problem: _Problem, hanging: _Hanging, forces: SupportForces
-) -> _Hanging:
-    return _hang(problem, forces.on_net, hanging.cable.pull, hanging.contact_length)
+def _hang_again(problem: _Problem, hanging: _Hanging, on_net: Floats) -> _Hanging:
+    return _hang(problem, on_net, hanging.cable.pull, hanging.contact_length)
 
 
 def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:

@@ -85,4 +85,6 @@ class FrictionSkip:
 
 def _agree(one: SolvedState, other: SolvedState) -> bool:
     pairs = ((one.foot, other.foot), (one.head, other.head))
-    return all(abs(a.x - b.x) + abs(a.y - b.y) <= _AGREEMENT * a.error for a, b in pairs)
+    return all(
+        abs(a.x - b.x) + abs(a.y - b.y) <= _AGREEMENT * a.error for a, b in pairs
+    )

@@ -292,11 +292,7 @@ def _left(change: float) -> float:
 
 def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:
     """Sums of the net's forces from the foot to each node, shape (2, n_net)."""
-    net = mesh.template.net
-    cosine, sine = mesh.axes[:, net]
-    first, second = reaction[2 * net], reaction[2 * net + 1]
-    forces = [cosine * first - sine * second, sine * first + cosine * second]
-    return np.cumsum(forces, axis=1)
+    return np.cumsum(mesh.net_in_slope_axes(reaction), axis=1)
 
 
 def _solve_linear_creep(

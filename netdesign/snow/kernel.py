@@ -119,6 +119,15 @@ class PlacedMesh:
             [cosine * first - sine * second, sine * first + cosine * second]
         )
 
+    def net_in_slope_axes(self, unknowns: Floats) -> Floats:
+        """Of unknowns (n_dofs,) the vectors (2, n_net) of the net's nodes."""
+        net = self.template.net
+        cosine, sine = self.axes[:, net]
+        first, second = unknowns[2 * net], unknowns[2 * net + 1]
+        return np.array(
+            [cosine * first - sine * second, sine * first + cosine * second]
+        )
+
     @cached_property
     def base(self) -> BaseEdges:
         """Quadrature on the ground."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling import glide, rigid
+from netdesign.coupling import glide, interface
 from netdesign.coupling.glide import measure_glide_factor
 from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
@@ -132,13 +132,13 @@ def test_too_few_newton_steps(a_scene):
 
 
 def test_force_lost_on_the_ground(a_scene, monkeypatch):
-    compute = rigid.compute_support_forces
+    compute = interface.compute_support_forces
 
     def lose_some(*arguments):
         forces = compute(*arguments)
         return replace(forces, on_ground=forces.on_ground + np.array([1e-6, 0.0]))
 
-    monkeypatch.setattr(rigid, "compute_support_forces", lose_some)
+    monkeypatch.setattr(interface, "compute_support_forces", lose_some)
     result = solve_rigid(walled(a_scene, **PRESSED), COARSE)
     assert isinstance(result, FailedSolution)
     assert result.outcome is Outcome.BALANCE_VIOLATED

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling import steady
+from netdesign.coupling import interface, steady
 from netdesign.coupling.refine import ERROR_FLOOR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
@@ -92,8 +92,8 @@ def test_force_lost_between_snow_and_ground(a_scene, monkeypatch, axis):
         lost[axis] = 1e-6
         return replace(forces, on_ground=forces.on_ground + lost)
 
-    compute = steady.compute_support_forces
-    monkeypatch.setattr(steady, "compute_support_forces", lose_some)
+    compute = interface.compute_support_forces
+    monkeypatch.setattr(interface, "compute_support_forces", lose_some)
     result = solve_steady(a_scene(), COARSE)
     assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
 
@@ -121,9 +121,7 @@ def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
 
     solve = steady.solve_flow
     monkeypatch.setattr(steady, "solve_flow", disturb)
-    monkeypatch.setattr(
-        steady, "mend_rounding", lambda _, __, state, forces: (state, forces)
-    )
+    monkeypatch.setattr(interface, "remove_rounding", lambda _, __, state: state)
     settings = replace(COARSE, shape_tolerance=1e-4)
     result = solve_steady(a_scene(), settings)
     assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
