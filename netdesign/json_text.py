@@ -60,14 +60,25 @@ def _write_value(value: Any, margin: str) -> str:
     if not isinstance(value, dict):
         return f"[{inside}{f',{inside}'.join(written)}{margin}]"
     members = [
-        f"{encode(key)}: {text}" for key, text in zip(value, written, strict=True)
+        f"{_write_key(key)}: {text}" for key, text in zip(value, written, strict=True)
     ]
     return f"{{{inside}{f',{inside}'.join(members)}{margin}}}"
 
 
+@lru_cache(maxsize=1024)
+def _write_key(key: str) -> str:
+    return json.dumps(key, ensure_ascii=False)
+
+
 def list_fields(value: Any) -> dict[str, Any]:
     """Fields of a dataclass as they are; quicker than a copy of all that is in them."""
-    return {one.name: getattr(value, one.name) for one in fields(value)}
+    shape: type = type(value)
+    return {name: getattr(value, name) for name in _list_names(shape)}
+
+
+@lru_cache(maxsize=256)
+def _list_names(shape: type) -> tuple[str, ...]:
+    return tuple(one.name for one in fields(shape))
 
 
 @lru_cache

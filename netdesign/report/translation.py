@@ -9,6 +9,7 @@ from html import escape, unescape
 from typing import Any, TypeVar
 
 from netdesign.report.check_view import CheckView, Step, Worked
+from netdesign.report.language import Words
 from netdesign.report.table import Cell, Column, Table
 from netdesign.report.view import ReportView, RowView, build_view
 from netdesign.report.words import VerdictWords
@@ -43,7 +44,13 @@ def show_study(study: Study, words: Translate) -> ReportView:
     NetDesignError
         If the study contradicts its own numbers.
     """
-    return translate_view(build_view(study), words)
+    view = build_view(study)
+    return view if is_english(words) else translate_view(view, words)
+
+
+def is_english(words: Translate) -> bool:
+    """Every text stays as it is."""
+    return isinstance(words, Words) and words.language == "en"
 
 
 def translate_view(view: View, words: Translate) -> View:
@@ -88,6 +95,8 @@ def _translate_texts(texts: Any, words: Translate) -> Any:
 
 def translate_drawing(svg: str, words: Translate) -> str:
     """Drawing with its texts in another language: in an SVG text stays text."""
+    if is_english(words):
+        return svg
 
     def exchange(match: re.Match[str]) -> str:
         return escape(words(unescape(match[0])))
