@@ -37,6 +37,7 @@ ROWS = (
     {"report"},
     {"commands"},
     {"cli"},
+    {"__main__"},
 )
 
 # Neighbours on one row do not see each other, but for these.

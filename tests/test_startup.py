@@ -63,3 +63,15 @@ def test_the_probe_sees_what_is_imported(tmp_path):
 def test_profiles_are_listed_without_a_solver(tmp_path):
     modules = imported("standards", "list", cwd=tmp_path)
     assert not modules & {"numpy", "scipy", "skfem", "pandas", "matplotlib"}
+
+
+def test_the_module_is_the_program(tmp_path):
+    result = subprocess.run(
+        [sys.executable, "-m", "netdesign", "--version"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 0
+    assert result.stdout.startswith("netdesign")
