@@ -24,19 +24,19 @@ def run(sizes, accuracy, levels=MESH_LEVELS):
 
 
 def test_stops_where_two_levels_agree():
-    states, estimate, _ = run([1.0, 1.1, 1.11, 1.111], accuracy=0.02)
+    states, estimate, _ = run([1.0, 1.1, 1.11, 1.111], accuracy=0.025)
     assert states == [1.0, 1.1, 1.11]
     np.testing.assert_allclose(estimate.vector, 1.11 * DIRECTION, rtol=1e-15)
 
 
 def test_error_is_the_last_step_and_a_floor():
-    """The floor is a quarter of the one before from the fourth level."""
+    """Twice the step from the third level; the floor is halved from the fourth."""
     _, estimate, _ = run([1.0, 1.1], accuracy=0.1, levels=MESH_LEVELS[:2])
     assert estimate.error == pytest.approx(0.1 + ERROR_FLOOR * 1.1, rel=1e-12)
-    _, estimate, _ = run([1.0, 1.1, 1.11], accuracy=0.02)
-    assert estimate.error == pytest.approx(0.01 + ERROR_FLOOR * 1.11, rel=1e-12)
-    _, estimate, _ = run([1.0, 1.1, 1.2, 1.21], accuracy=0.02)
-    assert estimate.error == pytest.approx(0.01 + ERROR_FLOOR / 4 * 1.21, rel=1e-12)
+    _, estimate, _ = run([1.0, 1.1, 1.11], accuracy=0.025)
+    assert estimate.error == pytest.approx(0.02 + ERROR_FLOOR * 1.11, rel=1e-12)
+    _, estimate, _ = run([1.0, 1.1, 1.2, 1.21], accuracy=0.025)
+    assert estimate.error == pytest.approx(0.02 + ERROR_FLOOR / 2 * 1.21, rel=1e-12)
 
 
 def test_error_is_that_of_the_vector():
