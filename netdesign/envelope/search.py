@@ -312,19 +312,23 @@ def search_rows(
         )
         for task in distinct
     }
-    asked = {task: next(talk) for task, talk in open_rows.items()}
-    while asked:
-        ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
-        answers = {task: [next(ends) for _ in jobs] for task, jobs in asked.items()}
-        asked = {}
+    # None begins a talk; it ends at once where the model refuses every case
+    answers: dict[RowTask, list[CaseEnd] | None] = dict.fromkeys(distinct)
+    is_begun = False
+    while answers:
+        asked: dict[RowTask, list[Job]] = {}
         for task, answer in answers.items():
             try:
-                asked[task] = open_rows[task].send(answer)
+                asked[task] = open_rows[task].send(answer)  # type: ignore[arg-type]
             except StopIteration as end:
                 finished[task] = end.value
-        waiting = sum(len(jobs) for jobs in asked.values())
-        gap = max((gaps[task] for task in asked), default=0.0)
-        on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
+        if is_begun:
+            waiting = sum(len(jobs) for jobs in asked.values())
+            gap = max((gaps[task] for task in asked), default=0.0)
+            on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
+        is_begun = True
+        ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
+        answers = {task: [next(ends) for _ in jobs] for task, jobs in asked.items()}
     return [finished[task] for task in tasks]
 
 
@@ -343,13 +347,15 @@ def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) ->
     tasks = [build_point_task(task, point) for point in points]
     skip = FrictionSkip(task.box.axes)
     asking = _ask(points, tasks, skip)
-    jobs = next(asking)
+    answer: list[CaseEnd] | None = None  # a generator begins with None
     while True:
         try:
-            jobs = asking.send(runner.solve(jobs))
+            # the model may have refused every case: then nothing is asked
+            jobs = asking.send(answer)  # type: ignore[arg-type]
         except StopIteration as end:
             results = [resolve_case(*one) for one in zip(tasks, end.value, strict=True)]
             return Grid(results=results, skipped=skip.skipped)
+        answer = runner.solve(jobs)
 
 
 def build_point_task(

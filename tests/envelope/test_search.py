@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.envelope import search
 from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
@@ -17,6 +18,7 @@ from netdesign.envelope.search import (
     search_rows,
 )
 from netdesign.envelope.state import CaseEnd
+from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
@@ -186,3 +188,27 @@ def test_progress_is_told_after_each_wave():
     assert waves[-1].rows_open == 0
     assert [wave.rows_open for wave in waves[:-1]] == [1] * (len(waves) - 1)
     assert any(math.isfinite(wave.gap) for wave in waves)
+
+
+@pytest.fixture
+def refuses(monkeypatch):
+    """The model refuses every scene."""
+
+    def refuse(*_):
+        raise ModelError("refused")
+
+    monkeypatch.setattr(search, "place_scene", refuse)
+
+
+@pytest.mark.usefixtures("refuses")
+def test_a_grid_of_refused_cases_says_why():
+    results = run_grid(TASK, {"density": 2, "friction_angle": 2}, Runner()).results
+    assert [result.outcome for result in results] == 4 * [Outcome.OUT_OF_VALIDITY]
+    assert {result.reason for result in results} == {"refused"}
+
+
+@pytest.mark.usefixtures("refuses")
+def test_a_search_of_refused_cases_is_not_closed():
+    (found,) = search_rows([TASK], Runner())
+    assert not found.maxima.is_closed
+    assert {result.reason for result in found.results} == {"refused"}
