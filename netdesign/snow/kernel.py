@@ -113,20 +113,12 @@ class PlacedMesh:
 
     def to_slope_axes(self, unknowns: Floats) -> Floats:
         """Unknowns (n_dofs,) to vectors (2, n_nodes) in the slope's axes."""
-        cosine, sine = self.axes
-        first, second = unknowns[: self.n_velocities].reshape(-1, 2).T
-        return np.array(
-            [cosine * first - sine * second, sine * first + cosine * second]
-        )
+        return _turn(self.axes, *unknowns[: self.n_velocities].reshape(-1, 2).T)
 
     def net_in_slope_axes(self, unknowns: Floats) -> Floats:
         """Of unknowns (n_dofs,) the vectors (2, n_net) of the net's nodes."""
         net = self.template.net
-        cosine, sine = self.axes[:, net]
-        first, second = unknowns[2 * net], unknowns[2 * net + 1]
-        return np.array(
-            [cosine * first - sine * second, sine * first + cosine * second]
-        )
+        return _turn(self.axes[:, net], unknowns[2 * net], unknowns[2 * net + 1])
 
     @cached_property
     def base(self) -> BaseEdges:
@@ -151,6 +143,12 @@ class BaseEdges:
     dofs: Ints
     shape: Floats
     weights: Floats
+
+
+def _turn(axes: Floats, first: Floats, second: Floats) -> Floats:
+    """Components along node axes (2, n) to those in the slope's axes."""
+    cosine, sine = axes
+    return np.array([cosine * first - sine * second, sine * first + cosine * second])
 
 
 def build_placed_mesh(
