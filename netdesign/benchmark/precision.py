@@ -107,7 +107,7 @@ def measure_transient(name: str, scene: Scene, effort: Effort = FULL) -> list[Ro
     fine = replace(
         settings,
         accuracy=HISTORY_ACCURACY / 10.0,
-        levels=(finest, refine_size(finest, 2)),
+        levels=(finest, refine_size(finest, 1)),
     )
     truth = build_truth(solve_transient(scene, fine))
     rows = []

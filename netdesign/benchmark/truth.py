@@ -13,7 +13,7 @@ from netdesign.coupling.steady import solve_steady
 from netdesign.errors import SolveError
 from netdesign.snow.mesh import MeshSize, build_template
 
-FINER = 4
+HALVINGS = 2  # of every side: a truth is four times finer
 # Rounding in the balance grows with the mesh; a truth is not handed out as a result.
 _TRUTH_BALANCE = 1e-6
 
@@ -41,10 +41,9 @@ class Truth:
 
 
 def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth:
-    """End pulls on a mesh ``FINER`` times finer than ``size`` in each direction.
+    """End pulls on a mesh four times finer than ``size`` in each direction.
 
-    All lengths of the mesh are divided and all sectors of its rings; how fast rings
-    and columns grow away from the net's ends stays as it is.
+    Every triangle is cut in sixteen, at the net's ends as well.
 
     Raises
     ------
@@ -53,7 +52,7 @@ def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth
     """
     fine = replace(
         settings,
-        levels=(size, refine_size(size, FINER)),
+        levels=(size, refine_size(size, HALVINGS)),
         balance_tolerance=_TRUTH_BALANCE,
         step=None,
     )
@@ -73,14 +72,9 @@ def build_truth(solution: Solution | FailedSolution) -> Truth:
     return Truth(foot=_vector(solution.foot), head=_vector(solution.head))
 
 
-def refine_size(size: MeshSize, factor: int) -> MeshSize:
-    """All lengths over ``factor``, as many times the sectors."""
-    return MeshSize(
-        net_spacing=size.net_spacing / factor,
-        corner=size.corner / factor,
-        sectors=size.sectors * factor,
-        upslope_spacing=size.upslope_spacing / factor,
-    )
+def refine_size(size: MeshSize, times: int) -> MeshSize:
+    """Every triangle cut in four, so many times."""
+    return replace(size, subdivisions=size.subdivisions + times)
 
 
 def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:

@@ -13,12 +13,11 @@ from netdesign.snow.mesh import MeshSize
 Floats = NDArray[np.float64]
 State = TypeVar("State")
 
-# Smallest relative error that is claimed of two coarse meshes: what both cannot see
-# (far upslope both are coarse; 0.3 % was measured, 0.4 % on snow that does not slide).
-ERROR_FLOOR, NO_SLIP_FLOOR = 2.5e-3, 4e-3
-# Error of a mesh over its difference from the one before. Scenes that need a third mesh
-# converge slowly: half of an error may be left (measured: netdesign bench --errors).
-ERROR_SHARE, SLOW_SHARE = 1.0, 2.0
+# Error of a mesh over its difference from the one before, and the least relative error
+# that is claimed, of the second mesh and of each further one over that before: what two
+# meshes do not see (measured: netdesign bench --errors).
+ERROR_SHARE = 0.7
+ERROR_FLOOR, FLOOR_RATIO = 2e-3, 0.8
 
 
 class Estimate(NamedTuple):
@@ -33,7 +32,6 @@ def refine(
     solve: Callable[[MeshSize, State | None], State],
     measure: Callable[[State], Sequence[Floats]],
     accuracy: float,
-    floor: float = ERROR_FLOOR,
 ) -> tuple[list[State], list[Estimate]]:
     """Solve level after level until two in turn agree.
 
@@ -47,24 +45,20 @@ def refine(
         State to the vectors that matter, each shape (2,).
     accuracy : float
         Relative error allowed in each vector [-].
-    floor : float
-        Smallest relative error that is claimed of the second level [-].
 
     Returns
     -------
     list, list of Estimate
-        All states, coarse to fine, and the vectors of the last. The error is the
-        difference from the level before, from the third level on twice that, plus a
-        floor of the vector's size, halved on each level from the fourth on. If the
-        finest level does not reach the accuracy, the error says so.
+        All states, coarse to fine, and the vectors of the last. The error is a share
+        of the difference from the level before, and a share of the vector's size. If
+        the finest level does not reach the accuracy, the error says so.
     """
     states = [solve(levels[0], None)]
     for place, level in enumerate(levels[1:]):
         states.append(solve(level, states[-1]))
         pairs = zip(measure(states[-1]), measure(states[-2]), strict=True)
-        share = SLOW_SHARE if place else ERROR_SHARE
-        least = floor / 2 ** max(0, place - 1)
-        estimates = [estimate_error(*pair, least, share) for pair in pairs]
+        floor = ERROR_FLOOR * FLOOR_RATIO**place
+        estimates = [estimate_error(*pair, floor) for pair in pairs]
         if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
             break
     return states, estimates

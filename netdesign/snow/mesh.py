@@ -11,22 +11,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_RING_RATIO = 0.4  # aimed ratio of the radii of neighbouring rings
-_RING_REACH = 2.2  # outermost ring, in units of the net spacing
-_RING_SHARE = 0.6  # size of triangles near an end over their distance from it
-_CLEARANCE = 1.3  # points of the background keep this many ring reaches away
+# Rings around an end: radii are powers of equal steps, since what an element near a
+# singular point adds to the forces falls with its size. Depth over width of the outermost
+# triangles; their largest radius, and half of the gap between layers that it may take.
+_RING_POWER, _RING_DEPTH = 4.0, 1.8
+_RING_REACH, _RING_GAP = 0.45, 0.4
+# Sizes over distances from an end times sectors, and how fast columns widen likewise.
+_RING_SHARE, _GROWTH = 1.8, 1.6
+_CLEARANCE = 1.3  # other points keep this many ring reaches away
+_BESIDE = _CLEARANCE * _RING_REACH
+_LEAST_ROWS = 2  # of triangles in each layer
 _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
-_UPSLOPE_GROWTH = 1.35  # of neighbouring columns
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
 # columns widen with it. Along layers triangles may be long from nearer on.
 _FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
@@ -42,17 +49,27 @@ class MeshSize:
     net_spacing : float
         Size of triangles along the middle of the net.
     corner : float
-        Size of the smallest triangles, at the net's two ends.
+        Size of the smallest triangles, at the net's foot; at its head and where
+        layers meet the net, where the flow is less singular, its square root.
     sectors : int
-        Number of sectors of each ring around an end.
+        Number of sectors of each ring around an end; so many times slower, too,
+        triangles grow away from the ends.
     upslope_spacing : float
         Largest size, far upslope.
+    subdivisions : int
+        How many times every triangle is cut in four.
     """
 
     net_spacing: float
     corner: float
     sectors: int
     upslope_spacing: float
+    subdivisions: int = 0
+
+    @property
+    def growth(self) -> float:
+        """Difference of neighbouring columns near the net, over the narrower."""
+        return _GROWTH / self.sectors
 
     def __post_init__(self) -> None:
         """Refuse sizes that give no mesh."""
@@ -61,6 +78,7 @@ class MeshSize:
         require_within("corner size", self.corner, 1e-9, self.net_spacing)
         require_within("sectors", self.sectors, 1, 64)
         require_within("upslope spacing", self.upslope_spacing, 1e-2, 10.0)
+        require_within("subdivisions", self.subdivisions, 0, 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -120,21 +138,39 @@ def build_template(
         crosses them.
     """
     require_within("upslope length over thickness", aspect, 0.25, 200.0)
-    points = np.vstack([_ring_points(size), _background_points(aspect, size)])
+    columns = _column_places(aspect, size)
+    # beside the net's ends there are rings instead of columns
+    first = float(columns[np.searchsorted(columns, min(_BESIDE, aspect))])
+    points = np.vstack([_end_points(size), _column_points(columns, size, interfaces)])
     # a short snowpack: the rings must not reach beyond its upslope end
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
+    for below, height, above in _neighbours(interfaces):
+        reach = min(_RING_REACH, _RING_GAP * min(height - below, above - height))
+        line = _interface_points(size, height, reach, first)
+        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * reach
+        is_clear = (_is_clear(points, line) & apart) | (points[:, 0] >= first)
+        rings = _junction_points(size, height, reach)
+        points = np.vstack([points[is_clear], line, rings])
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
-    for line in _interface_points(aspect, size, interfaces):
-        is_clear = _is_clear(_squeeze(points, far), _squeeze(line, far))
-        points = np.vstack([points[is_clear], line])
     points = np.unique(points.round(12), axis=0)
-    return _build_mesh(points, _connect(_squeeze(points, far)), aspect)
+    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect)
+    for _ in range(size.subdivisions):
+        mesh = _subdivide(mesh)
+    return mesh
 
 
 def triangulate(points: Floats, aspect: float) -> MeshTemplate:
     """Reference mesh of given points (n, 2) that fill the rectangle to its sides."""
     return _build_mesh(points, _connect(points), aspect)
+
+
+def _subdivide(mesh: MeshTemplate) -> MeshTemplate:
+    """Every triangle cut in four at the middles of its sides."""
+    a, b, c, ab, bc, ca = mesh.triangles
+    quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    triangles = np.concatenate([np.column_stack(q) for q in quarters])
+    return _build_mesh(mesh.nodes.T, triangles, mesh.aspect)
 
 
 def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
@@ -186,63 +222,90 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     return placed
 
 
-def _ring_points(size: MeshSize) -> Floats:
-    reach = min(_RING_REACH * size.net_spacing, 0.45)
-    n_rings = max(1, round(np.log(size.corner / reach) / np.log(_RING_RATIO)))
-    radii = np.geomspace(reach, size.corner, n_rings + 1)
+def _end_points(size: MeshSize) -> Floats:
+    """Rings around the net's foot and head."""
     angles = np.linspace(0.0, np.pi / 2, size.sectors + 1)
-    x = np.outer(radii, np.cos(angles))
-    y = np.outer(radii, np.sin(angles))
-    x[:, -1] = 0.0  # exactly on the net
-    y[:, 0] = 0.0  # exactly on the ground
-    foot = np.column_stack([x.ravel(), y.ravel()])
-    head = np.column_stack([x.ravel(), 1.0 - y.ravel()])
-    return np.vstack([[(0.0, 0.0), (0.0, 1.0)], foot, head])
+    foot = _ring_points(size, size.corner, _RING_REACH, angles)
+    head = _ring_points(size, np.sqrt(size.corner), _RING_REACH, angles)
+    return np.vstack([foot, [0.0, 1.0] - head * [-1.0, 1.0]])
 
 
-def _background_points(aspect: float, size: MeshSize) -> Floats:
+def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
+    """Rings around the place on the net where two layers meet."""
+    angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
+    rings = _ring_points(size, np.sqrt(size.corner), reach, angles)
+    return rings + [0.0, height]
+
+
+def _ring_points(size: MeshSize, corner: float, reach: float, angles: Floats) -> Floats:
+    """Rings of points (n, 2) around the origin, and the origin."""
+    outer = reach ** (1.0 / _RING_POWER)
+    inner = min(corner, reach / 2.0) ** (1.0 / _RING_POWER)
+    width = np.pi / 2 / size.sectors
+    count = _RING_POWER * (1.0 - inner / outer) / (_RING_DEPTH * width)
+    radii = np.linspace(outer, inner, max(1, round(count)) + 1) ** _RING_POWER
+    # exactly on the net and on the level line
+    across = np.where(np.abs(angles) == np.pi / 2, 0.0, np.cos(angles))
+    up = np.where(angles == 0.0, 0.0, np.sin(angles))
+    x, y = np.outer(radii, across), np.outer(radii, up)
+    return np.vstack([[(0.0, 0.0)], np.column_stack([x.ravel(), y.ravel()])])
+
+
+def _column_places(aspect: float, size: MeshSize) -> Floats:
+    """Distances of the columns upslope of the net, shape (n,), the last ``aspect``."""
     columns = [0.0]
     step = size.net_spacing
     while columns[-1] < aspect:
         columns.append(columns[-1] + step)
-        step = min(step * _UPSLOPE_GROWTH, _widest(columns[-1], size))
+        step = min(step * (1.0 + size.growth), _widest(columns[-1], size))
     places = np.array(columns) * (aspect / columns[-1])
+    places[-1] = aspect
+    return places
+
+
+def _column_points(
+    places: Floats, size: MeshSize, interfaces: tuple[float, ...]
+) -> Floats:
+    """Points of the columns, on every side of a layer, but not beside the ends."""
     spacing = np.append(np.diff(places), places[-1] - places[-2])
+    bounds = (0.0, *interfaces, 1.0)
     points = []
     for place, step in zip(places, spacing, strict=True):
         across = min(max(step, size.net_spacing), size.upslope_spacing)
-        rows = max(2, round(1.0 / across))
-        heights = np.linspace(0.0, 1.0, rows + 1)
-        points.append(np.column_stack([np.full_like(heights, place), heights]))
+        heights = [np.array([0.0])]
+        for below, above in pairwise(bounds):
+            rows = max(_LEAST_ROWS, round((above - below) / across))
+            heights.append(np.linspace(below, above, rows + 1)[1:])
+        column = np.concatenate(heights)
+        points.append(np.column_stack([np.full_like(column, place), column]))
     cloud = np.vstack(points)
-    clear = _CLEARANCE * min(_RING_REACH * size.net_spacing, 0.45)
     to_foot = np.hypot(cloud[:, 0], cloud[:, 1])
     to_head = np.hypot(cloud[:, 0], 1.0 - cloud[:, 1])
-    return np.asarray(cloud[np.minimum(to_foot, to_head) > clear])
+    return np.asarray(cloud[np.minimum(to_foot, to_head) > _BESIDE])
+
+
+def _neighbours(interfaces: tuple[float, ...]) -> list[tuple[float, float, float]]:
+    """Each height between layers with that below and above it."""
+    bounds = (0.0, *interfaces, 1.0)
+    return list(zip(bounds, interfaces, bounds[2:], strict=False))
 
 
 def _interface_points(
-    aspect: float, size: MeshSize, interfaces: tuple[float, ...]
-) -> list[Floats]:
-    """Points along each interface, as close as the mesh is fine there."""
-    bounds = (0.0, *interfaces, 1.0)
-    lines = []
-    for below, height, above in zip(bounds, interfaces, bounds[2:], strict=False):
-        gap = min(height - below, above - height)
-        places = [0.0]
-        while places[-1] < aspect:
-            to_end = np.hypot(places[-1], min(height, 1.0 - height))
-            column = min(
-                size.net_spacing + (_UPSLOPE_GROWTH - 1.0) * places[-1],
-                _widest(places[-1], size),
-            )
-            long = gap * max(1.0, places[-1] / _FAR_ALONG_LAYERS)
-            places.append(places[-1] + min(long, column, _RING_SHARE * to_end))
-        stretch = aspect / places[-1]
-        lines.append(
-            np.column_stack([np.array(places) * stretch, np.full(len(places), height)])
-        )
-    return lines
+    size: MeshSize, height: float, reach: float, first: float
+) -> Floats:
+    """Points along an interface from its rings to the first whole column."""
+    gap = reach / _RING_GAP
+    places = [min(reach, first / 2.0)]
+    while places[-1] < first:
+        to_end = np.hypot(places[-1], min(height, 1.0 - height))
+        near = min(places[-1], _RING_SHARE / size.sectors * to_end)
+        column = size.net_spacing + size.growth * places[-1]
+        places.append(places[-1] + min(gap, column, near))
+    # the first stays, the last lies on the column
+    stretch = (first - places[0]) / (places[-1] - places[0])
+    along = places[0] + (np.array(places) - places[0]) * stretch
+    along[-1] = first
+    return np.column_stack([along, np.full(len(places), height)])
 
 
 def _widest(distance: float, size: MeshSize) -> float:
@@ -277,8 +340,13 @@ def _connect(points: Floats) -> Ints:
 
     triangles = Delaunay(points).simplices
     # collinear boundary points may leave triangles without area
-    solid = np.abs(_twice_area(points[triangles])) > 1e-12
-    return np.asarray(triangles[solid], dtype=np.int64)
+    solid = np.abs(_twice_area(points[triangles])) > 1e-15
+    triangles = triangles[solid]
+    if np.unique(triangles).size != len(points):
+        raise ModelError(
+            "the mesh is too fine: its smallest triangles vanish by rounding"
+        )
+    return np.asarray(triangles, dtype=np.int64)
 
 
 def _twice_area(corners: Floats) -> Floats:
