@@ -49,8 +49,8 @@ _CUT_FROM = 9.0
 # Meshes from the fewest triangles upwards. Sectors around the net's ends are worth
 # more than triangles along its middle (measured: netdesign bench).
 MESH_LEVELS = (
-    MeshSize(net_spacing=0.34, corner=1e-2, sectors=2, upslope_spacing=1.0),
-    MeshSize(net_spacing=0.34, corner=1e-3, sectors=4, upslope_spacing=0.8),
+    MeshSize(net_spacing=0.34, corner=2e-2, sectors=2, upslope_spacing=1.0),
+    MeshSize(net_spacing=0.34, corner=4e-3, sectors=4, upslope_spacing=0.8),
     MeshSize(net_spacing=0.17, corner=1e-4, sectors=7, upslope_spacing=0.5),
     MeshSize(net_spacing=0.1, corner=4e-5, sectors=11, upslope_spacing=0.35),
     MeshSize(net_spacing=0.06, corner=2e-5, sectors=17, upslope_spacing=0.2),
