@@ -45,9 +45,9 @@ Floats = NDArray[np.float64]
 # net's ends are worth more than triangles along its middle. Corners much smaller than
 # the way that the snow makes past them would be swept away.
 TRANSIENT_LEVELS = (
-    MeshSize(net_spacing=0.34, corner=0.05, sectors=3, upslope_spacing=1.5),
-    MeshSize(net_spacing=0.18, corner=0.03, sectors=4, upslope_spacing=0.7),
-    MeshSize(net_spacing=0.09, corner=0.015, sectors=5, upslope_spacing=0.35),
+    MeshSize(net_spacing=0.34, corner=0.03, sectors=2, upslope_spacing=1.0),
+    MeshSize(net_spacing=0.34, corner=0.01, sectors=4, upslope_spacing=0.8),
+    MeshSize(net_spacing=0.17, corner=0.003, sectors=7, upslope_spacing=0.5),
 )
 # First step, in creep time. A straight net takes up its load from the corners inward,
 # within a time that goes with the square of their size; one that sags has most of its

@@ -23,9 +23,9 @@ from netdesign.guards import require_positive, require_within
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# Rings around an end: radii are powers of equal steps, since what an element near a
-# singular point adds to the forces falls with its size. Depth over width of the outermost
-# triangles; their largest radius, and half of the gap between layers that it may take.
+# Radii of rings are powers of equal steps: what a triangle near a singular point adds
+# to the forces falls with its size. Depth over width of the outermost triangles; the
+# largest radius, and the share of the distance between layers' sides that it may take.
 _RING_POWER, _RING_DEPTH = 4.0, 1.8
 _RING_REACH, _RING_GAP = 0.45, 0.4
 # Sizes over distances from an end times sectors, and how fast columns widen likewise.
@@ -227,14 +227,14 @@ def _end_points(size: MeshSize) -> Floats:
     angles = np.linspace(0.0, np.pi / 2, size.sectors + 1)
     foot = _ring_points(size, size.corner, _RING_REACH, angles)
     head = _ring_points(size, np.sqrt(size.corner), _RING_REACH, angles)
-    return np.vstack([foot, [0.0, 1.0] - head * [-1.0, 1.0]])
+    return np.vstack([foot, np.array([0.0, 1.0]) + head * np.array([1.0, -1.0])])
 
 
 def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
     """Rings around the place on the net where two layers meet."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
     rings = _ring_points(size, np.sqrt(size.corner), reach, angles)
-    return rings + [0.0, height]
+    return rings + np.array([0.0, height])
 
 
 def _ring_points(size: MeshSize, corner: float, reach: float, angles: Floats) -> Floats:

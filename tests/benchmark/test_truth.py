@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.benchmark.truth import (
-    FINER,
+    HALVINGS,
     Truth,
     build_truth,
     find_level,
@@ -19,18 +19,18 @@ from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template
 
 
-def test_a_finer_mesh_is_finer_in_each_direction():
+def test_a_finer_mesh_is_finer_in_each_direction_everywhere():
+    """Four pieces of every side, at the net's foot as well."""
     size = MeshSize(net_spacing=0.2, corner=0.01, sectors=2, upslope_spacing=0.5)
-    assert refine_size(size, 4) == MeshSize(
-        net_spacing=0.05, corner=0.0025, sectors=8, upslope_spacing=0.125
+    coarse, fine = (
+        build_template(20.0, s) for s in (size, refine_size(size, HALVINGS))
     )
-    coarse, fine = (build_template(20.0, s) for s in (size, refine_size(size, 4)))
-    # 16 times as many triangles far upslope; beside the ends growth limits them
-    far = [
-        int((template.nodes[0, template.triangles[:3]].mean(axis=0) > 5.0).sum())
-        for template in (coarse, fine)
-    ]
-    assert far[1] == pytest.approx(16 * far[0], rel=0.25)
+    assert fine.triangles.shape[1] == 16 * coarse.triangles.shape[1]
+    for chain in ("net", "ground"):
+        axis = 1 if chain == "net" else 0
+        coarser, finer = (t.nodes[axis, getattr(t, chain)[::2]] for t in (coarse, fine))
+        np.testing.assert_allclose(finer[::4], coarser, atol=1e-15)
+        np.testing.assert_allclose(np.diff(finer)[::4], np.diff(coarser) / 4)
 
 
 def test_errors_are_those_of_the_vectors(solved):
@@ -61,7 +61,7 @@ def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     assert truth.compare(fine) < truth.compare(coarse) / 2
     # physics.md, section 7: two independent codes
     assert np.hypot(*truth.foot) == pytest.approx(309.67e3, rel=3e-4)
-    assert FINER == 4
+    assert 2**HALVINGS == 4
 
 
 def test_no_truth_without_convergence():

@@ -18,7 +18,7 @@ SLACKS = [0.0, 0.02, 0.15]
 
 
 # Fine enough for sags and lengths that are read off the nodes.
-FINE = MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25)
+FINE = MeshSize(net_spacing=0.06, corner=2.5e-3, sectors=10, upslope_spacing=0.25)
 
 
 def begin(scene, start, size=TRANSIENT_LEVELS[1]):
@@ -33,10 +33,13 @@ def points_of(problem, state):
 
 
 def largest_sag(problem, points):
-    """Distance from the chord downslope, over the chord."""
+    """Distance from the chord downslope, over the chord, of a net that is a parabola."""
     along = problem.head / np.hypot(*problem.head)
     across = along[1] * points[0] - along[0] * points[1]
-    return across.max() / np.hypot(*problem.head)
+    chord = np.hypot(*problem.head)
+    share, lowest = (along @ points) / chord, across[1:-1].argmax() + 1
+    # f = y / (4 x (1 - x)) at every point; no node need be in the middle
+    return across[lowest] / chord / (4.0 * share * (1.0 - share))[lowest]
 
 
 def parabola_length(sag):

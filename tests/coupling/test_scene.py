@@ -81,16 +81,15 @@ def test_length_is_refused(a_scene, length):
 
 def test_levels_are_refined_in_every_size():
     for coarse, fine in pairwise(MESH_LEVELS):
-        assert fine.net_spacing < coarse.net_spacing
+        assert fine.net_spacing <= coarse.net_spacing
         assert fine.upslope_spacing < coarse.upslope_spacing
         assert fine.corner < coarse.corner
-        assert fine.sectors > coarse.sectors
 
 
-def test_fine_levels_halve_their_sizes():
-    for coarse, fine in pairwise(MESH_LEVELS[1:]):
-        assert fine.net_spacing == coarse.net_spacing / 2
-        assert fine.upslope_spacing == coarse.upslope_spacing / 2
+def test_sectors_grow_by_half_or_more():
+    """Else two meshes would be too alike to show the error of either."""
+    for coarse, fine in pairwise(MESH_LEVELS):
+        assert fine.sectors >= 1.5 * coarse.sectors
 
 
 RANGES = {

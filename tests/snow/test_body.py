@@ -20,7 +20,7 @@ from netdesign.snow.mesh import MeshSize, build_template
 
 ASPECT = 5.0
 # Fine enough for a heap that is read off the surface's vertices.
-FINE = MeshSize(net_spacing=0.0625, corner=2.5e-3, sectors=2, upslope_spacing=0.25)
+FINE = MeshSize(net_spacing=0.06, corner=1e-2, sectors=4, upslope_spacing=0.25)
 ROUNDING = 1e-13  # of the mass, after sums over some hundred triangles
 HEAP_WIDTH = 0.3
 STRAIGHT = [0.0, 0.6]  # x of the head, at height 1

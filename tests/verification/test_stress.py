@@ -15,15 +15,17 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady import solve_steady
 from netdesign.snow.mesh import MeshTemplate, build_template
 
-# The order of summation and of elimination changes; the iterations stop at 1e-6, but
-# take the same steps: what differs is their rounding.
+# The order of summation and of elimination changes, the iterations take the same
+# steps: what differs is their rounding. Where snow slips, a node may be tied between
+# sticking and slipping on the way; tight iterations forget which way it went.
 ROUNDING = 1e-9
 SETTINGS = SolverSettings(accuracy=0.01)
+TIGHT = SolverSettings(accuracy=1e-3)
 CHOSEN = ("paper-30", "slipping-part", "rough-ground", "layered")
 
 
-def solve(tables) -> Solution:
-    solution = solve_steady(build_tables(tables), SETTINGS, on_failure="raise")
+def solve(tables, settings=SETTINGS) -> Solution:
+    solution = solve_steady(build_tables(tables), settings, on_failure="raise")
     assert isinstance(solution, Solution)
     return solution
 
@@ -55,7 +57,7 @@ def renumber(template: MeshTemplate, seed: int) -> MeshTemplate:
 
 @pytest.mark.parametrize("name", CHOSEN)
 def test_numbering_of_nodes_does_not_matter(monkeypatch, name):
-    expected = solve(SCENES[name])
+    expected = solve(SCENES[name], TIGHT)
     shuffled = {}
 
     def build_shuffled(*arguments):
@@ -64,7 +66,7 @@ def test_numbering_of_nodes_does_not_matter(monkeypatch, name):
         return shuffled[arguments]
 
     monkeypatch.setattr(steady, "build_template", build_shuffled)
-    found = solve(SCENES[name])
+    found = solve(SCENES[name], TIGHT)
     assert len(shuffled) >= 2
     assert found.cost == expected.cost
     np.testing.assert_allclose(pulls(found), pulls(expected), rtol=ROUNDING)
