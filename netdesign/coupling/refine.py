@@ -16,8 +16,8 @@ State = TypeVar("State")
 # Error of a mesh over its difference from the one before, and the least relative error
 # that is claimed, of the second mesh and of each further one over that before: what two
 # meshes do not see (measured: netdesign bench --errors).
-ERROR_SHARE = 0.7
-ERROR_FLOOR, FLOOR_RATIO = 2e-3, 0.8
+ERROR_SHARE = 0.8
+ERROR_FLOOR, FLOOR_RATIO = 2.5e-3, 0.8
 
 
 class Estimate(NamedTuple):

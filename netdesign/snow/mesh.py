@@ -37,6 +37,9 @@ _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its 
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
 # columns widen with it. Along layers triangles may be long from nearer on.
 _FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
+# A short snowpack's upslope end on ground that holds it is felt at the net: columns of
+# at most this share of the length, over the sectors.
+_END_SHARE = 0.5
 NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
 
 
@@ -257,7 +260,7 @@ def _column_places(aspect: float, size: MeshSize) -> Floats:
     step = size.net_spacing
     while columns[-1] < aspect:
         columns.append(columns[-1] + step)
-        step = min(step * (1.0 + size.growth), _widest(columns[-1], size))
+        step = min(step * (1.0 + size.growth), _widest(columns[-1], aspect, size))
     places = np.array(columns) * (aspect / columns[-1])
     places[-1] = aspect
     return places
@@ -308,9 +311,10 @@ def _interface_points(
     return np.column_stack([along, np.full(len(places), height)])
 
 
-def _widest(distance: float, size: MeshSize) -> float:
+def _widest(distance: float, aspect: float, size: MeshSize) -> float:
     """Largest column at a distance upslope of the net."""
-    return size.upslope_spacing * max(1.0, distance / _FAR)
+    short = _END_SHARE * aspect / size.sectors
+    return min(size.upslope_spacing, short) * max(1.0, distance / _FAR)
 
 
 def _squeeze(points: Floats, far: float) -> Floats:

@@ -28,7 +28,7 @@ from netdesign.verification.case import (
     observe_order,
 )
 
-# Tight, on the levels that halve their sizes: verification looks at what the default
+# Tight, without the coarsest level: verification looks at what the default
 # leaves out for speed.
 _LEVELS = MESH_LEVELS[1:]
 _SETTINGS = SolverSettings(

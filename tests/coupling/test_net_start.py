@@ -33,7 +33,7 @@ def points_of(problem, state):
 
 
 def largest_sag(problem, points):
-    """Distance from the chord downslope, over the chord, of a net that is a parabola."""
+    """Largest distance from the chord over the chord, of a net that is a parabola."""
     along = problem.head / np.hypot(*problem.head)
     across = along[1] * points[0] - along[0] * points[1]
     chord = np.hypot(*problem.head)
