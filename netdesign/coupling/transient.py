@@ -45,7 +45,7 @@ Floats = NDArray[np.float64]
 # net's ends are worth more than triangles along its middle. Corners much smaller than
 # the way that the snow makes past them would be swept away.
 TRANSIENT_LEVELS = (
-    MeshSize(net_spacing=0.34, corner=0.03, sectors=2, upslope_spacing=1.0),
+    MeshSize(net_spacing=0.34, corner=0.03, sectors=3, upslope_spacing=1.0),
     MeshSize(net_spacing=0.34, corner=0.01, sectors=4, upslope_spacing=0.8),
     MeshSize(net_spacing=0.17, corner=0.003, sectors=7, upslope_spacing=0.5),
 )

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.state import SolvedState
@@ -48,10 +51,9 @@ def record_independent(
 
 def _check_ends(state: SolvedState) -> IndependentRecord:
     """Sine of the larger angle between an end's pull and the net's end there [-]."""
-    x, y = state.net_curve
     ends = (
-        (state.foot, (x[1] - x[0], y[1] - y[0])),
-        (state.head, (x[-2] - x[-1], y[-2] - y[-1])),
+        (state.foot, _leave(state, state.net_curve)),
+        (state.head, _leave(state, state.net_curve[:, ::-1])),
     )
     sines = [
         abs(pull.x * along[1] - pull.y * along[0]) / (pull.size * math.hypot(*along))
@@ -59,6 +61,16 @@ def _check_ends(state: SolvedState) -> IndependentRecord:
     ]
     errors = [3.0 * pull.error / pull.size for pull, _ in ends]
     return _at_most("end_direction", max(sines), max(_DIRECTION, *errors))
+
+
+def _leave(state: SolvedState, curve: NDArray[np.float64]) -> tuple[float, float]:
+    """Direction in which the net leaves the first of its nodes, shape (2, n)."""
+    first, second, third = curve[:, :3].T
+    if state.method == "steady":  # parabolas through a segment's ends and middle
+        along = 4.0 * second - 3.0 * first - third
+    else:  # straight pieces
+        along = second - first
+    return float(along[0]), float(along[1])
 
 
 def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentRecord:

@@ -237,7 +237,7 @@ def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
     """Rings around the place on the net where two layers meet."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
     rings = _ring_points(size, np.sqrt(size.corner), reach, angles)
-    return rings + np.array([0.0, height])
+    return np.asarray(rings + np.array([0.0, height]))
 
 
 def _ring_points(size: MeshSize, corner: float, reach: float, angles: Floats) -> Floats:

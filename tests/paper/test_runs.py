@@ -18,7 +18,7 @@ from netdesign.paper.study import run_study
 from netdesign.snow.mesh import MeshSize
 from tests.build_paper import CURVE, TRIANGLE
 
-COARSE = MeshSize(net_spacing=0.34, corner=0.06, sectors=1, upslope_spacing=1.5)
+COARSE = MeshSize(net_spacing=0.34, corner=0.1, sectors=4, upslope_spacing=1.5)
 THIN = PaperSettings(
     levels=(COARSE, TRANSIENT_LEVELS[0]),
     horizon=600.0,
