@@ -42,6 +42,29 @@ class NodeForces:
     head_pull: Floats
 
 
+def compute_end_directions(points: Floats, *, is_curved: bool) -> tuple[Floats, Floats]:
+    """Unit vectors in which the net leaves its foot and its head.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m].
+    is_curved : bool
+        Segments are parabolas through two ends and a node between; else straight.
+
+    Returns
+    -------
+    tuple of ndarray, shape (2,)
+        At the foot, at the head [-].
+    """
+    directions = []
+    for first, second, third in (points[:, :3].T, points[:, :-4:-1].T):
+        along = 4.0 * second - 3.0 * first - third if is_curved else second - first
+        directions.append(along / np.hypot(*along))
+    foot, head = directions
+    return foot, head
+
+
 def compute_segment_lengths(points: Floats) -> Floats:
     """Final lengths of the segments.
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from netdesign.cable.tension import compute_ratio_bounds, compute_turning_angles
+from netdesign.cable.tension import (
+    compute_end_directions,
+    compute_ratio_bounds,
+    compute_turning_angles,
+)
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.state import SolvedState
 from netdesign.study import HeadForce, IndependentRecord
@@ -51,26 +52,12 @@ def record_independent(
 
 def _check_ends(state: SolvedState) -> IndependentRecord:
     """Sine of the larger angle between an end's pull and the net's end there [-]."""
-    ends = (
-        (state.foot, _leave(state, state.net_curve)),
-        (state.head, _leave(state, state.net_curve[:, ::-1])),
-    )
-    sines = [
-        abs(pull.x * along[1] - pull.y * along[0]) / (pull.size * math.hypot(*along))
-        for pull, along in ends
-    ]
-    errors = [3.0 * pull.error / pull.size for pull, _ in ends]
+    is_curved = state.method == "steady"  # a history's net is straight between nodes
+    leaving = compute_end_directions(state.net_curve, is_curved=is_curved)
+    ends = zip((state.foot, state.head), leaving, strict=True)
+    sines = [abs(pull.x * y - pull.y * x) / pull.size for pull, (x, y) in ends]
+    errors = [3.0 * pull.error / pull.size for pull in (state.foot, state.head)]
     return _at_most("end_direction", max(sines), max(_DIRECTION, *errors))
-
-
-def _leave(state: SolvedState, curve: NDArray[np.float64]) -> tuple[float, float]:
-    """Direction in which the net leaves the first of its nodes, shape (2, n)."""
-    first, second, third = curve[:, :3].T
-    if state.method == "steady":  # parabolas through a segment's ends and middle
-        along = 4.0 * second - 3.0 * first - third
-    else:  # straight pieces
-        along = second - first
-    return float(along[0]), float(along[1])
 
 
 def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentRecord:
