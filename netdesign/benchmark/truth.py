@@ -40,10 +40,16 @@ class Truth:
         return _relative(foot, self.foot), _relative(head, self.head)
 
 
-def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth:
-    """End pulls on a mesh four times finer than ``size`` in each direction.
+def solve_truth(
+    scene: Scene,
+    size: MeshSize,
+    settings: SolverSettings,
+    *,
+    halvings: int = HALVINGS,
+) -> Truth:
+    """End pulls on a mesh finer than ``size`` in each direction, at the net's ends too.
 
-    Every triangle is cut in sixteen, at the net's ends as well.
+    Every side of a triangle is halved so many times; by default it is four times finer.
 
     Raises
     ------
@@ -52,7 +58,7 @@ def solve_truth(scene: Scene, size: MeshSize, settings: SolverSettings) -> Truth
     """
     fine = replace(
         settings,
-        levels=(size, refine_size(size, HALVINGS)),
+        levels=(size, refine_size(size, halvings)),
         balance_tolerance=_TRUTH_BALANCE,
         step=None,
     )

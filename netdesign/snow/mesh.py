@@ -56,7 +56,7 @@ class MeshSize:
         layers meet the net, where the flow is less singular, its square root.
     sectors : int
         Number of sectors of each ring around an end; so many times slower, too,
-        triangles grow away from the ends.
+        triangles grow away from the ends. 0 for an even mesh without rings.
     upslope_spacing : float
         Largest size, far upslope.
     subdivisions : int
@@ -72,14 +72,14 @@ class MeshSize:
     @property
     def growth(self) -> float:
         """Difference of neighbouring columns near the net, over the narrower."""
-        return _GROWTH / self.sectors
+        return _GROWTH / max(1, self.sectors)
 
     def __post_init__(self) -> None:
         """Refuse sizes that give no mesh."""
         require_within("net spacing", self.net_spacing, 1e-3, 0.34)
         require_positive("corner size", self.corner)
         require_within("corner size", self.corner, 1e-9, self.net_spacing)
-        require_within("sectors", self.sectors, 1, 64)
+        require_within("sectors", self.sectors, 0, 64)
         require_within("upslope spacing", self.upslope_spacing, 1e-2, 10.0)
         require_within("subdivisions", self.subdivisions, 0, 4)
 
@@ -142,19 +142,9 @@ def build_template(
     """
     require_within("upslope length over thickness", aspect, 0.25, 200.0)
     columns = _column_places(aspect, size)
-    # beside the net's ends there are rings instead of columns
-    first = float(columns[np.searchsorted(columns, min(_BESIDE, aspect))])
-    points = np.vstack([_end_points(size), _column_points(columns, size, interfaces)])
-    # a short snowpack: the rings must not reach beyond its upslope end
-    points = points[points[:, 0] <= aspect]
-    points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
-    for below, height, above in _neighbours(interfaces):
-        reach = min(_RING_REACH, _RING_GAP * min(height - below, above - height))
-        line = _interface_points(size, height, reach, first)
-        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * reach
-        is_clear = (_is_clear(points, line) & apart) | (points[:, 0] >= first)
-        rings = _junction_points(size, height, reach)
-        points = np.vstack([points[is_clear], line, rings])
+    points = _column_points(columns, size, interfaces)
+    if size.sectors:
+        points = _add_rings(points, columns, size, interfaces)
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
     points = np.unique(points.round(12), axis=0)
     mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect)
@@ -269,7 +259,7 @@ def _column_places(aspect: float, size: MeshSize) -> Floats:
 def _column_points(
     places: Floats, size: MeshSize, interfaces: tuple[float, ...]
 ) -> Floats:
-    """Points of the columns, on every side of a layer, but not beside the ends."""
+    """Points of the columns, on every side of a layer."""
     spacing = np.append(np.diff(places), places[-1] - places[-2])
     bounds = (0.0, *interfaces, 1.0)
     points = []
@@ -281,10 +271,30 @@ def _column_points(
             heights.append(np.linspace(below, above, rows + 1)[1:])
         column = np.concatenate(heights)
         points.append(np.column_stack([np.full_like(column, place), column]))
-    cloud = np.vstack(points)
-    to_foot = np.hypot(cloud[:, 0], cloud[:, 1])
-    to_head = np.hypot(cloud[:, 0], 1.0 - cloud[:, 1])
-    return np.asarray(cloud[np.minimum(to_foot, to_head) > _BESIDE])
+    return np.vstack(points)
+
+
+def _add_rings(
+    points: Floats, columns: Floats, size: MeshSize, interfaces: tuple[float, ...]
+) -> Floats:
+    """The columns' points, beside the net rings in their place."""
+    aspect = float(columns[-1])
+    first = float(columns[np.searchsorted(columns, min(_BESIDE, aspect))])
+    to_foot = np.hypot(points[:, 0], points[:, 1])
+    to_head = np.hypot(points[:, 0], 1.0 - points[:, 1])
+    apart = np.minimum(to_foot, to_head) > _BESIDE
+    points = np.vstack([_end_points(size), points[apart]])
+    # a short snowpack: the rings must not reach beyond its upslope end
+    points = points[points[:, 0] <= aspect]
+    points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
+    for below, height, above in _neighbours(interfaces):
+        reach = min(_RING_REACH, _RING_GAP * min(height - below, above - height))
+        line = _interface_points(size, height, reach, first)
+        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * reach
+        is_clear = (_is_clear(points, line) & apart) | (points[:, 0] >= first)
+        rings = _junction_points(size, height, reach)
+        points = np.vstack([points[is_clear], line, rings])
+    return points
 
 
 def _neighbours(interfaces: tuple[float, ...]) -> list[tuple[float, float, float]]:
@@ -313,7 +323,7 @@ def _interface_points(
 
 def _widest(distance: float, aspect: float, size: MeshSize) -> float:
     """Largest column at a distance upslope of the net."""
-    short = _END_SHARE * aspect / size.sectors
+    short = _END_SHARE * aspect / max(1, size.sectors)
     return min(size.upslope_spacing, short) * max(1.0, distance / _FAR)
 
 

@@ -123,6 +123,14 @@ def test_a_mesh_finer_than_rounding_is_refused():
         build_template(8.0, size)
 
 
+def test_an_even_mesh_has_no_rings():
+    size = MeshSize(net_spacing=0.125, corner=0.125, sectors=0, upslope_spacing=0.25)
+    template = build_template(5.0, size, (0.5,))
+    np.testing.assert_allclose(np.diff(template.net_fractions[::2]), 0.125)
+    corners = template.nodes[:, template.triangles[:3]]
+    assert largest_angles(corners).max() == pytest.approx(90.0)
+
+
 def test_a_long_snowpack_costs_little_more():
     """Columns widen with their distance: as many for each doubling of the length."""
     counts = [
@@ -203,6 +211,7 @@ SIZES_ACCEPTED = [
     {"corner": 1e-9},
     {"corner": 0.2},
     {"sectors": 1},
+    {"sectors": 0},
     {"sectors": 64},
     {"subdivisions": 4},
     {"upslope_spacing": 1e-2},
@@ -222,7 +231,7 @@ SIZES_REFUSED = [
     ("corner", 0.0, "corner size"),
     ("corner", 0.9e-9, "corner size"),
     ("corner", math.nextafter(0.2, 1.0), "corner size"),
-    ("sectors", 0, "sectors"),
+    ("sectors", -1, "sectors"),
     ("sectors", 65, "sectors"),
     ("subdivisions", 5, "subdivisions"),
     ("subdivisions", -1, "subdivisions"),
