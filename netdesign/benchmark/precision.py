@@ -58,12 +58,12 @@ _TIGHT, _OFFERED = 1e-4, 1e-3
 class Effort:
     """How much is measured: place of the finest level, repeats of each timing."""
 
-    finest: int = 4
+    finest: int = 3
     repeats: int = 5
 
 
 FULL = Effort()
-QUICK = Effort(finest=3, repeats=3)
+QUICK = Effort(finest=2, repeats=3)
 
 
 Solve = Callable[[], Solution | FailedSolution]
