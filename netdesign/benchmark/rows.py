@@ -25,7 +25,7 @@ class Row:
     wall_s : float
         Shortest of the repeated timings: what else runs can only lengthen one [s].
     error : float
-        Worse of the end pulls, relative, against a mesh four times finer than the
+        Worse of the end pulls, relative, against a mesh twice as fine as the
         finest that is measured [-].
     stated_error : float
         What the solution itself says [-].

@@ -36,7 +36,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel(
-            "error of the worse end force [%], against a four times finer mesh"
+            "error of the worse end force [%], against a finer mesh"
         )
         axes.set_ylabel("run time [ms]")
         axes.invert_xaxis()
