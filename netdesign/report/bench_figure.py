@@ -35,9 +35,7 @@ def draw_work_precision(rows: Sequence[Row]) -> str:
         _draw_histories(axes, [row for row in rows if row.method == "transient"])
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel(
-            "error of the worse end force [%], against a finer mesh"
-        )
+        axes.set_xlabel("error of the worse end force [%], against a finer mesh")
         axes.set_ylabel("run time [ms]")
         axes.invert_xaxis()
         axes.grid(visible=True, which="major", color=GREY, alpha=0.25, linewidth=0.4)

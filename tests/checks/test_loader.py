@@ -147,6 +147,14 @@ def test_unknown_id_names_all_that_are_near():
         load_standard("ONR-style")
 
 
+def test_a_file_or_an_impossible_name_is_no_profile(tmp_path):
+    file = tmp_path / "limits.toml"
+    file.touch()
+    for given in (file, "x" * 5000):
+        with pytest.raises(StandardError, match="is unknown: Accepted are"):
+            load_standard(given)
+
+
 def test_unknown_id_far_from_all_names_what_is_accepted():
     with pytest.raises(StandardError) as caught:
         load_standard("zzz")
