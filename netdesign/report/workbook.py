@@ -88,7 +88,7 @@ class Book:
     def link(self, sheet: Any, place: tuple[int, int], target: str, text: str) -> None:
         """Text that leads to a place of this workbook."""
         form = self.text(font_color=_LINK, underline=1)
-        sheet.write_url(*place, f"internal:{target}", form, text)
+        sheet.write_url(*place, f"internal:{target}", form, text[:_LONGEST_TEXT])
 
     def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
         """Lead back to the first sheet."""
