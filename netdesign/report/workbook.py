@@ -27,6 +27,7 @@ _DECIMAL = re.compile(r"-?\d+(\.\d+)?")
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
+_LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
 
 A4, A3 = 9, 8  # paper numbers of the format
 
@@ -88,7 +89,7 @@ class Book:
     def link(self, sheet: Any, place: tuple[int, int], target: str, text: str) -> None:
         """Text that leads to a place of this workbook."""
         form = self.text(font_color=_LINK, underline=1)
-        sheet.write_url(*place, f"internal:{target}", form, text[:_LONGEST_TEXT])
+        sheet.write_url(*place, f"internal:{target}", form, text[:_LONGEST_LINK])
 
     def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
         """Lead back to the first sheet."""
