@@ -13,7 +13,8 @@ from netdesign.snow.mesh import MeshSize
 Floats = NDArray[np.float64]
 State = TypeVar("State")
 
-# Error of a mesh over its difference from the one before, and the least relative error
+# Error of a mesh over its difference from the one before (of MESH_LEVELS: two steps or
+# other meshes may differ by less than they err), and the least relative error
 # that is claimed, of the second mesh and of each further one over that before: what two
 # meshes do not see (measured: netdesign bench --errors).
 ERROR_SHARE = 0.8
@@ -58,14 +59,14 @@ def refine(
         states.append(solve(level, states[-1]))
         pairs = zip(measure(states[-1]), measure(states[-2]), strict=True)
         floor = ERROR_FLOOR * FLOOR_RATIO**place
-        estimates = [estimate_error(*pair, floor) for pair in pairs]
+        estimates = [estimate_error(*pair, floor, ERROR_SHARE) for pair in pairs]
         if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
             break
     return states, estimates
 
 
 def estimate_error(
-    fine: Floats, coarse: Floats, floor: float, share: float = ERROR_SHARE
+    fine: Floats, coarse: Floats, floor: float, share: float = 1.0
 ) -> Estimate:
     """The fine vector; its error is a multiple of their difference, and of its size."""
     error = share * np.hypot(*(fine - coarse)) + floor * np.hypot(*fine)

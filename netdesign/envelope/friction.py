@@ -15,7 +15,7 @@ from netdesign.envelope.state import CaseEnd, SolvedState
 
 _AXIS = "friction_angle"
 _TESTS = 2  # chances that are solved before any is taken
-_AGREEMENT = 0.5  # of the stated error, both end pulls: more than iterations leave
+_AGREEMENT = 0.2  # of the stated error, both end pulls: some more than iterations leave
 
 
 class FrictionSkip:
