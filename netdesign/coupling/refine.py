@@ -17,7 +17,7 @@ State = TypeVar("State")
 # other meshes may differ by less than they err), and the least relative error
 # that is claimed, of the second mesh and of each further one over that before: what two
 # meshes do not see (measured: netdesign bench --errors).
-ERROR_SHARE = 0.8
+ERROR_SHARE = 0.9
 ERROR_FLOOR, FLOOR_RATIO = 2.5e-3, 0.8
 
 

@@ -46,14 +46,24 @@ MIXED_BULK_RATIO = 20.0
 REACH_OF_NET = 8.0
 _CUT_FROM = 9.0
 
-# Meshes from the fewest triangles upwards. Sectors around the net's ends are worth
-# more than triangles along its middle (measured: netdesign bench).
-MESH_LEVELS = (
-    MeshSize(net_spacing=0.34, corner=2e-2, sectors=2, upslope_spacing=1.0),
-    MeshSize(net_spacing=0.34, corner=4e-3, sectors=4, upslope_spacing=0.8),
-    MeshSize(net_spacing=0.17, corner=1e-4, sectors=7, upslope_spacing=0.5),
-    MeshSize(net_spacing=0.1, corner=4e-5, sectors=11, upslope_spacing=0.35),
-    MeshSize(net_spacing=0.06, corner=2e-5, sectors=17, upslope_spacing=0.2),
+# Meshes from the fewest triangles upwards. Sectors around the net's foot are worth
+# more than those around its head, and these more than triangles along its middle
+# (measured: netdesign bench).
+MESH_LEVELS = tuple(
+    MeshSize(
+        net_spacing=net_spacing,
+        corner=corner,
+        sectors=sectors,
+        head_sectors=head_sectors,
+        upslope_spacing=upslope_spacing,
+    )
+    for net_spacing, corner, sectors, head_sectors, upslope_spacing in (
+        (0.34, 1e-2, 3, 3, 1.0),
+        (0.34, 2e-3, 5, 3, 0.8),
+        (0.2, 1e-4, 8, 4, 0.6),
+        (0.1, 4e-5, 12, 7, 0.35),
+        (0.06, 2e-5, 18, 12, 0.2),
+    )
 )
 
 

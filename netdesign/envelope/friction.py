@@ -1,9 +1,9 @@
 """Cases that friction cannot change: known without a solve, after a test.
 
 Where the snow slips nowhere on the net, the friction limit is not reached and more
-friction leaves the solution as it is. That is a property of the solver's discrete
-problem too, but it is used only after it was seen to hold: the first chances are
-solved all the same, and one that disagrees ends the skipping.
+friction leaves the solution as it is; where it slips by the very foot only, very
+nearly. That is used only after it was seen to hold: the first chances are solved all
+the same, and one that disagrees ends the skipping.
 """
 
 from __future__ import annotations

@@ -15,6 +15,9 @@ from netdesign.coupling.solution import Balance, EndPull, Solution
 from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
+# Share of the net's length, from its foot on. Cases that slip only so far move by at
+# most a tenth of their stated error if friction grows (512 cases of a row's ranges).
+_BY_FOOT = 5e-3
 _SHAPE_ARRAYS = (
     ("net_curve", "<f8"),
     ("net_slides", "|b1"),
@@ -63,8 +66,15 @@ class SolvedState:
 
     @property
     def sticks(self) -> bool:
-        """The snow slips nowhere on the net: more friction would change nothing."""
-        return not bool(self.net_slides.any())
+        """The snow slips nowhere on the net, or only by its foot.
+
+        There, where the pressure is singular, some snow slips at any friction; more
+        friction would change next to nothing.
+        """
+        steps = np.hypot(*np.diff(self.net_curve, axis=1))
+        places = np.append(0.0, np.cumsum(steps)) / steps.sum()
+        slides = places[: self.net_slides.size][self.net_slides]
+        return bool((slides <= _BY_FOOT).all())
 
     @property
     def is_finite(self) -> bool:

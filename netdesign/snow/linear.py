@@ -76,40 +76,49 @@ class Ordering:
     band : int
         Half bandwidth.
     known : dict
-        Places found before, by array of unknowns.
+        Places found before, by the arrays of unknowns they are of.
     """
 
     place: Ints
     band: int
-    known: dict[tuple[int, bool], tuple[Ints, Ints]] = field(default_factory=dict)
+    known: dict[tuple[int | bool, ...], tuple[list[Ints], Ints]] = field(
+        default_factory=dict
+    )
 
-    def find_below(self, dofs: Ints) -> Ints:
-        """Where blocks of these unknowns go in storage of the lower half band.
+    def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
+        """Sum of the parts in LAPACK's banded storage, shape (n_dofs, height).
 
-        What lies above the diagonal goes to one place behind the end.
+        The lower half band alone, or the whole with room for pivots. All parts in one
+        sum: storage is larger than what they hold, each pass over it costs.
         """
-        return self._find(dofs, lower=True)
+        height = self.band + 1 if lower else 3 * self.band + 1
+        size = self.place.size * height
+        places = self._find([part.dofs for part in parts], lower=lower)
+        values = np.concatenate([part.values.ravel() for part in parts])
+        # what lies above the diagonal has gone to one place behind the end
+        sums = np.bincount(places, values, minlength=size + 1)[:size]
+        return np.asarray(sums.reshape(-1, height))
 
-    def find_all(self, dofs: Ints) -> Ints:
-        """Where blocks of these unknowns go in LAPACK's storage of the whole band."""
-        return self._find(dofs, lower=False)
+    def _find(self, groups: list[Ints], *, lower: bool) -> Ints:
+        # the same arrays come again with each solve: they are their own key while
+        # they live
+        key = (lower, *(id(dofs) for dofs in groups))
+        if key in self.known:
+            return self.known[key][1]
+        find = self._find_below if lower else self._find_all
+        places = np.concatenate([find(self.place[dofs]).ravel() for dofs in groups])
+        if not any(dofs.flags.writeable for dofs in groups):
+            self.known[key] = groups, places
+        return places
 
-    def _find(self, dofs: Ints, *, lower: bool) -> Ints:
-        # the same array comes again with each solve: it is its own key while it lives
-        kept = self.known.get((id(dofs), lower))
-        if kept is not None and kept[0] is dofs:
-            return kept[1]
-        row = self.place[dofs]
-        if lower:
-            height = self.band + 1
-            below = row[:, :, None] - row[:, None, :]
-            end = self.place.size * height
-            places = np.where(below >= 0, row[:, None, :] * height + below, end)
-        else:
-            places = row[:, None, :] * 3 * self.band + 2 * self.band + row[:, :, None]
-        if not dofs.flags.writeable:
-            self.known[id(dofs), lower] = (dofs, places.ravel())
-        return np.asarray(places.ravel())
+    def _find_below(self, row: Ints) -> Ints:
+        height = self.band + 1
+        below = row[:, :, None] - row[:, None, :]
+        end = self.place.size * height
+        return np.where(below >= 0, row[:, None, :] * height + below, end)
+
+    def _find_all(self, row: Ints) -> Ints:
+        return row[:, None, :] * 3 * self.band + 2 * self.band + row[:, :, None]
 
 
 def build_ordering(
@@ -283,13 +292,7 @@ def _scale_of(values: Floats) -> float:
 def _solve_cholesky(
     ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
 ) -> Floats:
-    height, size = ordering.band + 1, len(load)
-    storage = np.zeros(size * height + 1)
-    for part in parts:
-        storage += np.bincount(
-            ordering.find_below(part.dofs), part.values.ravel(), minlength=storage.size
-        )
-    matrix = storage[:-1].reshape(size, height)
+    matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
         matrix.T, _in_order(ordering, load), lower=1, overwrite_ab=1, overwrite_b=1
@@ -348,14 +351,8 @@ def _in_order(ordering: Ordering, load: Floats) -> Floats:
 def _solve_lu(
     ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
 ) -> Floats:
-    band, size = ordering.band, len(load)
-    height = 3 * band + 1
-    storage = np.zeros(size * height)
-    for part in parts:
-        storage += np.bincount(
-            ordering.find_all(part.dofs), part.values.ravel(), minlength=storage.size
-        )
-    matrix = storage.reshape(size, height)
+    band = ordering.band
+    matrix = ordering.fill(parts, lower=False)
     matrix[ordering.place[held], 2 * band] = _scale_of(matrix[:, 2 * band])
     _, _, solution, fault = lapack.dgbsv(
         band, band, matrix.T, _in_order(ordering, load), overwrite_ab=1, overwrite_b=1

@@ -55,12 +55,14 @@ class MeshSize:
         Size of the smallest triangles, at the net's foot; at its head and where
         layers meet the net, where the flow is less singular, its square root.
     sectors : int
-        Number of sectors of each ring around an end; so many times slower, too,
-        triangles grow away from the ends. 0 for an even mesh without rings.
+        Number of sectors of each ring around the net's foot; so many times slower,
+        too, triangles grow away from the ends. 0 for an even mesh without rings.
     upslope_spacing : float
         Largest size, far upslope.
     subdivisions : int
         How many times every triangle is cut in four.
+    head_sectors : int, optional
+        Sectors of each ring around the head; else as many as around the foot.
     """
 
     net_spacing: float
@@ -68,6 +70,7 @@ class MeshSize:
     sectors: int
     upslope_spacing: float
     subdivisions: int = 0
+    head_sectors: int | None = None
 
     @property
     def growth(self) -> float:
@@ -80,6 +83,8 @@ class MeshSize:
         require_positive("corner size", self.corner)
         require_within("corner size", self.corner, 1e-9, self.net_spacing)
         require_within("sectors", self.sectors, 0, 64)
+        if self.head_sectors is not None:
+            require_within("sectors around the head", self.head_sectors, 1, 64)
         require_within("upslope spacing", self.upslope_spacing, 1e-2, 10.0)
         require_within("subdivisions", self.subdivisions, 0, 4)
 
@@ -217,24 +222,28 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
 
 def _end_points(size: MeshSize) -> Floats:
     """Rings around the net's foot and head."""
-    angles = np.linspace(0.0, np.pi / 2, size.sectors + 1)
-    foot = _ring_points(size, size.corner, _RING_REACH, angles)
-    head = _ring_points(size, np.sqrt(size.corner), _RING_REACH, angles)
+    foot = _quarter_rings(size.sectors, size.corner)
+    head = _quarter_rings(size.head_sectors or size.sectors, np.sqrt(size.corner))
     return np.vstack([foot, np.array([0.0, 1.0]) + head * np.array([1.0, -1.0])])
+
+
+def _quarter_rings(sectors: int, corner: float) -> Floats:
+    angles = np.linspace(0.0, np.pi / 2, sectors + 1)
+    return _ring_points(sectors, corner, _RING_REACH, angles)
 
 
 def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
     """Rings around the place on the net where two layers meet."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
-    rings = _ring_points(size, np.sqrt(size.corner), reach, angles)
+    rings = _ring_points(size.sectors, np.sqrt(size.corner), reach, angles)
     return np.asarray(rings + np.array([0.0, height]))
 
 
-def _ring_points(size: MeshSize, corner: float, reach: float, angles: Floats) -> Floats:
+def _ring_points(sectors: int, corner: float, reach: float, angles: Floats) -> Floats:
     """Rings of points (n, 2) around the origin, and the origin."""
     outer = reach ** (1.0 / _RING_POWER)
     inner = min(corner, reach / 2.0) ** (1.0 / _RING_POWER)
-    width = np.pi / 2 / size.sectors
+    width = np.pi / 2 / sectors
     count = _RING_POWER * (1.0 - inner / outer) / (_RING_DEPTH * width)
     radii = np.linspace(outer, inner, max(1, round(count)) + 1) ** _RING_POWER
     # exactly on the net and on the level line

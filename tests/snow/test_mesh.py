@@ -189,6 +189,16 @@ def test_only_edges_on_the_net_are_curved():
     assert curved.size > 0
 
 
+def test_ends_of_the_net_have_sectors_of_their_own():
+    sizes = {"net_spacing": 0.2, "corner": 1e-3, "upslope_spacing": 1.0}
+    template = build_template(5.0, MeshSize(sectors=6, head_sectors=3, **sizes))
+    x, y = template.nodes[:, : template.n_vertices]
+    for height, sectors in ((0.0, 6), (1.0, 3)):
+        distance = np.hypot(x, y - height)
+        nearest = np.sort(distance)[1]
+        assert (distance < nearest * (1.0 + 1e-6)).sum() == 1 + sectors + 1
+
+
 @pytest.mark.parametrize("aspect", [0.25, 200.0])
 def test_bounds_of_the_aspect_are_accepted(aspect):
     assert build_template(aspect, COARSE).aspect == aspect
@@ -205,6 +215,8 @@ def test_aspect_is_refused(aspect):
 
 SOUND = {"net_spacing": 0.2, "corner": 0.01, "sectors": 2, "upslope_spacing": 1.0}
 
+UNLESS_GIVEN = {"subdivisions": 0, "head_sectors": None}
+
 SIZES_ACCEPTED = [
     {"net_spacing": 0.34},
     {"net_spacing": 1e-3, "corner": 1e-3},
@@ -214,6 +226,8 @@ SIZES_ACCEPTED = [
     {"sectors": 0},
     {"sectors": 64},
     {"subdivisions": 4},
+    {"head_sectors": 1},
+    {"head_sectors": 64},
     {"upslope_spacing": 1e-2},
     {"upslope_spacing": 10.0},
 ]
@@ -222,12 +236,14 @@ SIZES_ACCEPTED = [
 @pytest.mark.parametrize("changes", SIZES_ACCEPTED, ids=str)
 def test_bounds_of_sizes_are_accepted(changes):
     sizes = {**SOUND, **changes}
-    assert asdict(MeshSize(**sizes)) == {"subdivisions": 0} | sizes
+    assert asdict(MeshSize(**sizes)) == UNLESS_GIVEN | sizes
 
 
 SIZES_REFUSED = [
     ("net_spacing", math.nextafter(0.34, 1.0), "net spacing"),
     ("net_spacing", 0.9e-3, "net spacing"),
+    ("head_sectors", 0, "sectors around the head"),
+    ("head_sectors", 65, "sectors around the head"),
     ("corner", 0.0, "corner size"),
     ("corner", 0.9e-9, "corner size"),
     ("corner", math.nextafter(0.2, 1.0), "corner size"),
