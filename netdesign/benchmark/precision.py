@@ -49,9 +49,9 @@ PLAIN_LEVELS = tuple(
     MeshSize(net_spacing=h, corner=h, sectors=0, upslope_spacing=2 * h)
     for h in (1 / 4, 1 / 8, 1 / 16, 1 / 32)
 )
-# Accuracies asked for: of the truth, and of a pair of meshes. None can state less than
-# 0.1 %, so the finer mesh is always solved; iterations leave a 25th, 0.004 %.
-_TIGHT, _OFFERED = 1e-4, 1e-3
+# Accuracies asked for: of the truth, and of a pair of meshes (both are always solved).
+# The iterations leave a 25th of them.
+_TIGHT, _OFFERED = 1e-4, 5e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
