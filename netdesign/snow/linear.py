@@ -172,12 +172,12 @@ def solve_blocks(
         load[1::2] += shares * load[: len(load) - 1 : 2]
     load[held] = 0.0
     if is_definite and ordering.band <= _WIDEST_CHOLESKY:
-        masked = [_mask(part, free) for part in parts]
         if friction is None:
-            return _solve_cholesky(ordering, masked, load, held)
+            right = _in_order(ordering, load)
+            masked = [_mask(part, free) for part in parts]
+            return _solve_cholesky(ordering, masked, right, held)[ordering.place]
         if np.count_nonzero(friction) <= _MOST_SLIPPING * ordering.band:
-            rows = _collect_friction(parts, friction, free)
-            return _solve_slipping(ordering, masked, rows, friction, load, held)
+            return _solve_slipping(ordering, parts, friction, load, free)
     if friction is not None:
         parts = [_add_friction(part, friction) for part in parts]
     masked = [_mask(part, free) for part in parts]
@@ -290,56 +290,65 @@ def _scale_of(values: Floats) -> float:
 
 
 def _solve_cholesky(
-    ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
+    ordering: Ordering, parts: Sequence[Blocks], right: Floats, held: Mask
 ) -> Floats:
+    """Solutions of right sides that are in order already; they stay so."""
     matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
-        matrix.T, _in_order(ordering, load), lower=1, overwrite_ab=1, overwrite_b=1
+        matrix.T, right, lower=1, overwrite_ab=1, overwrite_b=1
     )
     if fault != 0:
         raise SingularError("not positive definite")
-    return np.asarray(solution[ordering.place])
-
-
-def _collect_friction(parts: Sequence[Blocks], friction: Floats, free: Mask) -> Floats:
-    """What friction adds to the rows of slipping nodes, shape (n_slipping, n_dofs)."""
-    slipping = np.flatnonzero(friction)
-    place = np.full(friction.size, -1)
-    place[slipping] = np.arange(slipping.size)
-    sums = np.zeros(slipping.size * friction.size)
-    for part in parts:
-        wanted = place[part.dofs[:, 1 : part.n_paired : 2]]
-        block, pair = np.nonzero(wanted >= 0)
-        at = wanted[block, pair, None] * friction.size + part.dofs[block]
-        normal = part.values[block, 2 * pair]
-        sums += np.bincount(at.ravel(), normal.ravel(), minlength=sums.size)
-    rows = sums.reshape(slipping.size, friction.size)
-    return np.asarray(rows * free * friction[slipping, None])
+    return np.asarray(solution)
 
 
 def _solve_slipping(
     ordering: Ordering,
     parts: Sequence[Blocks],
-    rows: Floats,
     friction: Floats,
     load: Floats,
-    held: Mask,
+    free: Mask,
 ) -> Floats:
     """The symmetric matrix with a few rows added, by Woodbury's formula."""
     slipping = np.flatnonzero(friction)
-    loads = load.reshape(len(load), -1)
-    at_slipping = np.zeros((len(load), slipping.size))
-    at_slipping[slipping, np.arange(slipping.size)] = 1.0
-    both = np.concatenate([loads, at_slipping], axis=1)
-    answers = _solve_cholesky(ordering, parts, both, held)
-    plain, inverse = np.split(answers, [loads.shape[1]], axis=1)
-    try:
-        small = np.eye(slipping.size) + rows @ inverse
-        shared = np.linalg.solve(small, rows @ plain)
-    except np.linalg.LinAlgError:
-        raise SingularError("singular") from None
-    return np.asarray((plain - inverse @ shared).reshape(load.shape))
+    columns = load.size // len(load)
+    right = np.zeros((len(load), columns + slipping.size), order="F")
+    right[ordering.place, :columns] = load.reshape(-1, columns)
+    right[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
+    masked = [_mask(part, free) for part in parts]
+    answers = _solve_cholesky(ordering, masked, right, ~free)
+    plain, inverse = answers[:, :columns], answers[:, columns:]
+    rows = _collect_friction(ordering, parts, friction, free)
+    small = rows @ inverse
+    small.flat[:: slipping.size + 1] += 1.0
+    _, _, shared, fault = lapack.dgesv(small, rows @ plain)
+    if fault != 0:
+        raise SingularError("singular")
+    both = plain - inverse @ shared
+    return np.asarray(both[ordering.place].reshape(load.shape))
+
+
+def _collect_friction(
+    ordering: Ordering, parts: Sequence[Blocks], friction: Floats, free: Mask
+) -> Floats:
+    """What friction adds to the rows of slipping nodes, (n_slipping, n_dofs).
+
+    The columns are in order.
+    """
+    slipping = np.flatnonzero(friction)
+    number = np.full(friction.size, -1)
+    number[slipping] = np.arange(slipping.size)
+    sums = np.zeros(slipping.size * friction.size)
+    for part in parts:
+        wanted = number[part.dofs[:, 1 : part.n_paired : 2]]
+        block, pair = np.nonzero(wanted >= 0)
+        row, dofs = wanted[block, pair, None], part.dofs[block]
+        share = friction[slipping[row]] * free[dofs]
+        at = row * friction.size + ordering.place[dofs]
+        normal = share * part.values[block, 2 * pair]
+        sums += np.bincount(at.ravel(), normal.ravel(), minlength=sums.size)
+    return np.asarray(sums.reshape(slipping.size, friction.size))
 
 
 def _in_order(ordering: Ordering, load: Floats) -> Floats:
