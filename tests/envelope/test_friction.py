@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.coupling.solution import EndPull
@@ -30,6 +31,15 @@ def sticking(end, *, sticks=True, foot=1e5):
         outcome=Outcome.CONVERGED,
         state=replace(end.state, net_slides=slides, foot=pull),
     )
+
+
+@pytest.mark.parametrize(("place", "sticks"), [(0.0049, True), (0.0051, False)])
+def test_slip_by_the_very_foot_is_no_slip(end, place, sticks):
+    """By the foot some snow slips at any friction; the places are shares of the net."""
+    curve = np.outer([0.6, 0.8], [0.0, place, 0.5, 1.0])
+    slides = np.array([False, True, False, False])
+    state = replace(end.state, net_curve=curve, net_slides=slides)
+    assert state.sticks == sticks
 
 
 def after_two_tests(end, **second):
@@ -99,3 +109,17 @@ def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
     assert all(end.state.sticks for end in ends)
     low, high = (end.state for end in ends)
     assert (low.foot, low.head) == (high.foot, high.head)
+
+
+def test_friction_hardly_matters_where_snow_slips_by_the_foot_only(a_scene):
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.envelope.workers import Job
+
+    scenes = [a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (36.0, 45.0)]
+    low, high = (
+        solve_job(Job(scene=scene, settings=SolverSettings())).state for scene in scenes
+    )
+    assert low.net_slides.any()
+    assert low.sticks
+    for one, other in ((low.foot, high.foot), (low.head, high.head)):
+        assert abs(one.x - other.x) + abs(one.y - other.y) <= 0.1 * one.error
