@@ -13,7 +13,7 @@ from netdesign.coupling.interface import (
     SupportForces,
     find_support_forces,
 )
-from netdesign.coupling.refine import Estimate, refine
+from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     Balance,
@@ -73,6 +73,7 @@ def solve_rigid(
             lambda size, _: _press(scene, size, chosen),
             lambda pressed: [pressed.forces.on_net.sum(axis=1)],
             chosen.accuracy,
+            STEADY_ERROR,
         )
         end = states[-1]
         balance = measure_balance(

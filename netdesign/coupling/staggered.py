@@ -32,7 +32,7 @@ from netdesign.coupling.instant import Instant, advance_under
 from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.net_start import Start, build_start
 from netdesign.coupling.problem import build_problem
-from netdesign.coupling.refine import estimate_error
+from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.run import Run, measure_run, record_moment
 from netdesign.coupling.run_result import build_solution, scale_history
 from netdesign.coupling.scene import Scene
@@ -46,6 +46,8 @@ from netdesign.snow.mesh import MeshSize, build_template
 
 Floats = NDArray[np.float64]
 
+# Of the step: whole and halved.
+_ERROR = ErrorModel(share=1.0, floor=0.0)
 # Share of the time in which net and drag come to rest that a step may take.
 _STABLE_SHARE = 0.3
 # Shear beyond the friction limit, over the weight: increments keep the limit only as
@@ -130,8 +132,8 @@ def solve_staggered(
             raise
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
     foot, head = (
-        EndPull.of_estimate(estimate_error(fine, coarse, 0.0), scene.force_scale)
-        for coarse, fine in zip(*(measure_run(run) for run in runs), strict=True)
+        EndPull.of_estimate(_ERROR.estimate(*pulls), scene.force_scale)
+        for pulls in zip(*(measure_run(run) for run in runs), strict=True)
     )
     history = scale_history(
         runs[-1], scene, Clock(), start=settings.start, densifies=True

@@ -24,7 +24,7 @@ from netdesign.coupling.interface import (
     find_support_forces,
     share_net_forces,
 )
-from netdesign.coupling.refine import Estimate, refine
+from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
 from netdesign.coupling.round_tangent import linearise_round
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
@@ -177,6 +177,7 @@ def _refine(scene: Scene, settings: SolverSettings) -> Solution:
         ),
         lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
         settings.accuracy,
+        STEADY_ERROR,
     )
     solution = _build_solution(scene, states, pulls)
     check_balance(

@@ -25,7 +25,7 @@ from netdesign.coupling.instant import Instant, advance
 from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.coupling.net_start import Start, build_start
 from netdesign.coupling.problem import build_problem
-from netdesign.coupling.refine import estimate_error, refine
+from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.run import (
     Run,
     measure_run,
@@ -45,9 +45,15 @@ Floats = NDArray[np.float64]
 # net's ends are worth more than triangles along its middle. Corners much smaller than
 # the way that the snow makes past them would be swept away.
 TRANSIENT_LEVELS = (
-    MeshSize(net_spacing=0.34, corner=0.03, sectors=3, upslope_spacing=1.0),
-    MeshSize(net_spacing=0.34, corner=0.01, sectors=4, upslope_spacing=0.8),
-    MeshSize(net_spacing=0.17, corner=0.003, sectors=7, upslope_spacing=0.5),
+    MeshSize(
+        net_spacing=0.34, corner=0.03, sectors=3, head_sectors=3, upslope_spacing=1.0
+    ),
+    MeshSize(
+        net_spacing=0.34, corner=0.01, sectors=5, head_sectors=3, upslope_spacing=0.8
+    ),
+    MeshSize(
+        net_spacing=0.2, corner=0.003, sectors=8, head_sectors=5, upslope_spacing=0.6
+    ),
 )
 # First step, in creep time. A straight net takes up its load from the corners inward,
 # within a time that goes with the square of their size; one that sags has most of its
@@ -66,8 +72,8 @@ _LEVEL_RATIO = 4.0
 _TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is repeated
 # Local error of a BDF2 step over its distance from the extrapolation.
 _ERROR_SHARE = 0.25
-# Smallest relative error that is ever claimed of a history.
-_ERROR_FLOOR = 5e-3
+# Of the largest pulls of a history (coupling/THEORY.md, section 6).
+_ERROR = ErrorModel(share=2.0, floor=5e-3)
 _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 
 
@@ -373,18 +379,14 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
         rests.append(history.plateau.time or history.moments[-1].time)
         return history
 
-    runs, _ = refine(
+    runs, estimates = refine(
         settings.levels,
         run,
         lambda run: _list_pulls(run, rests[0]),
         settings.accuracy,
+        _ERROR,
     )
-    foot, head = (
-        EndPull.of_estimate(
-            estimate_error(fine, coarse, _ERROR_FLOOR), scene.force_scale
-        )
-        for coarse, fine in zip(*(measure_run(run) for run in runs[-2:]), strict=True)
-    )
+    foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in estimates[:2])
     return build_solution(
         scene,
         runs,

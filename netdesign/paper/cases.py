@@ -77,7 +77,7 @@ class PaperSettings:
     Attributes
     ----------
     levels : tuple of MeshSize
-        Meshes of the histories; their difference is the stated error.
+        Meshes of the histories; their difference gives the stated error.
     horizon : float
         Of the histories with densification [s].
     undensified_horizon : float

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from netdesign.coupling.refine import ERROR_FLOOR, refine
+from netdesign.coupling.refine import STEADY_ERROR as MODEL
+from netdesign.coupling.refine import refine
 from netdesign.coupling.scene import MESH_LEVELS
 
 DIRECTION = np.array([0.6, -0.8])
@@ -18,7 +19,7 @@ def run(sizes, accuracy, levels=MESH_LEVELS):
         return next(values)
 
     states, (estimate,) = refine(
-        levels, solve, lambda size: [size * DIRECTION], accuracy
+        levels, solve, lambda size: [size * DIRECTION], accuracy, MODEL
     )
     return states, estimate, guesses
 
@@ -32,12 +33,12 @@ def test_stops_where_two_levels_agree():
 def test_error_is_the_last_step_and_a_floor():
     """Nine tenths of the step; less floor on each level from the third."""
     _, estimate, _ = run([1.0, 1.1], accuracy=0.1, levels=MESH_LEVELS[:2])
-    assert estimate.error == pytest.approx(0.09 + ERROR_FLOOR * 1.1, rel=1e-12)
+    assert estimate.error == pytest.approx(0.09 + MODEL.floor * 1.1, rel=1e-12)
     _, estimate, _ = run([1.0, 1.1, 1.11], accuracy=0.02)
-    floor = 0.8 * ERROR_FLOOR
+    floor = 0.8 * MODEL.floor
     assert estimate.error == pytest.approx(0.009 + floor * 1.11, rel=1e-12)
     _, estimate, _ = run([1.0, 1.1, 1.2, 1.21], accuracy=0.02)
-    floor = 0.64 * ERROR_FLOOR
+    floor = 0.64 * MODEL.floor
     assert estimate.error == pytest.approx(0.009 + floor * 1.21, rel=1e-12)
 
 
@@ -45,9 +46,9 @@ def test_error_is_that_of_the_vector():
     """A force that turns without changing its size has an error too."""
     vectors = iter([np.array([1.0, 0.0]), np.array([0.0, 1.0])])
     _, (estimate,) = refine(
-        MESH_LEVELS[:2], lambda *_: next(vectors), lambda v: [v], 0.1
+        MESH_LEVELS[:2], lambda *_: next(vectors), lambda v: [v], 0.1, MODEL
     )
-    assert estimate.error == pytest.approx(0.9 * np.sqrt(2.0) + ERROR_FLOOR, rel=1e-12)
+    assert estimate.error == pytest.approx(0.9 * np.sqrt(2.0) + MODEL.floor, rel=1e-12)
 
 
 def test_finest_level_says_when_it_is_not_enough():
@@ -64,6 +65,7 @@ def test_every_vector_has_to_be_accurate():
         lambda *_: next(pairs),
         lambda pair: [size * DIRECTION for size in pair],
         0.01,
+        MODEL,
     )
     assert len(states) == 3
     assert len(estimates) == 2

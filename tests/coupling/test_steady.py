@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling import interface, steady
-from netdesign.coupling.refine import ERROR_FLOOR
+from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import solve_steady
@@ -275,7 +275,7 @@ def test_error_is_never_below_its_floor(solved):
     solution = solved(ground="no-slip")
     for end in ENDS:
         found = getattr(solution, end)
-        assert found.error >= ERROR_FLOOR * found.size
+        assert found.error >= STEADY_ERROR.floor * found.size
 
 
 def test_mesh_is_refined_until_accurate(a_scene):
