@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 from netdesign.report.figures import GREY, INK, PALE, SNOW
@@ -29,6 +30,7 @@ from netdesign.study import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
 _SLACK = 1e-3  # of the largest force; below it there is no arrow
+_CHORDS = 6  # straight pieces that are drawn between two nodes of the net
 
 
 def draw_section(drawing: Drawing, name: str) -> str:
@@ -51,7 +53,8 @@ def draw_section(drawing: Drawing, name: str) -> str:
 def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
     drawing, top_end = paper.frame.drawing, paper.frame.top_end
     thickness = drawing.snow_thickness_m
-    covered = [(x, y) for x, y in drawing.net_m if y <= thickness]
+    net = [point for piece in _trace(drawing.net_m) for point in piece]
+    covered = [(x, y) for x, y in net if y <= thickness]
     surface = [(covered[-1][0], thickness), (top_end, thickness)]
     outline = paper.all_at([(top_end, 0.0), *covered, *surface])
     sketch.area(outline, SNOW)
@@ -88,15 +91,55 @@ def _draw_support(sketch: Sketch, paper: Paper) -> None:
 
 
 def _draw_net(sketch: Sketch, paper: Paper) -> None:
-    points = paper.frame.drawing.net_m
+    pieces = _trace(paper.frame.drawing.net_m)
     sticks = [a and b for a, b in pairwise(paper.frame.drawing.sticks)]
     start = 0
     for i in range(1, len(sticks) + 1):
         if i == len(sticks) or sticks[i] != sticks[start]:
-            run = paper.all_at(points[start : i + 1])
+            run = [point for piece in pieces[start:i] for point in piece]
             dash = "" if sticks[start] else SLIP_DASH
-            sketch.line(run, width=1.8, dash=dash)
+            sketch.line(paper.all_at(run), width=1.8, dash=dash)
             start = i
+
+
+def _trace(nodes: Sequence[Point]) -> list[list[Point]]:
+    """Smooth curve through the net's nodes: the points from each node to the next.
+
+    Cubic pieces; a node's slope is that of the parabola through it and its neighbours.
+    """
+    # drawn nodes are rounded: two of them may coincide
+    steps = [max(math.dist(*pair), 1e-9) for pair in pairwise(nodes)]
+    axes = []
+    for places in zip(*nodes, strict=True):
+        chords = [
+            (b - a) / h for (a, b), h in zip(pairwise(places), steps, strict=True)
+        ]
+        inner = [
+            (c * k + d * h) / (h + k)
+            for (c, d), (h, k) in zip(pairwise(chords), pairwise(steps), strict=True)
+        ] or chords
+        slopes = [2 * chords[0] - inner[0], *inner, 2 * chords[-1] - inner[-1]]
+        axes.append(
+            [
+                [_pass(ends, h, rates, k / _CHORDS) for k in range(_CHORDS + 1)]
+                for ends, h, rates in zip(
+                    pairwise(places), steps, pairwise(slopes), strict=False
+                )
+            ]
+        )
+    return [list(zip(x, y, strict=True)) for x, y in zip(*axes, strict=True)]
+
+
+def _pass(
+    ends: tuple[float, float], step: float, rates: tuple[float, float], share: float
+) -> float:
+    """Value of the cubic with these ends and slopes after a share of a step."""
+    rest = 1.0 - share
+    return (
+        ends[0] * rest**2 * (1.0 + 2.0 * share)
+        + ends[1] * share**2 * (1.0 + 2.0 * rest)
+        + step * share * rest * (rest * rates[0] - share * rates[1])
+    )
 
 
 def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow) -> Label:
