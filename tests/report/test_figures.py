@@ -99,8 +99,8 @@ def test_net_is_drawn_as_a_smooth_curve_through_its_nodes():
     angles = [0.0, 0.02, 0.1, 0.4, 0.7, 1.1, math.pi / 2]
     nodes = [(math.sin(a), 1.0 - math.cos(a)) for a in angles]
     pieces = _trace(nodes)
-    assert [piece[0] for piece in pieces] == pytest.approx(nodes[:-1])
-    assert [piece[-1] for piece in pieces] == pytest.approx(nodes[1:])
+    ends = [(piece[0], piece[-1]) for piece in pieces]
+    assert ends == [(pytest.approx(a), pytest.approx(b)) for a, b in pairwise(nodes)]
     drawn = [math.dist(point, (0.0, 1.0)) for piece in pieces for point in piece]
     assert drawn == pytest.approx([1.0] * len(drawn), abs=5e-3)  # chords: 2e-2
     assert _trace([(0.0, 0.0), (1.0, 2.0)])[0][3] == pytest.approx((0.5, 1.0))
