@@ -149,15 +149,20 @@ def _find_flips(
     envelope: RowEnvelope, place: int, levels: Sequence[tuple[str, float]]
 ) -> list[FlipRecord]:
     box = envelope.task.box
+    forces = [level for _, level in levels]
+    crossings = {
+        name: find_crossings(envelope.maxima, place, axis, *forces)
+        for axis, name in enumerate(box.axes)
+    }
     return [
         FlipRecord(
             check=check,
             key=PARAMETERS[name].key,
             value=show_parameter(name, _value(box, name, share)),
         )
-        for check, level in levels
-        for axis, name in enumerate(box.axes)
-        for share in find_crossings(envelope.maxima, place, axis, level)
+        for number, (check, _) in enumerate(levels)
+        for name in box.axes
+        for share in crossings[name][number]
     ]
 
 

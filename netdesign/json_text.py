@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
+from json.encoder import encode_basestring
+from math import isfinite
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # slow to import and only needed to read a document
@@ -54,7 +58,7 @@ def _write_value(value: Any, margin: str) -> str:
         flat = encode(value)
         return f"{flat[0]}{inside}{flat[1:-1]}{margin}{flat[-1]}"
     written = [
-        encode(one) if type(one) in _PLAIN else _write_value(one, inside)
+        _write_plain(one) if type(one) in _PLAIN else _write_value(one, inside)
         for one in parts
     ]
     if not isinstance(value, dict):
@@ -65,6 +69,15 @@ def _write_value(value: Any, margin: str) -> str:
     return f"{{{inside}{f',{inside}'.join(members)}{margin}}}"
 
 
+def _write_plain(value: str | float | None) -> str:
+    """As the encoder writes it, without the machinery that it starts for each value."""
+    if type(value) is str:
+        return encode_basestring(value)
+    if type(value) is float and isfinite(value):
+        return repr(value)
+    return _build_encoder("").encode(value)
+
+
 @lru_cache(maxsize=1024)
 def _write_key(key: str) -> str:
     return json.dumps(key, ensure_ascii=False)
@@ -73,12 +86,17 @@ def _write_key(key: str) -> str:
 def list_fields(value: Any) -> dict[str, Any]:
     """Fields of a dataclass as they are; quicker than a copy of all that is in them."""
     shape: type = type(value)
-    return {name: getattr(value, name) for name in _list_names(shape)}
+    names, read = _open_shape(shape)
+    return dict(zip(names, read(value), strict=True))
 
 
 @lru_cache(maxsize=256)
-def _list_names(shape: type) -> tuple[str, ...]:
-    return tuple(one.name for one in fields(shape))
+def _open_shape(shape: type) -> tuple[tuple[str, ...], Callable[[object], Any]]:
+    """Names of a dataclass's fields, and what reads all their values."""
+    names = tuple(one.name for one in fields(shape))
+    if len(names) > 1:
+        return names, attrgetter(*names)
+    return names, lambda value: [getattr(value, name) for name in names]
 
 
 @lru_cache

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 
 import numpy as np
@@ -117,9 +118,9 @@ def measure_unexplained(maxima: Maxima, quantity: int) -> float | None:
 
 
 def find_crossings(
-    maxima: Maxima, quantity: int, axis: int, level: float
-) -> tuple[float, ...]:
-    """Shares of a parameter's range at which a force crosses a level.
+    maxima: Maxima, quantity: int, axis: int, *levels: float
+) -> list[tuple[float, ...]]:
+    """For each level the shares of a parameter's range at which a force crosses it.
 
     Along the line through the governing case of the force; by linear interpolation
     between close points of the model.
@@ -130,15 +131,18 @@ def find_crossings(
         End of a search.
     quantity, axis : int
         Which force, along which parameter.
-    level : float
+    *levels : float
         In the unit of the force, for instance the force at which a check is just met.
     """
-    if maxima.surrogate is None:
-        return ()
+    if maxima.surrogate is None or not levels:
+        return [() for _ in levels]
     governing = maxima.points[maxima.governing[quantity]]
     shares, line = _draw_line(governing, axis, _ALONG)
     (forces,) = maxima.surrogate.evaluate(line, quantity)
-    above = forces - level
+    return [_cross_zero(shares, forces - level) for level in levels]
+
+
+def _cross_zero(shares: Floats, above: Floats) -> tuple[float, ...]:
     flips = np.flatnonzero((above[:-1] > 0.0) != (above[1:] > 0.0))
     return tuple(
         float(
@@ -166,6 +170,7 @@ def _draw_line(through: Point, axis: int, count: int) -> tuple[Floats, Floats]:
     return shares, line
 
 
+@lru_cache
 def _build_rule(dimension: int) -> tuple[Floats, Floats]:
     """Nodes of a tensor Gauss rule, and the weights along each axis."""
     nodes, weights = np.polynomial.legendre.leggauss(_RULE[dimension])

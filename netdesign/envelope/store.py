@@ -14,7 +14,7 @@ import os
 import sqlite3
 import sys
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
 from dataclasses import is_dataclass
 from functools import lru_cache
@@ -77,10 +77,16 @@ def _identify(parts: tuple[str, ...]) -> str:
     return f"{__version__}+{digest.hexdigest()[:16]}"
 
 
-def name_case(scene: object, settings: object) -> str:
+def name_case(scene: object, settings: Hashable) -> str:
     """Key of a case: equal for equal inputs, whoever asks."""
-    text = json.dumps([scene, settings], sort_keys=True, default=_describe)
+    text = f"[{_write_parts(scene)}, {_write_settings(settings)}]"
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+@lru_cache(maxsize=32)
+def _write_settings(settings: Hashable) -> str:
+    """The same for all cases of a search, and as long as a scene."""
+    return _write_parts(settings)
 
 
 def name_search(task: object) -> str:
@@ -91,8 +97,12 @@ def name_search(task: object) -> str:
     TypeError
         If a part of the task is no plain value, for instance a function.
     """
-    text = json.dumps([identify_program(), task], sort_keys=True, default=_describe)
+    text = _write_parts([identify_program(), task])
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _write_parts(value: object) -> str:
+    return json.dumps(value, sort_keys=True, default=_describe)
 
 
 def _describe(value: Any) -> Any:
