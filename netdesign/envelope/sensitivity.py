@@ -21,7 +21,7 @@ from netdesign.envelope.surrogate import Surrogate
 Floats = NDArray[np.float64]
 
 # Gauss points per axis: exact for the polynomials of degree 2 n - 1.
-_RULE = {1: 24, 2: 16, 3: 12, 4: 8, 5: 6, 6: 5}
+_RULE = {1: 24, 2: 16, 3: 8, 4: 8, 5: 6, 6: 5}
 _ALONG = 65  # points of a line along one parameter
 
 

@@ -15,7 +15,7 @@ from netdesign.report.envelope_maps import (
 )
 from netdesign.report.gate import require_sections
 from netdesign.report.head_figure import draw_head
-from netdesign.report.language import Words
+from netdesign.report.language import Words, load_words
 from netdesign.report.monitoring_figure import describe_monitoring, draw_monitoring
 from netdesign.report.page import build_environment, load_style
 from netdesign.report.section_figure import draw_section
@@ -81,7 +81,7 @@ def render_html(
     """
     from markupsafe import Markup
 
-    words = words or Words()
+    words = words or load_words("en")
     environment = build_environment(words)
     environment.filters["subscripts"] = _write_subscripts
     environment.filters["unbroken"] = _keep_units

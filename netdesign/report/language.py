@@ -38,7 +38,7 @@ class _Pattern:
     letters: int  # of its own
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Words:
     """Texts in one language.
 
@@ -112,6 +112,7 @@ def _fill(target: str, gaps: Mapping[str, str | None]) -> str:
 
 
 @lru_cache(maxsize=3)
+@lru_cache
 def load_words(language: Language) -> Words:
     """Texts of a language, from its file and from the words of the site workbook."""
     if language == "en":

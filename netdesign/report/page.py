@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from netdesign.resources import find_resource
@@ -12,8 +13,11 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 
+@lru_cache(maxsize=8)
 def build_environment(words: Callable[[str], str] = str) -> jinja2.Environment:
     """Templates in which all text is escaped and a missing value is an error.
+
+    Kept with what they compile to: a check against several profiles has several pages.
 
     Parameters
     ----------
