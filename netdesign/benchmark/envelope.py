@@ -70,7 +70,7 @@ class BenchSize:
     missed_scenes: int = 5
     missed_grid: int = 15
     peaks: int = 25  # of each width
-    worker_cases: int = 343  # of a grid; some need no solve
+    worker_cases: int = 512  # of a grid; some need no solve
     types: int = 40
     portfolio: tuple[int, ...] = (2_500, 5_000, 10_000)
 
