@@ -386,6 +386,7 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
         settings.accuracy,
         _ERROR,
     )
+    # the largest pulls come first
     foot, head = (EndPull.of_estimate(one, scene.force_scale) for one in estimates[:2])
     return build_solution(
         scene,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -15,16 +14,9 @@ from netdesign.envelope.state import CaseEnd, SolvedState
 from netdesign.envelope.workers import Job
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
-from netdesign.structure.anchors import (
-    AnchorForces,
-    GroundForce,
-    compute_anchor_forces,
-)
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
-
-# Members whose force follows the pull on the net's foot; structure/THEORY.md, (S7).
-_FOOT, _FOOT_SHARED = ("foot_anchor",), ("foot_anchor", "uphill_anchor")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,16 +161,22 @@ def _anchor_forces(
     points: SupportPoints,
     width: float,
     solution: SolvedState,
-    shift: tuple[float, float] = (0.0, 0.0),
+    shift: Sequence[float] = (0.0, 0.0, 0.0, 0.0),
 ) -> AnchorForces | FailedSupport:
-    """Anchor forces with the head's pull moved by ``shift`` times its error."""
+    """Anchor forces with the end pulls moved by ``shift`` times their error.
+
+    The four shares are for x and y of the foot's pull, x and y of the head's.
+    """
     foot, head = solution.foot, solution.head
     return compute_anchor_forces(
         points,
-        foot_pull_per_m=(foot.x, foot.y),
+        foot_pull_per_m=(
+            foot.x + shift[0] * foot.error,
+            foot.y + shift[1] * foot.error,
+        ),
         head_pull_per_m=(
-            head.x + shift[0] * head.error,
-            head.y + shift[1] * head.error,
+            head.x + shift[2] * head.error,
+            head.y + shift[3] * head.error,
         ),
         post_spacing=width,
     )
@@ -194,12 +192,10 @@ def _force_bands(
     """
     values = anchors.member_forces
     spread = dict.fromkeys(values, 0.0)
-    for member in _FOOT_SHARED if anchors.is_foot_shared else _FOOT:
-        spread[member] = _turn_foot(anchors.foot_anchor, solution.foot.error * width)
-    for along_x, along_y in ((1.0, 0.0), (0.0, 1.0)):
+    for component in range(4):
         change = dict.fromkeys(values, 0.0)
         for share in (-1.0, 1.0):
-            shift = (share * along_x, share * along_y)
+            shift = [share if place == component else 0.0 for place in range(4)]
             moved = _anchor_forces(points, width, solution, shift)
             if isinstance(moved, FailedSupport):
                 return moved
@@ -215,20 +211,6 @@ def _force_bands(
         )
         for member, value in values.items()
     }
-
-
-def _turn_foot(foot: GroundForce, error: float) -> float:
-    """Change of the size of the foot's force if each component errs so much.
-
-    The pull on the foot goes to its anchor alone: head and guys stay as they are.
-    """
-    return sum(
-        max(
-            abs(math.hypot(foot.x + share * x, foot.y + share * y) - foot.size)
-            for share in (-1.0, 1.0)
-        )
-        for x, y in ((error, 0.0), (0.0, error))
-    )
 
 
 def build_task(

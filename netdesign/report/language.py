@@ -112,7 +112,6 @@ def _fill(target: str, gaps: Mapping[str, str | None]) -> str:
 
 
 @lru_cache(maxsize=3)
-@lru_cache
 def load_words(language: Language) -> Words:
     """Texts of a language, from its file and from the words of the site workbook."""
     if language == "en":

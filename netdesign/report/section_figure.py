@@ -117,13 +117,14 @@ def _trace(nodes: Sequence[Point]) -> list[list[Point]]:
         inner = [
             (c * k + d * h) / (h + k)
             for (c, d), (h, k) in zip(pairwise(chords), pairwise(steps), strict=True)
-        ] or chords
-        slopes = [2 * chords[0] - inner[0], *inner, 2 * chords[-1] - inner[-1]]
+        ]
+        known = inner or chords
+        slopes = [2 * chords[0] - known[0], *inner, 2 * chords[-1] - known[-1]]
         axes.append(
             [
                 [_pass(ends, h, rates, k / _CHORDS) for k in range(_CHORDS + 1)]
                 for ends, h, rates in zip(
-                    pairwise(places), steps, pairwise(slopes), strict=False
+                    pairwise(places), steps, pairwise(slopes), strict=True
                 )
             ]
         )

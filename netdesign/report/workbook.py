@@ -48,7 +48,7 @@ class Book:
         }
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
-        self._aligned: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
+        self._forms: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
 
     def format(self, **properties: Any) -> Any:
         """Format with the font of the workbook and these properties."""
@@ -122,7 +122,7 @@ class Book:
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         if cell.number is None or not math.isfinite(cell.number):
-            form = self._align(column, ("text_wrap", wraps))
+            form = self._form(column, ("text_wrap", wraps))
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return
         shown = None
@@ -131,15 +131,15 @@ class Book:
         elif _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
             decimals = len(cell.text.partition(".")[2])
             shown = ("num_format", f"0.{'0' * decimals}".rstrip("."))
-        sheet.write_number(*place, cell.number, self._align(column, shown))
+        sheet.write_number(*place, cell.number, self._form(column, shown))
 
-    def _align(self, column: Column, more: tuple[str, Any] | None) -> Any:
+    def _form(self, column: Column, more: tuple[str, Any] | None) -> Any:
         """Format of a column's cells, with one more property."""
         key = (column.is_number, more)
-        if key not in self._aligned:
+        if key not in self._forms:
             properties = {} if more is None else dict([more])
-            self._aligned[key] = self.format(**_align(column), **properties)
-        return self._aligned[key]
+            self._forms[key] = self.format(**_align(column), **properties)
+        return self._forms[key]
 
     def write_table(
         self, sheet: Any, table: Table, top: int, *, is_first: bool = True
