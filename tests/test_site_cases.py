@@ -176,9 +176,9 @@ def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelo
     seen = []
 
     class Recording(OwnProcess):
-        def solve(self, jobs):
-            seen.extend(job.settings for job in jobs)
-            return super().solve(jobs)
+        def solve(self, batches):
+            seen.extend(job.settings for batch in batches for job in batch)
+            return super().solve(batches)
 
     site = build_site(ROWS[0], ranges=RANGES)
     run = replace(RUN, method="transient")

@@ -337,8 +337,8 @@ def _measure_workers(size: BenchSize) -> dict[str, Any]:
     times = {}
     for processes in (1, 2):
         with closing(ProcessPool(processes, worth=1)) as pool:
-            jobs = [Job(scene=task.scene, settings=task.settings)] * processes
-            deque(pool.solve(jobs), maxlen=0)  # starts the processes
+            job = Job(scene=task.scene, settings=task.settings)
+            deque(pool.solve([(job,)] * processes), maxlen=0)  # starts the processes
             with Clock() as clock:
                 runner = Runner(workers=pool)
                 run_grid(task, dict.fromkeys(_AXES, count), runner)

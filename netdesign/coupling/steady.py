@@ -9,7 +9,9 @@ forces per metre of width in rho g d^2.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -17,7 +19,7 @@ from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
-from netdesign.cable.net import Net
+from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
     SupportForces,
@@ -138,7 +140,7 @@ def solve_steady(
     tests/coupling/test_steady.py, tests/verification/test_reference_scene.py
     """
     try:
-        return _refine(scene, settings or SolverSettings())
+        return _solve(scene, settings or SolverSettings())
     except SolveError as failure:
         if on_failure == "raise":
             raise
@@ -158,7 +160,7 @@ def find_end_pulls(
         If the mesh gives no converged solution.
     """
     problem = _build_problem(scene, _require_net(scene), size)
-    cable = _couple(problem, settings, None).hanging.cable
+    cable = _couple(problem, settings, None, is_first=True).hanging.cable
     return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
 
 
@@ -168,12 +170,22 @@ def _require_net(scene: Scene) -> Net:
     return scene.net
 
 
-def _refine(scene: Scene, settings: SolverSettings) -> Solution:
+def _solve(scene: Scene, settings: SolverSettings) -> Solution:
+    if start := _find_start(scene, settings):
+        with suppress(SolveError):  # then it is solved as any other
+            return _refine(scene, settings, start)
+    return _refine(scene, settings, None)
+
+
+def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> Solution:
     net = _require_net(scene)
     states, pulls = refine(
         settings.levels,
         lambda size, coarse: _couple(
-            _build_problem(scene, net, size), settings, coarse
+            _build_problem(scene, net, size),
+            settings,
+            coarse or start,
+            is_first=coarse is None,
         ),
         lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
         settings.accuracy,
@@ -186,6 +198,28 @@ def _refine(scene: Scene, settings: SolverSettings) -> Solution:
         friction_tolerance=settings.stress_tolerance,
     )
     return solution
+
+
+def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
+    """What the first mesh starts from; None if from nothing."""
+    if not settings.shares_start:
+        return None
+    net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
+    return _find_stuck(replace(scene, net=net), settings)
+
+
+@lru_cache(maxsize=1)
+def _find_stuck(scene: Scene, settings: SolverSettings) -> _Coupled | None:
+    """First mesh of a scene whose snow sticks to its net; None without a solution.
+
+    Scenes in turn that differ in friction only have it in common. Each ends the same
+    whether this was known or not.
+    """
+    problem = _build_problem(scene, _require_net(scene), settings.levels[0])
+    try:
+        return _couple(problem, settings, None, is_first=True)
+    except SolveError:
+        return None
 
 
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
@@ -201,14 +235,18 @@ def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
 
 
 def _couple(
-    problem: _Problem, settings: SolverSettings, guess: _Coupled | None
+    problem: _Problem,
+    settings: SolverSettings,
+    guess: _Coupled | None,
+    *,
+    is_first: bool = False,
 ) -> _Coupled:
     """Rounds of flow and net until neither moves the other."""
     hanging = guess.hanging if guess is not None else _start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
     moved, solves = 1.0 if guess is None else _REFINED, 0
-    tolerance, still = _choose_tolerances(settings, is_first=guess is None)
+    tolerance, still = _choose_tolerances(settings, is_first=is_first)
     curves: list[Floats] = []
     misses: list[Floats] = []
     inverse: Floats | None = None

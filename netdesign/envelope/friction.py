@@ -30,29 +30,30 @@ class FrictionSkip:
         self.tested = 0
         self.skipped = 0
 
-    def split(self, points: Sequence[Point]) -> list[list[Point]]:
-        """Waves of points, each with more friction than its like in the one before."""
-        if self._axis is None:
-            return [list(points)]
-        waves: list[list[Point]] = []
-        seen: dict[Point, int] = {}
-        for point in sorted(points, key=self._friction):
-            depth = seen.get(self._line(point), 0)
-            seen[self._line(point)] = depth + 1
-            if depth == len(waves):
-                waves.append([])
-            waves[depth].append(point)
-        return [sorted(wave) for wave in waves]
+    def list_lines(self, points: Sequence[Point]) -> list[list[Point]]:
+        """What to solve next of some points: lines of ascending friction.
 
-    def needs_solve(self, point: Point) -> bool:
-        """No case with less friction answers for it, or the skip is still on test."""
-        if not self._is_chance(point):
-            return True
-        return not self._agrees or self.tested < _TESTS
+        A line is solved up to the first point whose snow sticks; ask again with the
+        points that are left. None are returned once the rest need no solve.
+        """
+        if not self._agrees:
+            return [[point] for point in points]
+        unknown = [point for point in points if not self._is_chance(point)]
+        if unknown:
+            return self._group(unknown)
+        missing = _TESTS - self.tested
+        step = max(1, len(points) // max(1, missing))  # tests lie apart
+        return [[point] for point in sorted(points)[::step][:missing]]
 
-    def learn(self, point: Point, end: CaseEnd | None) -> None:
+    def _group(self, points: Sequence[Point]) -> list[list[Point]]:
+        lines: dict[Point, list[Point]] = {}
+        for point in sorted(points, key=lambda p: (self._line(p), self._friction(p))):
+            lines.setdefault(self._line(point), []).append(point)
+        return list(lines.values())
+
+    def learn(self, point: Point, end: CaseEnd) -> None:
         """Take the end of a case that was solved."""
-        if self._axis is None or end is None or end.state is None:
+        if self._axis is None or end.state is None:
             return
         if self._is_chance(point):
             self.tested += 1

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from netdesign.envelope.known_search import KnownSearch
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.store import CaseStore, name_case, name_search
-from netdesign.envelope.workers import Job, OwnProcess, Workers
+from netdesign.envelope.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.outcome import Outcome
 
 
@@ -48,20 +48,41 @@ class Runner:
 
     def solve(self, jobs: Sequence[Job]) -> list[CaseEnd]:
         """End of every job, in their order; equal jobs are solved once."""
-        names = [name_case(job.scene, job.settings) for job in jobs]
-        distinct = dict(zip(names, jobs, strict=True))
-        ends = self._look_up(list(distinct))
-        self.counts.reused += len(ends) + len(names) - len(distinct)
-        for end in ends.values():
+        return [ends[0] for ends in self.solve_batches([(job,) for job in jobs])]
+
+    def solve_batches(self, batches: Sequence[Batch]) -> list[Ends]:
+        """Ends of every batch, in their order; equal cases are solved once.
+
+        Raises
+        ------
+        KeyError
+            If workers lose a case.
+        """
+        named = [
+            [(name_case(job.scene, job.settings), job) for job in batch]
+            for batch in batches
+        ]
+        known = self._look_up([name for batch in named for name, _ in batch])
+        for end in known.values():
             self.on_done(end)
-        missing = [name for name in distinct if name not in ends]
-        for place, end in self.workers.solve([distinct[name] for name in missing]):
-            ends[missing[place]] = end
-            self._keep(missing[place], end)
-            self.counts.solved += 1
-            self.counts.failed += end.outcome is not Outcome.CONVERGED
-            self.on_done(end)
-        return [ends[name] for name in names]
+        solved = self.counts.solved
+        while missing := _list_missing(named, known):
+            todo = [tuple(batch.values()) for batch in missing]
+            for place, ends in self.workers.solve(todo):
+                for name, end in zip(missing[place], ends, strict=False):
+                    known[name] = end
+                    self._note(name, end)
+            for batch in missing:
+                known[next(iter(batch))]  # else it would be asked for again and again
+        found = [_follow(batch, known) for batch in named]
+        self.counts.reused += sum(map(len, found)) - (self.counts.solved - solved)
+        return found
+
+    def _note(self, name: str, end: CaseEnd) -> None:
+        self._keep(name, end)
+        self.counts.solved += 1
+        self.counts.failed += end.outcome is not Outcome.CONVERGED
+        self.on_done(end)
 
     def find_search(self, task: object) -> KnownSearch | None:
         """What is known of the search of a task."""
@@ -107,3 +128,38 @@ class Runner:
         """A store that fails under way costs its use, not the run."""
         self.say(f"the store of cases failed ({error}); going on without it")
         self.store = None
+
+
+_Named = list[tuple[str, Job]]
+
+
+def _follow(batch: _Named, known: dict[str, CaseEnd]) -> Ends:
+    """Ends of a batch whose cases are known."""
+    ends: Ends = []
+    for name, _ in batch:
+        ends.append(known[name])
+        if ends[-1].sticks:
+            break
+    return ends
+
+
+def _list_missing(
+    batches: Sequence[_Named], known: dict[str, CaseEnd]
+) -> list[dict[str, Job]]:
+    """Unknown cases of each batch that has any; one that is in two is in the first.
+
+    The second waits for it, and may need no more then.
+    """
+    found: list[dict[str, Job]] = []
+    claimed: set[str] = set()
+    for batch in batches:
+        missing: dict[str, Job] = {}
+        for name, job in batch:
+            if name in claimed or (name in known and known[name].sticks):
+                break
+            if name not in known:
+                missing[name] = job
+                claimed.add(name)
+        if missing:
+            found.append(missing)
+    return found

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import product
+from itertools import chain, islice, product
 from typing import NamedTuple, TypeVar
 
 from netdesign.checks.result import Band
@@ -40,14 +40,15 @@ from netdesign.envelope.run import (
 )
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import Job
+from netdesign.envelope.workers import Batch, Ends
 from netdesign.structure.layout import SupportLayout
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.5
 _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
+_WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
 
-Conversation = Generator[list[Job], list[CaseEnd], "RowEnvelope"]
+Conversation = Generator[list[Batch], list[Ends], "RowEnvelope"]
 _End = TypeVar("_End")
 _Search = Generator[tuple[Point, ...], Sequence[Values | None], _End]
 _Watch = Callable[[], Mapping[int, Watched]]
@@ -230,7 +231,7 @@ def search_row(
     known: KnownSearch | None = None,
     keep: Callable[[KnownSearch], None] = lambda _: None,
 ) -> Conversation:
-    """Ask for the ends of jobs until the row's envelope is known.
+    """Ask for the ends of batches until the row's envelope is known.
 
     Parameters
     ----------
@@ -245,7 +246,7 @@ def search_row(
 
     Yields
     ------
-    list of Job
+    list of Batch
         To be answered with their ends, in the same order.
 
     Returns
@@ -313,22 +314,22 @@ def search_rows(
         for task in distinct
     }
     # None begins a talk; it ends at once where the model refuses every case
-    answers: dict[RowTask, list[CaseEnd] | None] = dict.fromkeys(distinct)
+    answers: dict[RowTask, list[Ends] | None] = dict.fromkeys(distinct)
     is_begun = False
     while answers:
-        asked: dict[RowTask, list[Job]] = {}
+        asked: dict[RowTask, list[Batch]] = {}
         for task, answer in answers.items():
             try:
                 asked[task] = open_rows[task].send(answer)  # type: ignore[arg-type]
             except StopIteration as end:
                 finished[task] = end.value
         if is_begun:
-            waiting = sum(len(jobs) for jobs in asked.values())
+            waiting = sum(len(batch) for batches in asked.values() for batch in batches)
             gap = max((gaps[task] for task in asked), default=0.0)
             on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
         is_begun = True
-        ends = iter(runner.solve([job for jobs in asked.values() for job in jobs]))
-        answers = {task: [next(ends) for _ in jobs] for task, jobs in asked.items()}
+        ends = iter(runner.solve_batches(list(chain.from_iterable(asked.values()))))
+        answers = {task: list(islice(ends, len(one))) for task, one in asked.items()}
     return [finished[task] for task in tasks]
 
 
@@ -344,18 +345,20 @@ def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) ->
     samples = [counts[name] or 2 for name in task.box.axes]
     axes = [[k / (count - 1) for k in range(count)] for count in samples]
     points = [tuple(point) for point in product(*axes)]
-    tasks = [build_point_task(task, point) for point in points]
     skip = FrictionSkip(task.box.axes)
+    if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
+        task = replace(task, settings=replace(task.settings, shares_start=True))
+    tasks = [build_point_task(task, point) for point in points]
     asking = _ask(points, tasks, skip)
-    answer: list[CaseEnd] | None = None  # a generator begins with None
+    answer: list[Ends] | None = None  # a generator begins with None
     while True:
         try:
             # the model may have refused every case: then nothing is asked
-            jobs = asking.send(answer)  # type: ignore[arg-type]
+            batches = asking.send(answer)  # type: ignore[arg-type]
         except StopIteration as end:
             results = [resolve_case(*one) for one in zip(tasks, end.value, strict=True)]
             return Grid(results=results, skipped=skip.skipped)
-        answer = runner.solve(jobs)
+        answer = runner.solve_batches(batches)
 
 
 def build_point_task(
@@ -373,7 +376,7 @@ def build_point_task(
 
 def _converse(
     task: RowTask, begin: Callable[[_Watch], _Search[_End]]
-) -> Generator[list[Job], list[CaseEnd], tuple[_End, _RowCases]]:
+) -> Generator[list[Batch], list[Ends], tuple[_End, _RowCases]]:
     """Lead a search to its end, and what was learned of the row's cases."""
     row = _RowCases(
         reader=ResultReader(layout=task.layout), skip=FrictionSkip(task.box.axes)
@@ -393,19 +396,19 @@ def _converse(
 
 def _ask(
     points: Sequence[Point], tasks: Sequence[CaseTask], skip: FrictionSkip
-) -> Generator[list[Job], list[CaseEnd], list[CaseEnd | None]]:
+) -> Generator[list[Batch], list[Ends], list[CaseEnd | None]]:
     """Ends of some cases; those that friction cannot change are not solved."""
-    ends: dict[Point, CaseEnd | None] = {}
-    jobs = dict(zip(points, map(build_job, tasks), strict=True))
-    for wave in skip.split(points):
-        unknown = [point for point in wave if skip.needs_solve(point)]
-        wanted = [job for point in unknown if (job := jobs[point]) is not None]
-        solved = iter((yield wanted) if wanted else [])
-        for point in unknown:
-            ends[point] = None if jobs[point] is None else next(solved)
-            skip.learn(point, ends[point])
-        ends |= {point: skip.recall(point) for point in wave if point not in ends}
-    return [ends[point] for point in points]
+    asked = zip(points, map(build_job, tasks), strict=True)
+    jobs = {point: job for point, job in asked if job is not None}
+    ends: dict[Point, CaseEnd] = {}
+    while lines := skip.list_lines([point for point in jobs if point not in ends]):
+        answers = yield [tuple(jobs[point] for point in line) for line in lines]
+        for line, answer in zip(lines, answers, strict=True):
+            for point, end in zip(line, answer, strict=False):  # until it sticks
+                ends[point] = end
+                skip.learn(point, end)
+    ends |= {point: skip.recall(point) for point in jobs if point not in ends}
+    return [ends.get(point) for point in points]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -422,7 +425,7 @@ def _confirm(
     members: Sequence[str],
     results: Sequence[CaseResult],
     maxima: Maxima,
-) -> Generator[list[Job], list[CaseEnd], tuple[Confirmation, ...]]:
+) -> Generator[list[Batch], list[Ends], tuple[Confirmation, ...]]:
     """Solve the governing cases again by the other fidelity, each once."""
     if task.confirmed_by is None:
         return ()
@@ -435,11 +438,11 @@ def _confirm(
     tasks = [
         build_point_task(task, maxima.points[p], task.confirmed_by) for p in places
     ]
-    jobs = [job for job in map(build_job, tasks) if job is not None]
-    ends = (yield jobs) if jobs else []
+    batches: list[Batch] = [(job,) for job in map(build_job, tasks) if job is not None]
+    ends = (yield batches) if batches else []
     again = {
         place: resolve_case(one, end)
-        for place, one, end in zip(places, tasks, ends, strict=True)
+        for place, one, (end,) in zip(places, tasks, ends, strict=True)
     }
     return tuple(
         Confirmation(member=member, screened=results[place], confirmed=again[place])

@@ -102,6 +102,11 @@ class CaseEnd:
     reason: str = ""
     state: SolvedState | None = None
 
+    @property
+    def sticks(self) -> bool:
+        """More friction would change nothing."""
+        return self.state is not None and self.state.sticks
+
 
 def keep_state(solution: Solution) -> SolvedState:
     """Part of a solution that an envelope keeps."""

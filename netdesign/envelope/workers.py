@@ -1,6 +1,6 @@
 """Where cases are solved: in this process, in a pool, or on a Dask cluster.
 
-Each gives the same ends for the same jobs; only the order of arrival differs. A
+Each gives the same ends for the same batches; only the order of arrival differs. A
 worker that dies costs the one case that kills it, by name.
 """
 
@@ -13,7 +13,7 @@ import signal
 import socket
 import threading
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
 
 DIED = "a worker process ended abruptly"
-_AHEAD = 2  # jobs in the hands of a pool, for each of its processes
+_AHEAD = 2  # batches in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
 _PORTS = 65_536
@@ -50,14 +50,18 @@ class Job:
     settings: Settings
 
 
-Arrival = tuple[int, CaseEnd]  # place among the jobs, and its end
+# Cases alike but for their friction, which ascends: solved in turn up to the first
+# whose snow sticks, since more friction changes nothing then.
+Batch = tuple[Job, ...]
+Ends = list[CaseEnd]  # of the cases of a batch that were solved
+Arrival = tuple[int, Ends]  # place among the batches, and its ends
 
 
 class Workers(Protocol):
-    """What solves jobs; ends arrive in any order, each with its place."""
+    """What solves batches; ends arrive in any order, each with their place."""
 
-    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
-        """Solve all jobs."""
+    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
+        """Solve all batches."""
 
     def close(self) -> None:
         """Let go of what was held; what still runs is stopped."""
@@ -91,20 +95,34 @@ def solve_job(job: Job) -> CaseEnd:
         )
 
 
-class OwnProcess:
-    """Solves one job after the other, here."""
+def solve_batch(batch: Batch) -> Ends:
+    """Solve the cases of a batch in turn."""
+    return _solve_in_turn(batch, solve_job)
 
-    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
-        """Solve all jobs in their order."""
-        for place, job in enumerate(jobs):
-            yield place, solve_job(job)
+
+def _solve_in_turn(batch: Batch, solve: Callable[[Job], CaseEnd]) -> Ends:
+    ends: Ends = []
+    for job in batch:
+        ends.append(solve(job))
+        if ends[-1].sticks:
+            break
+    return ends
+
+
+class OwnProcess:
+    """Solves one batch after the other, here."""
+
+    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
+        """Solve all batches in their order."""
+        for place, batch in enumerate(batches):
+            yield place, solve_batch(batch)
 
     def close(self) -> None:
         """Nothing is held."""
 
 
 class ProcessPool:
-    """Solves jobs in several processes; small waves before the first large one here.
+    """Solves batches in several processes; small waves before the first large one here.
 
     Processes are started by the first wave that is worth it. They ignore Ctrl-C,
     which is the parent's to handle, and are stopped by ``close`` at once.
@@ -115,31 +133,31 @@ class ProcessPool:
         self._processes, self._worth = processes, worth
         self._pool: ProcessPoolExecutor | None = None
 
-    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
-        """Solve all jobs; suspects of a crash are tried again one by one."""
-        if self._pool is None and len(jobs) < self._worth:
-            yield from OwnProcess().solve(jobs)
+    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
+        """Solve all batches; suspects of a crash are tried again job by job."""
+        if self._pool is None and sum(map(len, batches)) < self._worth:
+            yield from OwnProcess().solve(batches)
             return
-        waiting = list(enumerate(jobs))[::-1]
+        waiting = list(enumerate(batches))[::-1]
         while waiting:
             suspects = yield from self._feed(waiting)
-            yield from _try_one_by_one(suspects)
+            yield from _try_job_by_job(suspects)
 
     def _feed(
-        self, waiting: list[tuple[int, Job]]
-    ) -> Generator[Arrival, None, list[tuple[int, Job]]]:
-        """Hand out jobs until all are done or the pool breaks; jobs lost with it."""
-        held: dict[Future[CaseEnd], tuple[int, Job]] = {}
+        self, waiting: list[tuple[int, Batch]]
+    ) -> Generator[Arrival, None, list[tuple[int, Batch]]]:
+        """Hand out batches until all are done or the pool breaks; what it took."""
+        held: dict[Future[Ends], tuple[int, Batch]] = {}
         pool = self._start()
         try:
             while waiting or held:
                 while waiting and len(held) < _AHEAD * self._processes:
-                    held[pool.submit(solve_job, waiting[-1][1])] = waiting[-1]
+                    held[pool.submit(solve_batch, waiting[-1][1])] = waiting[-1]
                     waiting.pop()
                 for future in wait(held, return_when=FIRST_COMPLETED).done:
-                    end = future.result()
+                    ends = future.result()
                     place, _ = held.pop(future)
-                    yield place, end
+                    yield place, ends
         except BrokenProcessPool:
             self.close()
             return sorted(held.values(), key=lambda one: one[0])
@@ -197,16 +215,16 @@ class DaskCluster:
                 f"version {identify_solver()} of the solver"
             )
 
-    def solve(self, jobs: Sequence[Job]) -> Iterator[Arrival]:
-        """Solve all jobs; those lost with a worker are tried again one by one.
+    def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
+        """Solve all batches; those lost with a worker are tried again job by job.
 
-        The scheduler gives up every job that waited with one that kills workers.
+        The scheduler gives up every batch that waited with one that kills workers.
         """
         from distributed import KilledWorker, as_completed
 
         places = {
-            self._client.submit(solve_job, job, pure=False): place
-            for place, job in enumerate(jobs)
+            self._client.submit(solve_batch, batch, pure=False): place
+            for place, batch in enumerate(batches)
         }
         suspects: list[int] = []
         arriving = as_completed(list(places), loop=self._client.loop)
@@ -216,7 +234,7 @@ class DaskCluster:
             except KilledWorker:
                 suspects.append(places[future])
         for place in sorted(suspects):
-            yield place, self._try_alone(jobs[place])
+            yield place, _solve_in_turn(batches[place], self._try_alone)
 
     def _try_alone(self, job: Job) -> CaseEnd:
         from distributed import KilledWorker, as_completed
@@ -297,19 +315,23 @@ def _name_silence(address: str, error: Exception) -> ClusterError:
     )
 
 
-def _try_one_by_one(suspects: Sequence[tuple[int, Job]]) -> Iterator[Arrival]:
-    """Solve jobs of which one or more killed their worker, one at a time."""
+def _try_job_by_job(suspects: Sequence[tuple[int, Batch]]) -> Iterator[Arrival]:
+    """Solve batches of which one or more killed their worker, one job at a time."""
     pool: ProcessPoolExecutor | None = None
+
+    def try_alone(job: Job) -> CaseEnd:
+        nonlocal pool
+        pool = pool or _start_pool(1)
+        try:
+            return pool.submit(solve_job, job).result()
+        except BrokenProcessPool:
+            _stop(pool)
+            pool = None
+            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+
     try:
-        for place, job in suspects:
-            pool = pool or _start_pool(1)
-            try:
-                end = pool.submit(solve_job, job).result()
-            except BrokenProcessPool:
-                _stop(pool)
-                pool = None
-                end = CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
-            yield place, end
+        for place, batch in suspects:
+            yield place, _solve_in_turn(batch, try_alone)
     finally:
         if pool is not None:
             _stop(pool)

@@ -42,12 +42,16 @@ def test_slip_by_the_very_foot_is_no_slip(end, place, sticks):
     assert state.sticks == sticks
 
 
+def needs_solve(skip, point):
+    return skip.list_lines([point]) == [[point]]
+
+
 def after_two_tests(end, **second):
     """Skip that was tested twice, the second time with an end of its own."""
     skip = FrictionSkip(AXES)
     for line, other in ((0.1, {}), (0.2, second)):
         skip.learn((line, 0.0), sticking(end))
-        assert skip.needs_solve((line, 1.0))
+        assert needs_solve(skip, (line, 1.0))
         skip.learn((line, 1.0), sticking(end, **other))
     return skip
 
@@ -56,7 +60,7 @@ def test_nothing_is_skipped_before_two_tests(end):
     skip = after_two_tests(end)
     assert skip.tested == 2
     skip.learn(LOW, sticking(end))
-    assert not skip.needs_solve(HIGH)
+    assert not needs_solve(skip, HIGH)
     assert skip.recall(HIGH).state.sticks
     assert skip.skipped == 1
 
@@ -64,36 +68,52 @@ def test_nothing_is_skipped_before_two_tests(end):
 def test_a_test_that_disagrees_ends_the_skipping(end):
     skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
     skip.learn(LOW, sticking(end))
-    assert skip.needs_solve(HIGH)
+    assert needs_solve(skip, HIGH)
 
 
 def test_sliding_snow_answers_for_nothing(end):
     skip = after_two_tests(end)
     skip.learn(LOW, sticking(end, sticks=False))
-    assert skip.needs_solve(MIDDLE)
+    assert needs_solve(skip, MIDDLE)
     skip.learn(MIDDLE, sticking(end))
-    assert not skip.needs_solve(HIGH)
-    assert skip.needs_solve(LOW)  # less friction than what is known to stick
+    assert not needs_solve(skip, HIGH)
+    assert needs_solve(skip, LOW)  # less friction than what is known to stick
 
 
 def test_another_line_and_a_failed_case_answer_for_nothing(end):
     skip = after_two_tests(end)
     skip.learn(LOW, CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt"))
     skip.learn((0.4, 0.0), sticking(end))
-    assert skip.needs_solve(HIGH)
+    assert needs_solve(skip, HIGH)
 
 
-def test_waves_go_up_in_friction_on_each_line():
+def test_lines_go_up_in_friction():
     skip = FrictionSkip(AXES)
-    waves = skip.split([HIGH, LOW, (0.7, 0.5), MIDDLE])
-    assert waves == [[LOW, (0.7, 0.5)], [MIDDLE], [HIGH]]
+    lines = skip.list_lines([HIGH, LOW, (0.7, 0.5), MIDDLE])
+    assert lines == [[LOW, MIDDLE, HIGH], [(0.7, 0.5)]]
+
+
+def test_two_chances_are_solved_one_by_one_and_apart(end):
+    skip = FrictionSkip(AXES)
+    for line in (0.1, 0.2, 0.3, 0.4):
+        skip.learn((line, 0.0), sticking(end))
+    chances = [(line, 1.0) for line in (0.4, 0.1, 0.2, 0.3)]
+    assert skip.list_lines(chances) == [[(0.1, 1.0)], [(0.3, 1.0)]]
+    skip.learn((0.1, 1.0), sticking(end))
+    skip.learn((0.3, 1.0), sticking(end))
+    assert skip.list_lines([(0.2, 1.0), (0.4, 1.0)]) == []
+
+
+def test_after_a_disagreement_no_line_ends_early(end):
+    skip = after_two_tests(end, foot=1e5 * (1.0 + 1e-5))
+    assert skip.list_lines([LOW, HIGH]) == [[LOW], [HIGH]]
 
 
 def test_without_a_range_of_friction_all_is_solved(end):
     skip = FrictionSkip(("density",))
     skip.learn((0.1,), sticking(end))
-    assert skip.needs_solve((0.1,))
-    assert skip.split([(0.5,), (0.1,)]) == [[(0.5,), (0.1,)]]
+    assert needs_solve(skip, (0.1,))
+    assert skip.list_lines([(0.5,), (0.1,)]) == [[(0.1,)], [(0.5,)]]
 
 
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):

@@ -258,11 +258,16 @@ def test_an_open_gap_stays_open(row):
 class Spoilt(OwnProcess):
     """Workers that lose every case with much friction."""
 
-    def solve(self, jobs):
-        for place, end in super().solve(jobs):
+    def solve(self, batches):
+        for place, ends in super().solve(batches):
             lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason="lost")
-            steep = jobs[place].scene.net.friction_angle > 0.7
-            yield place, lost if steep else end
+            yield (
+                place,
+                [
+                    lost if job.scene.net.friction_angle > 0.7 else end
+                    for job, end in zip(batches[place], ends, strict=False)
+                ],
+            )
 
 
 def test_cases_that_were_lost_and_are_solved_now_are_searched_anew(row):

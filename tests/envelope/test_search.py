@@ -1,6 +1,7 @@
 """The envelope of a row on the real solver, coarse; and of many rows together."""
 
 import math
+from contextlib import closing
 from dataclasses import replace
 
 import pytest
@@ -10,14 +11,17 @@ from netdesign.envelope import search
 from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.run import solve_case
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import (
     RowTask,
+    build_point_task,
     refine_settings,
     run_grid,
     search_rows,
 )
 from netdesign.envelope.state import CaseEnd
+from netdesign.envelope.workers import OwnProcess, ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
@@ -133,23 +137,22 @@ def test_rows_together_end_as_each_alone(found):
         assert one.maxima.upper_bound == two.maxima.upper_bound
 
 
-class Spoilt:
+class Spoilt(OwnProcess):
     """Workers in whose hands every case with much friction fails."""
 
-    def solve(self, jobs):
-        from netdesign.envelope.workers import solve_job
-
-        for place, job in enumerate(jobs):
-            if (
-                job.scene.net.friction_angle > 0.7
-                and job.scene.snowpack.density > 390.0
-            ):
-                yield place, CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt")
-            else:
-                yield place, solve_job(job)
-
-    def close(self):
-        pass
+    def solve(self, batches):
+        for place, ends in super().solve(batches):
+            spoilt = CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt")
+            yield (
+                place,
+                [
+                    spoilt
+                    if job.scene.net.friction_angle > 0.7
+                    and job.scene.snowpack.density > 390.0
+                    else end
+                    for job, end in zip(batches[place], ends, strict=False)
+                ],
+            )
 
 
 def test_a_failed_case_leaves_a_gap_by_name():
@@ -212,3 +215,49 @@ def test_a_search_of_refused_cases_is_not_closed():
     (found,) = search_rows([TASK], Runner())
     assert not found.maxima.is_closed
     assert {result.reason for result in found.results} == {"refused"}
+
+
+# --- a grid in lines of ascending friction -------------------------------------------
+
+
+def test_cases_of_a_grid_share_their_start_and_leave_their_forces(grid):
+    """Each force within a tenth of its error of that of the case on its own."""
+    task = replace(TASK, settings=replace(COARSE, shares_start=False))
+    shared = saved = 0
+    for result in grid:
+        values = result.case.density, result.case.friction_angle
+        place = tuple(
+            (value - one.low) / (one.high - one.low)
+            for value, (_, one) in zip(values, BOX.intervals, strict=True)
+        )
+        own = solve_case(build_point_task(task, place))
+        for member, band in own.member_forces.items():
+            slack = 0.1 * (band.high - band.value)
+            assert result.member_forces[member].value == pytest.approx(
+                band.value, abs=slack
+            )
+        shared += result.solution.linear_solves
+        saved += own.solution.linear_solves - result.solution.linear_solves
+    assert saved > 0.15 * shared
+
+
+def test_a_grid_does_not_depend_on_where_its_lines_are_solved(grid):
+    with closing(ProcessPool(2, worth=1)) as pool:
+        runner = Runner(workers=pool)
+        other = run_grid(TASK, {"density": 7, "friction_angle": 9}, runner).results
+    for one, two in zip(grid, other, strict=True):
+        assert one.member_forces == two.member_forces
+
+
+@pytest.mark.parametrize(("samples", "shares"), [(2, False), (3, True)])
+def test_lines_of_two_begin_each_on_their_own(samples, shares):
+    seen = set()
+
+    class Recording(OwnProcess):
+        def solve(self, batches):
+            seen.update(job.settings.shares_start for one in batches for job in one)
+            return super().solve(batches)
+
+    counts = {"density": 2, "friction_angle": samples}
+    run_grid(TASK, counts, Runner(workers=Recording()))
+    assert seen == {shares}

@@ -13,7 +13,7 @@ import pytest
 from netdesign.coupling.scene import Scene
 from netdesign.envelope import workers as workers_module
 from netdesign.envelope.grid import Case
-from netdesign.envelope.state import encode_end
+from netdesign.envelope.state import CaseEnd, encode_end
 from netdesign.envelope.workers import (
     DIED,
     ClusterError,
@@ -45,48 +45,73 @@ class FaultyScene(Scene):
         raise ZeroDivisionError(message)
 
 
-def job(density, kind=Scene):
-    case = Case(density=density, friction_angle=math.radians(30), inclination=0.5)
+def job(density, kind=Scene, *, friction_deg=30.0):
+    case = Case(
+        density=density, friction_angle=math.radians(friction_deg), inclination=0.2
+    )
     return Job(scene=build_scene(case, kind), settings=COARSE)
 
 
-JOBS = [job(density) for density in (250.0, 300.0, 350.0, 400.0, 450.0)]
+def build_line(density, *frictions_deg):
+    return tuple(job(density, friction_deg=friction) for friction in frictions_deg)
 
 
-def collect(workers, jobs):
-    arrived = list(workers.solve(jobs))
-    assert sorted(place for place, _ in arrived) == list(range(len(jobs)))
-    return [end for _, end in sorted(arrived, key=lambda one: one[0])]
+# the snow of the last two sticks from 30 degrees on, that of the first from 40
+BATCHES = [
+    build_line(250.0, 10.0, 20.0, 30.0),
+    build_line(300.0, 10.0, 30.0, 40.0),
+    build_line(350.0, 30.0, 40.0),
+]
+SOLVED = [3, 2, 1]
+
+
+def collect(workers, batches):
+    """Bytes of the ends of each batch."""
+    arrived = sorted(workers.solve(batches), key=lambda one: one[0])
+    assert [place for place, _ in arrived] == list(range(len(batches)))
+    return [[encode_end(end) for end in ends] for _, ends in arrived]
+
+
+LOST = encode_end(CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED))
 
 
 @pytest.fixture(scope="module")
 def alone():
-    return collect(OwnProcess(), JOBS)
+    return collect(OwnProcess(), BATCHES)
+
+
+def test_a_batch_ends_with_the_first_case_whose_snow_sticks(alone):
+    assert [len(ends) for ends in alone] == SOLVED
+    for batch, ends in zip(BATCHES, alone, strict=True):
+        each = [solve_job(one) for one in batch[: len(ends)]]
+        assert [encode_end(end) for end in each] == ends
+        assert not any(end.sticks for end in each[:-1])
 
 
 @pytest.mark.parametrize("processes", [1, 2, 3])
 def test_a_pool_gives_the_same_bytes_as_one_process(alone, processes):
     pool = ProcessPool(processes, worth=1)
     try:
-        ends = collect(pool, JOBS)
+        assert collect(pool, BATCHES) == alone
     finally:
         pool.close()
-    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
     assert multiprocessing.active_children() == []
 
 
+def kill_within(batches):
+    """The batches with one more case in the midst of the second, which dies."""
+    first, (low, *others), *rest = batches
+    return [first, (low, job(300.0, DyingScene, friction_deg=20.0), *others), *rest]
+
+
 def test_a_worker_that_dies_costs_one_case_by_name(alone):
-    jobs = [*JOBS[:2], job(300.0, DyingScene), *JOBS[2:]]
     pool = ProcessPool(2, worth=1)
     try:
-        ends = collect(pool, jobs)
+        found = collect(pool, kill_within(BATCHES))
     finally:
         pool.close()
-    lost = ends.pop(2)
-    assert (lost.outcome, lost.reason, lost.state) == (
-        Outcome.WORKER_FAILED, DIED, None,
-    )  # fmt: skip
-    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
+    assert found[1].pop(1) == LOST
+    assert found == alone
     assert multiprocessing.active_children() == []
 
 
@@ -98,15 +123,15 @@ def test_a_bug_in_one_case_is_its_outcome():
 
 
 def test_small_waves_start_no_processes(alone):
-    pool = ProcessPool(2, worth=len(JOBS) + 1)
-    assert len(collect(pool, JOBS)) == len(alone)
+    pool = ProcessPool(2, worth=sum(map(len, BATCHES)) + 1)
+    assert collect(pool, BATCHES) == alone
     assert multiprocessing.active_children() == []
     pool.close()
 
 
 def test_an_interrupt_leaves_no_process_behind():
     pool = ProcessPool(2, worth=1)
-    arriving = pool.solve(JOBS)
+    arriving = pool.solve(BATCHES)
     next(arriving)
     arriving.close()
     pool.close()
@@ -116,11 +141,11 @@ def test_an_interrupt_leaves_no_process_behind():
 PARENT = """
 import sys
 sys.path[:0] = {path!r}
-from tests.envelope.test_workers import JOBS, ProcessPool
+from tests.envelope.test_workers import BATCHES, ProcessPool
 
 if __name__ == "__main__":
     pool = ProcessPool(2, worth=1)
-    next(pool.solve(JOBS))
+    next(pool.solve(BATCHES))
     print(*pool._pool._processes, flush=True)
     sys.stdin.read()
 """
@@ -189,21 +214,20 @@ def cluster():
 def test_a_cluster_gives_the_same_bytes_as_one_process(cluster, alone):
     workers = build_workers(f"dask://{cluster}", 1)
     try:
-        ends = collect(workers, JOBS)
+        assert collect(workers, BATCHES) == alone
     finally:
         workers.close()
-    assert [encode_end(end) for end in ends] == [encode_end(end) for end in alone]
 
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
     workers = DaskCluster(cluster)
     try:
-        ends = collect(workers, [job(300.0, DyingScene), *JOBS])
+        found = collect(workers, kill_within(BATCHES))
     finally:
         workers.close()
-    assert (ends[0].outcome, ends[0].reason) == (Outcome.WORKER_FAILED, DIED)
-    assert [encode_end(end) for end in ends[1:]] == [encode_end(end) for end in alone]
+    assert found[1].pop(1) == LOST
+    assert found == alone
 
 
 def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):

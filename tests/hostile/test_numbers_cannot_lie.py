@@ -213,14 +213,17 @@ def test_a_limit_that_is_left_out_is_no_pass_where_a_check_needs_it(left_out):
 class Liar(OwnProcess):
     """Forces a thousand times too small, as of a solver with a fault long mended."""
 
-    def solve(self, jobs):
-        for place, end in super().solve(jobs):
-            state = end.state
-            pulls = {
-                name: replace(pull, x=pull.x / 1e3, y=pull.y / 1e3)
-                for name, pull in (("foot", state.foot), ("head", state.head))
-            }
-            yield place, replace(end, state=replace(state, **pulls))
+    def solve(self, batches):
+        for place, ends in super().solve(batches):
+            yield place, [self._lie(end) for end in ends]
+
+    def _lie(self, end):
+        state = end.state
+        pulls = {
+            name: replace(pull, x=pull.x / 1e3, y=pull.y / 1e3)
+            for name, pull in (("foot", state.foot), ("head", state.head))
+        }
+        return replace(end, state=replace(state, **pulls))
 
 
 @pytest.fixture
@@ -272,8 +275,8 @@ class Shuffled(OwnProcess):
     def __init__(self, seed):
         self._draw = random.Random(seed)
 
-    def solve(self, jobs):
-        ends = list(super().solve(jobs))
+    def solve(self, batches):
+        ends = list(super().solve(batches))
         return iter(self._draw.sample(ends, len(ends)))
 
 
@@ -286,12 +289,22 @@ def test_the_order_in_which_cases_end_changes_nothing(ranges, seed, strength):
 
 
 class Forgetful(OwnProcess):
-    """Loses the end of one case."""
+    """Loses the end of one batch."""
 
-    def solve(self, jobs):
-        return iter(list(super().solve(jobs))[:-1])
+    def solve(self, batches):
+        return iter(list(super().solve(batches))[:-1])
 
 
-def test_a_lost_case_gives_no_study():
+class Lazy(OwnProcess):
+    """Loses all ends of one batch but arrives with it."""
+
+    def solve(self, batches):
+        for place, ends in super().solve(batches):
+            yield place, ends if place else []
+
+
+@pytest.mark.parametrize("ranges", [GRID, SEARCHED], ids=["grid", "search"])
+@pytest.mark.parametrize("workers", [Forgetful, Lazy])
+def test_a_lost_case_gives_no_study(workers, ranges):
     with pytest.raises(KeyError):
-        judge(build_site(), Runner(workers=Forgetful()))
+        judge(build_site(ranges), Runner(workers=workers()))

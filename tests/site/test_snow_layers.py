@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import chain
 
 import pytest
 
@@ -188,6 +189,6 @@ class Recording(OwnProcess):
     def __init__(self):
         self.seen = []
 
-    def solve(self, jobs):
-        self.seen += jobs
-        return super().solve(jobs)
+    def solve(self, batches):
+        self.seen += chain.from_iterable(batches)
+        return super().solve(batches)
