@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from netdesign.envelope.adaptive import RESOLVED_SHARE, Addition
 from netdesign.envelope.grid import Case
@@ -35,6 +37,7 @@ _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _LINE_POINTS = 25
 _MAP_POINTS = 9
 _MAPS = 3
+_DRAWN_DECIMALS = 4  # of kN
 
 Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N]
 
@@ -186,8 +189,8 @@ def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
             LineRecord(
                 key=PARAMETERS[name].key,
                 values=[show_parameter(name, _value(box, name, s)) for s in shares],
-                force_kN=[kilonewton_from_newton(float(f)) for f in force],
-                bound_kN=[kilonewton_from_newton(float(f)) for f in bound],
+                force_kN=_show_drawn(force),
+                bound_kN=_show_drawn(bound),
             )
         )
     return found
@@ -223,13 +226,15 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
                     show_parameter("friction_angle", _value(box, "friction_angle", s))
                     for s in shares
                 ],
-                force_kN=[
-                    [kilonewton_from_newton(f) for f in row]
-                    for row in force.reshape(_MAP_POINTS, _MAP_POINTS).tolist()
-                ],
+                force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),
             )
         )
     return found
+
+
+def _show_drawn(force: NDArray[np.float64]) -> Any:
+    """Modelled forces in kN, as lists, to what a drawing shows."""
+    return (kilonewton_from_newton(1.0) * force).round(_DRAWN_DECIMALS).tolist()
 
 
 def _record_confirmation(

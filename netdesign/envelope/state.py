@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import zlib
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -22,7 +21,7 @@ _SHAPE_ARRAYS = (
     ("net_curve", "<f8"),
     ("net_slides", "|b1"),
     ("mesh_nodes", "<f8"),
-    ("mesh_edges", "<i8"),
+    ("mesh_edges", "<u4"),
 )
 
 
@@ -56,7 +55,7 @@ class SolvedState:
     net_curve: Floats
     net_slides: NDArray[np.bool_]
     mesh_nodes: Floats
-    mesh_edges: NDArray[np.int64]
+    mesh_edges: NDArray[np.uint32]
 
     @property
     def head_point(self) -> tuple[float, float]:
@@ -121,7 +120,7 @@ def keep_state(solution: Solution) -> SolvedState:
         net_curve=np.asarray(solution.net_curve, dtype="<f8"),
         net_slides=np.asarray(solution.net_slides, dtype="|b1"),
         mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
-        mesh_edges=np.asarray(solution.mesh_edges, dtype="<i8"),
+        mesh_edges=np.asarray(solution.mesh_edges, dtype="<u4"),
     )
 
 
@@ -147,7 +146,7 @@ def encode_end(end: CaseEnd) -> tuple[str, bytes]:
         array.astype(kind).tobytes()
         for array, (_, kind) in zip(arrays, _SHAPE_ARRAYS, strict=True)
     )
-    return json.dumps(numbers), zlib.compress(shape, 1)
+    return json.dumps(numbers), shape
 
 
 def decode_end(text: str, shape: bytes) -> CaseEnd:
@@ -155,7 +154,7 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
 
     Raises
     ------
-    ValueError, KeyError, TypeError, zlib.error
+    ValueError, KeyError, TypeError
         If the two are not what ``encode_end`` wrote.
     """
     numbers: dict[str, Any] = json.loads(text)
@@ -170,7 +169,7 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         balance=Balance(**numbers["balance"]),
         elements=numbers["elements"],
         linear_solves=numbers["linear_solves"],
-        **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
+        **_decode_arrays(shape, numbers["shapes"]),
     )
     if not state.is_finite:
         raise ValueError("a force is no number")
