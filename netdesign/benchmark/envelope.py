@@ -105,6 +105,7 @@ def run_envelope_bench(
     measures: tuple[Callable[[], dict[str, Any]], ...] = (
         _measure_one_row,
         lambda: _measure_grid(size),
+        lambda: _measure_batches(size),
         lambda: _measure_site(size, render),
         lambda: _measure_missed(size),
         lambda: _measure_narrow(size),
@@ -274,6 +275,28 @@ def _measure_grid(size: BenchSize) -> dict[str, Any]:
         "solved": runner.counts.solved,
         "skipped": grid.skipped,
         "failed": failed,
+    }
+
+
+def _measure_batches(size: BenchSize) -> dict[str, Any]:
+    """Lines of ascending friction, as a grid is solved, against each case alone."""
+    task, counts = _example_task(), dict(zip(_AXES, (3, size.grid, 3), strict=True))
+    runner = Runner()
+    with Clock() as as_grid:
+        grid = run_grid(task, counts, runner)
+    points = product(*([k / (n - 1) for k in range(n)] for n in counts.values()))
+    tasks = [build_point_task(task, point) for point in points]
+    with Clock() as alone:
+        run_cases(tasks, Runner())
+    return {
+        "what": "cases of a grid in batches against one by one, one process",
+        "reach": "less time",
+        "reached": as_grid.cpu_s < alone.cpu_s,
+        "cases": len(grid.results),
+        "solved": runner.counts.solved,
+        "batches_cpu_s": as_grid.cpu_s,
+        "one_by_one_cpu_s": alone.cpu_s,
+        "times_faster": alone.cpu_s / as_grid.cpu_s,
     }
 
 
