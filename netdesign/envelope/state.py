@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import zlib
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -146,7 +147,7 @@ def encode_end(end: CaseEnd) -> tuple[str, bytes]:
         array.astype(kind).tobytes()
         for array, (_, kind) in zip(arrays, _SHAPE_ARRAYS, strict=True)
     )
-    return json.dumps(numbers), shape
+    return json.dumps(numbers), zlib.compress(shape, 1)
 
 
 def decode_end(text: str, shape: bytes) -> CaseEnd:
@@ -154,7 +155,7 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
 
     Raises
     ------
-    ValueError, KeyError, TypeError
+    ValueError, KeyError, TypeError, zlib.error
         If the two are not what ``encode_end`` wrote.
     """
     numbers: dict[str, Any] = json.loads(text)
@@ -169,7 +170,7 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         balance=Balance(**numbers["balance"]),
         elements=numbers["elements"],
         linear_solves=numbers["linear_solves"],
-        **_decode_arrays(shape, numbers["shapes"]),
+        **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
     )
     if not state.is_finite:
         raise ValueError("a force is no number")

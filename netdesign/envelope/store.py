@@ -13,6 +13,7 @@ import json
 import os
 import sqlite3
 import sys
+import zlib
 from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
 from dataclasses import is_dataclass
@@ -258,7 +259,7 @@ def _seal(name: str, numbers: str, shape: bytes = b"") -> str:
 
 def _unseal(name: str, numbers: str, shape: bytes, seal: str) -> CaseEnd | None:
     """Case of an entry; None if anything in it was changed."""
-    with suppress(ValueError, KeyError, TypeError):
+    with suppress(ValueError, KeyError, TypeError, zlib.error):
         if _seal(name, numbers, shape) == seal:
             return decode_end(numbers, shape)
     return None
