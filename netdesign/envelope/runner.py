@@ -72,8 +72,8 @@ class Runner:
                 for name, end in zip(missing[place], ends, strict=False):
                     known[name] = end
                     self._note(name, end)
-            for batch in missing:
-                known[next(iter(batch))]  # else it would be asked for again and again
+            if any(batch.keys().isdisjoint(known) for batch in missing):
+                raise KeyError("workers lost a batch")  # to be asked for for ever
         found = [_follow(batch, known) for batch in named]
         self.counts.reused += sum(map(len, found)) - (self.counts.solved - solved)
         return found

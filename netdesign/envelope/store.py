@@ -2,8 +2,8 @@
 
 One SQLite file. A case is known by its scene, its settings and the solver's own text,
 a search by its task and the text of the whole program, so that another version never
-answers for this one. Each is one transaction in a write-ahead log: a killed run loses the
-batches that workers had in hand, nothing else.
+answers for this one. Each is one transaction in a write-ahead log: a killed run loses
+what its workers had in hand, nothing else.
 """
 
 from __future__ import annotations

@@ -146,7 +146,7 @@ class ProcessPool:
     def _feed(
         self, waiting: list[tuple[int, Batch]]
     ) -> Generator[Arrival, None, list[tuple[int, Batch]]]:
-        """Hand out batches until all are done or the pool breaks; what it took."""
+        """Hand out batches until all are done or the pool breaks; returns the lost."""
         held: dict[Future[Ends], tuple[int, Batch]] = {}
         pool = self._start()
         try:
