@@ -106,7 +106,6 @@ class _Coupled:
     mesh: PlacedMesh
     state: FlowState
     hanging: _Hanging
-    forces: SupportForces
     was_slow: bool  # plain rounds gained little
     linear_solves: int
     rounds: int
@@ -160,7 +159,8 @@ def find_end_pulls(
         If the mesh gives no converged solution.
     """
     problem = _build_problem(scene, _require_net(scene), size)
-    cable = _couple(problem, settings, None, is_first=True).hanging.cable
+    end, _ = _finish(_couple(problem, settings, None, is_first=True))
+    cable = end.hanging.cable
     return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
 
 
@@ -179,7 +179,7 @@ def _solve(scene: Scene, settings: SolverSettings) -> Solution:
 
 def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> Solution:
     net = _require_net(scene)
-    states, pulls = refine(
+    states, estimates = refine(
         settings.levels,
         lambda size, coarse: _couple(
             _build_problem(scene, net, size),
@@ -191,7 +191,7 @@ def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> S
         settings.accuracy,
         STEADY_ERROR,
     )
-    solution = _build_solution(scene, states, pulls)
+    solution = _build_solution(scene, states, [one.error for one in estimates])
     check_balance(
         solution.balance,
         settings.balance_tolerance,
@@ -263,14 +263,11 @@ def _couple(
         misses.append(_contact_curve(problem, hanging) - curve)
         moved = float(np.abs(misses[-1]).max())
         if moved < still and flow.change < tolerance:
-            state, forces = find_support_forces(problem.law, mesh, state)
-            hanging = _hang_again(problem, hanging, forces.on_net)
             return _Coupled(
                 problem=problem,
                 mesh=mesh,
                 state=state,
                 hanging=hanging,
-                forces=forces,
                 was_slow=inverse is not None,
                 linear_solves=solves,
                 rounds=round_number,
@@ -492,13 +489,24 @@ def _start_curve(
     return interpolate_curve(known, curve, wanted)
 
 
+def _finish(end: _Coupled) -> tuple[_Coupled, SupportForces]:
+    """Forces from the stresses alone, and the net that hangs under these."""
+    state, forces = find_support_forces(end.problem.law, end.mesh, end.state)
+    hanging = _hang_again(end.problem, end.hanging, forces.on_net)
+    return replace(end, state=state, hanging=hanging), forces
+
+
 def _build_solution(
-    scene: Scene, states: Sequence[_Coupled], pulls: Sequence[Estimate]
+    scene: Scene, states: Sequence[_Coupled], errors: Sequence[float]
 ) -> Solution:
-    end = states[-1]
+    """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
+    end, forces = _finish(states[-1])
     thickness, scale = scene.snowpack.thickness, scene.force_scale
     cable, mesh, law = end.hanging.cable, end.mesh, end.problem.law
-    foot, head = (EndPull.of_estimate(pull, scale) for pull in pulls)
+    foot, head = (
+        EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
+        for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
+    )
     along = end.problem.head / np.hypot(*end.problem.head)
     offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
     tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
@@ -512,14 +520,14 @@ def _build_solution(
         tension_max=max(tensions),
         sag=float(offsets.max()) * thickness,
         net_curve=cable.curve * thickness,
-        net_forces=end.forces.on_net * scale,
+        net_forces=forces.on_net * scale,
         net_slides=np.append(False, end.state.contact.sign != 0),
         mesh_nodes=mesh.nodes * thickness,
         mesh_edges=mesh.template.edges,
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
-        balance=measure_balance(law, mesh, end.forces, held, cable.tension, scale),
+        balance=measure_balance(law, mesh, forces, held, cable.tension, scale),
         cost=Cost(
             linear_solves=sum(state.linear_solves for state in states),
             rounds=sum(state.rounds for state in states),
