@@ -17,10 +17,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.cable.closed_form import compute_parabola_sag
-from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
 from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.hanging import (
+    Hanging,
+    SteadyProblem,
+    find_contact_curve,
+    hang_again,
+    start_hanging,
+)
 from netdesign.coupling.interface import (
     SupportForces,
     find_support_forces,
@@ -37,7 +42,6 @@ from netdesign.coupling.solution import (
     list_skipped,
     triangle_density,
 )
-from netdesign.coupling.start import guess_pressure
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
@@ -46,7 +50,7 @@ from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.linear import SingularError
-from netdesign.snow.mesh import MeshSize, MeshTemplate, build_template, place_nodes
+from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
 
 Floats = NDArray[np.float64]
@@ -60,7 +64,6 @@ _LOOSEST_INNER = 1e-2
 _REFINED = 4e-3
 # The first mesh is only compared with the next, whose error is far larger.
 _FIRST_MESH = 5.0
-_CONTACT_ROUNDS = 30
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
 _LAYER_CONTRAST = 1e3
@@ -68,44 +71,16 @@ _LAYER_CONTRAST = 1e3
 _SLOW = 0.2
 # Corrected rounds remember little: contacts that changed make old ones mislead.
 _NEWTON_DEPTH, _NEWTON_DAMPING = 2, 0.7
-_SURFACE_TOLERANCE = 1e-10
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Problem:
-    """One scene on one mesh, dimensionless."""
-
-    law: FlowLaw
-    template: MeshTemplate
-    head: Floats
-    length: float  # unstressed, of the whole net
-    slack: float
-    stiffness: float
-
-    @property
-    def has_freeboard(self) -> bool:
-        """The head stands above the snow: the net's top segment hangs free."""
-        return bool(self.head[1] > 1.0 + 1e-9)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Hanging:
-    """The net under given forces, and how much of it lies in the snow."""
-
-    cable: Funicular
-    contact_length: float  # unstressed
-    forces: Floats  # those of the free end, 0, are the last two
-    lengths: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Coupled:
     """Snow and net at rest with each other on one mesh, dimensionless."""
 
-    problem: _Problem
+    problem: SteadyProblem
     mesh: PlacedMesh
     state: FlowState
-    hanging: _Hanging
+    hanging: Hanging
     was_slow: bool  # plain rounds gained little
     linear_solves: int
     rounds: int
@@ -222,9 +197,9 @@ def _find_stuck(scene: Scene, settings: SolverSettings) -> _Coupled | None:
         return None
 
 
-def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
+def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
     thickness = scene.snowpack.thickness
-    return _Problem(
+    return SteadyProblem(
         law=scene.reach_law,
         template=build_template(scene.reach, size, scene.layer_tops),
         head=net.head / thickness,
@@ -235,14 +210,14 @@ def _build_problem(scene: Scene, net: Net, size: MeshSize) -> _Problem:
 
 
 def _couple(
-    problem: _Problem,
+    problem: SteadyProblem,
     settings: SolverSettings,
     guess: _Coupled | None,
     *,
     is_first: bool = False,
 ) -> _Coupled:
     """Rounds of flow and net until neither moves the other."""
-    hanging = guess.hanging if guess is not None else _start_hanging(problem)
+    hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     state: FlowState | None = None
     moved, solves = 1.0 if guess is None else _REFINED, 0
@@ -258,9 +233,9 @@ def _couple(
         flow = _flow_along(problem, mesh, state, settings, wanted)
         state, solves = flow.state, solves + flow.linear_solves
         on_net = share_net_forces(problem.law, mesh, state.reaction)
-        hanging = _hang_again(problem, hanging, on_net)
+        hanging = hang_again(problem, hanging, on_net)
         curves.append(curve)
-        misses.append(_contact_curve(problem, hanging) - curve)
+        misses.append(find_contact_curve(problem, hanging) - curve)
         moved = float(np.abs(misses[-1]).max())
         if moved < still and flow.change < tolerance:
             return _Coupled(
@@ -296,7 +271,7 @@ def _choose_tolerances(
 
 
 def _flow_along(
-    problem: _Problem,
+    problem: SteadyProblem,
     mesh: PlacedMesh,
     start: FlowState | None,
     settings: SolverSettings,
@@ -314,10 +289,6 @@ def _flow_along(
     if flow.outcome is not Outcome.CONVERGED:
         raise _fail(problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}")
     return flow
-
-
-def _hang_again(problem: _Problem, hanging: _Hanging, on_net: Floats) -> _Hanging:
-    return _hang(problem, on_net, hanging.cable.pull, hanging.contact_length)
 
 
 def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
@@ -346,7 +317,7 @@ def _is_slow(misses: Sequence[Floats], state: FlowState) -> bool:
 
 
 def _invert_round(
-    problem: _Problem, mesh: PlacedMesh, state: FlowState, hanging: _Hanging
+    problem: SteadyProblem, mesh: PlacedMesh, state: FlowState, hanging: Hanging
 ) -> Floats | None:
     """Inverse of the rounds' derivative, eq. (K0); None if it has none."""
     size = 2 * mesh.template.net.size
@@ -381,7 +352,7 @@ def _mix(
 
 
 def _place_between(
-    problem: _Problem, placed: Sequence[Floats], wanted: Floats
+    problem: SteadyProblem, placed: Sequence[Floats], wanted: Floats
 ) -> tuple[Floats, PlacedMesh]:
     """Mesh on the wanted curve, or as near to it from the last one as it can be."""
     for _ in range(_HALVINGS if placed else 0):
@@ -392,7 +363,7 @@ def _place_between(
     return wanted, _place(problem, wanted)
 
 
-def _place(problem: _Problem, curve: Floats) -> PlacedMesh:
+def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
     if curve[1, 1:].min() <= 0.0:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
@@ -408,82 +379,13 @@ def _place(problem: _Problem, curve: Floats) -> PlacedMesh:
     return mesh
 
 
-def _start_hanging(problem: _Problem) -> _Hanging:
-    """The net under a uniform pressure of about the right size."""
-    chord = float(np.hypot(*problem.head))
-    along = problem.head / chord
-    outward = np.array([along[1], -along[0]])
-    pressure = guess_pressure(problem.law, problem.template.aspect)
-    sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
-    pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
-    contact = problem.length / float(problem.head[1])
-    lengths = np.diff(problem.template.net_fractions[::2]) * contact
-    shares = np.zeros(2 * lengths.size + 1)
-    shares[1::2] = 4.0 / 6.0 * lengths
-    shares[:-1:2] += lengths / 6.0
-    shares[2::2] += lengths / 6.0
-    return _hang(problem, pressure * np.outer(outward, shares), pull, contact)
-
-
-def _hang(
-    problem: _Problem, forces: Floats, pull: Floats, contact_length: float
-) -> _Hanging:
-    """Net under nodal forces; its contact with the snow ends at the snow's surface."""
-    if not problem.has_freeboard:
-        lengths = np.diff(problem.template.net_fractions[::2]) * problem.length
-        cable = _solve_cable(problem, forces, lengths, pull)
-        return _Hanging(
-            cable=cable, contact_length=problem.length, forces=forces, lengths=lengths
-        )
-    loose = np.concatenate([forces, np.zeros((2, 2))], axis=1)
-    before: tuple[float, float] | None = None
-    for _ in range(_CONTACT_ROUNDS):
-        free_length = problem.length - contact_length
-        lengths = np.diff(problem.template.net_fractions[::2]) * contact_length
-        lengths = np.append(lengths, free_length)
-        cable = _solve_cable(problem, loose, lengths, pull)
-        pull = cable.pull
-        too_high = float(cable.curve[1, -3]) - 1.0
-        if abs(too_high) < _SURFACE_TOLERANCE:
-            return _Hanging(
-                cable=cable,
-                contact_length=contact_length,
-                forces=loose,
-                lengths=lengths,
-            )
-        rise = float(cable.curve[1, -1] - cable.curve[1, -3]) / free_length
-        if before is not None and contact_length != before[0]:
-            rise = (too_high - before[1]) / (contact_length - before[0])
-        before = (contact_length, too_high)
-        contact_length -= too_high / rise
-        if not 0.0 < contact_length < problem.length:
-            break
-    raise SolveError(
-        Outcome.NO_EQUILIBRIUM, "the net's contact with the snow surface was not found"
-    )
-
-
-def _solve_cable(
-    problem: _Problem, forces: Floats, lengths: Floats, pull: Floats
-) -> Funicular:
-    cable = solve_funicular(forces, lengths, problem.stiffness, problem.head, pull)
-    if cable.outcome is not Outcome.CONVERGED:
-        raise SolveError(cable.outcome)
-    return cable
-
-
-def _contact_curve(problem: _Problem, hanging: _Hanging) -> Floats:
-    """Net nodes that lie in the snow, shape (2, n_net)."""
-    return hanging.cable.curve[:, : problem.template.net.size]
-
-
 def _start_curve(
-    problem: _Problem, hanging: _Hanging, guess: _Coupled | None
+    problem: SteadyProblem, hanging: Hanging, guess: _Coupled | None
 ) -> Floats:
     if guess is None:
-        return _contact_curve(problem, hanging)
+        return find_contact_curve(problem, hanging)
     known = guess.problem.template.net_fractions
-    curve = _contact_curve(guess.problem, hanging)
+    curve = find_contact_curve(guess.problem, hanging)
     wanted = problem.template.net_fractions
     # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
     return interpolate_curve(known, curve, wanted)
@@ -492,7 +394,7 @@ def _start_curve(
 def _finish(end: _Coupled) -> tuple[_Coupled, SupportForces]:
     """Forces from the stresses alone, and the net that hangs under these."""
     state, forces = find_support_forces(end.problem.law, end.mesh, end.state)
-    hanging = _hang_again(end.problem, end.hanging, forces.on_net)
+    hanging = hang_again(end.problem, end.hanging, forces.on_net)
     return replace(end, state=state, hanging=hanging), forces
 
 
