@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Point = tuple[float, float]
+
+_LEAST_STEP = 1e-9  # points that are rounded may coincide
 
 
 def interpolate_curve(known: Floats, points: Floats, wanted: Floats) -> Floats:
@@ -45,3 +50,28 @@ def interpolate_curve(known: Floats, points: Floats, wanted: Floats) -> Floats:
         + points[:, piece + 1] * part**2 * (1.0 + 2.0 * rest)
         + step * part * rest * (rest * slopes[:, piece] - part * slopes[:, piece + 1])
     )
+
+
+def trace_curve(points: Sequence[Point], pieces: int) -> list[list[Point]]:
+    """Smooth curve through points, to be drawn: from each of them to the next.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        At least two.
+    pieces : int
+        Straight ones, between two points.
+
+    Returns
+    -------
+    list of list of Point
+        For each pair of neighbours ``pieces`` + 1 points, both included.
+    """
+    nodes = np.array(points).T
+    steps = np.maximum(np.hypot(*np.diff(nodes)), _LEAST_STEP)
+    known = np.append(0.0, np.cumsum(steps))
+    wanted = known[:-1, None] + steps[:, None] * np.linspace(0.0, 1.0, pieces + 1)
+    x, y = interpolate_curve(known, nodes, wanted.ravel()).reshape(2, *wanted.shape)
+    return [
+        list(zip(*row, strict=True)) for row in zip(x.tolist(), y.tolist(), strict=True)
+    ]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 
+from netdesign.numerics.curve import trace_curve
 from netdesign.report.figures import GREY, INK, PALE, SNOW
 from netdesign.report.section_frame import (
     LONGEST_ARROW,
@@ -53,7 +53,7 @@ def draw_section(drawing: Drawing, name: str) -> str:
 def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
     drawing, top_end = paper.frame.drawing, paper.frame.top_end
     thickness = drawing.snow_thickness_m
-    net = [point for piece in _trace(drawing.net_m) for point in piece]
+    net = [point for piece in trace_curve(drawing.net_m, _CHORDS) for point in piece]
     covered = [(x, y) for x, y in net if y <= thickness]
     surface = [(covered[-1][0], thickness), (top_end, thickness)]
     outline = paper.all_at([(top_end, 0.0), *covered, *surface])
@@ -91,7 +91,7 @@ def _draw_support(sketch: Sketch, paper: Paper) -> None:
 
 
 def _draw_net(sketch: Sketch, paper: Paper) -> None:
-    pieces = _trace(paper.frame.drawing.net_m)
+    pieces = trace_curve(paper.frame.drawing.net_m, _CHORDS)
     sticks = [a and b for a, b in pairwise(paper.frame.drawing.sticks)]
     start = 0
     for i in range(1, len(sticks) + 1):
@@ -100,47 +100,6 @@ def _draw_net(sketch: Sketch, paper: Paper) -> None:
             dash = "" if sticks[start] else SLIP_DASH
             sketch.line(paper.all_at(run), width=1.8, dash=dash)
             start = i
-
-
-def _trace(nodes: Sequence[Point]) -> list[list[Point]]:
-    """Smooth curve through the net's nodes: the points from each node to the next.
-
-    Cubic pieces; a node's slope is that of the parabola through it and its neighbours.
-    """
-    # drawn nodes are rounded: two of them may coincide
-    steps = [max(math.dist(*pair), 1e-9) for pair in pairwise(nodes)]
-    axes = []
-    for places in zip(*nodes, strict=True):
-        chords = [
-            (b - a) / h for (a, b), h in zip(pairwise(places), steps, strict=True)
-        ]
-        inner = [
-            (c * k + d * h) / (h + k)
-            for (c, d), (h, k) in zip(pairwise(chords), pairwise(steps), strict=True)
-        ]
-        known = inner or chords
-        slopes = [2 * chords[0] - known[0], *inner, 2 * chords[-1] - known[-1]]
-        axes.append(
-            [
-                [_pass(ends, h, rates, k / _CHORDS) for k in range(_CHORDS + 1)]
-                for ends, h, rates in zip(
-                    pairwise(places), steps, pairwise(slopes), strict=True
-                )
-            ]
-        )
-    return [list(zip(x, y, strict=True)) for x, y in zip(*axes, strict=True)]
-
-
-def _pass(
-    ends: tuple[float, float], step: float, rates: tuple[float, float], share: float
-) -> float:
-    """Value of the cubic with these ends and slopes after a share of a step."""
-    rest = 1.0 - share
-    return (
-        ends[0] * rest**2 * (1.0 + 2.0 * share)
-        + ends[1] * share**2 * (1.0 + 2.0 * rest)
-        + step * share * rest * (rest * rates[0] - share * rates[1])
-    )
 
 
 def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow) -> Label:

@@ -1,9 +1,12 @@
 """Curve through points: exact on parabolas, third order, local."""
 
+import math
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
-from netdesign.numerics.curve import interpolate_curve
+from netdesign.numerics.curve import interpolate_curve, trace_curve
 
 UNEVEN = np.array([0.0, 0.1, 0.35, 0.5, 0.8, 1.0])
 
@@ -80,3 +83,24 @@ def test_three_points_are_joined_by_their_parabola():
     points = np.array([known**2, 1.0 - known])
     found = interpolate_curve(known, points, np.array([0.5, 2.0, 3.0]))
     np.testing.assert_allclose(found, [[0.25, 4.0, 9.0], [0.5, -1.0, -2.0]], atol=1e-14)
+
+
+def test_a_curve_is_traced_smoothly_through_its_points():
+    """Nodes on a quarter circle, as far apart as a coarse mesh has them."""
+    angles = [0.0, 0.02, 0.1, 0.4, 0.7, 1.1, math.pi / 2]
+    nodes = [(math.sin(a), 1.0 - math.cos(a)) for a in angles]
+    pieces = trace_curve(nodes, 6)
+    ends = [(piece[0], piece[-1]) for piece in pieces]
+    assert ends == [(pytest.approx(a), pytest.approx(b)) for a, b in pairwise(nodes)]
+    drawn = [math.dist(point, (0.0, 1.0)) for piece in pieces for point in piece]
+    assert drawn == pytest.approx([1.0] * len(drawn), abs=5e-3)  # chords: 2e-2
+    assert trace_curve([(0.0, 0.0), (1.0, 2.0)], 6)[0][3] == pytest.approx((0.5, 1.0))
+
+
+def test_points_that_coincide_leave_the_traced_curve_finite():
+    pieces = trace_curve([(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (2.0, 0.0)], 4)
+    drawn = np.array(pieces)
+    assert drawn.shape == (3, 5, 2)
+    assert np.isfinite(drawn).all()
+    assert drawn[-1, -1] == pytest.approx([2.0, 0.0])
+    assert np.abs(drawn[1] - [1.0, 0.0]).max() < 1e-8

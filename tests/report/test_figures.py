@@ -1,4 +1,3 @@
-import math
 import re
 from dataclasses import replace
 from itertools import pairwise
@@ -8,7 +7,7 @@ import pytest
 
 from netdesign.report.envelope_figure import draw_envelope
 from netdesign.report.head_figure import draw_head
-from netdesign.report.section_figure import _trace, draw_section
+from netdesign.report.section_figure import draw_section
 from tests.report.build_study import build_drawing, build_row
 
 ROW = build_row("A", 3, scale=0.72, failed_case=True)
@@ -92,15 +91,3 @@ def test_drawings_repeat_byte_for_byte_without_a_date():
         assert "<metadata" not in svg
         assert "<style" not in svg
         assert "<script" not in svg
-
-
-def test_net_is_drawn_as_a_smooth_curve_through_its_nodes():
-    """Nodes on a quarter circle, as far apart as a coarse mesh has them."""
-    angles = [0.0, 0.02, 0.1, 0.4, 0.7, 1.1, math.pi / 2]
-    nodes = [(math.sin(a), 1.0 - math.cos(a)) for a in angles]
-    pieces = _trace(nodes)
-    ends = [(piece[0], piece[-1]) for piece in pieces]
-    assert ends == [(pytest.approx(a), pytest.approx(b)) for a, b in pairwise(nodes)]
-    drawn = [math.dist(point, (0.0, 1.0)) for piece in pieces for point in piece]
-    assert drawn == pytest.approx([1.0] * len(drawn), abs=5e-3)  # chords: 2e-2
-    assert _trace([(0.0, 0.0), (1.0, 2.0)])[0][3] == pytest.approx((0.5, 1.0))
