@@ -14,12 +14,13 @@ from netdesign.envelope.grid import Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import OwnProcess, ProcessPool
+from netdesign.envelope.workers import ProcessPool
 from netdesign.outcome import Outcome, Verdict
 from netdesign.rowcheck.probe import Probe
 from netdesign.site_cases import count_cases, search_site
 from netdesign.snow.snowpack import Layer
 from netdesign.study import read_document, write_document
+from tests.envelope.made_up_workers import Recording
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 
 RANGES = Ranges(
@@ -173,17 +174,12 @@ def test_layered_snow_is_part_of_what_a_search_is_known_by(tmp_path):
 
 def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):
     """Forces no smaller than the steady ones; histories of governing cases only."""
-    seen = []
-
-    class Recording(OwnProcess):
-        def solve(self, batches):
-            seen.extend(job.settings for batch in batches for job in batch)
-            return super().solve(batches)
-
+    workers = Recording()
     site = build_site(ROWS[0], ranges=RANGES)
     run = replace(RUN, method="transient")
-    (found,) = search_site(site, run, Runner(workers=Recording()))
-    histories = [one for one in seen if isinstance(one, TransientSettings)]
+    (found,) = search_site(site, run, Runner(workers=workers))
+    settings = [job.settings for job in workers.jobs]
+    histories = [one for one in settings if isinstance(one, TransientSettings)]
     steady = envelopes[0]
     governing = {id(steady.governing(member)) for member in loaded(steady)}
     assert len(histories) == len(governing)

@@ -20,6 +20,7 @@ from netdesign.envelope.store import CaseStore, name_search
 from netdesign.envelope.surrogate import Surrogate
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome
+from tests.envelope.made_up_workers import Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 from tests.envelope.synthetic import drive, smooth
 
@@ -255,23 +256,13 @@ def test_an_open_gap_stays_open(row):
     assert row.searches == 1
 
 
-class Spoilt(OwnProcess):
-    """Workers that lose every case with much friction."""
-
-    def solve(self, batches):
-        for place, ends in super().solve(batches):
-            lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason="lost")
-            yield (
-                place,
-                [
-                    lost if job.scene.net.friction_angle > 0.7 else end
-                    for job, end in zip(batches[place], ends, strict=False)
-                ],
-            )
+def lose_rough(job, end):
+    lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason="lost")
+    return lost if job.scene.net.friction_angle > 0.7 else end
 
 
 def test_cases_that_were_lost_and_are_solved_now_are_searched_anew(row):
-    first, _ = row.search(workers=Spoilt())
+    first, _ = row.search(workers=Spoiling(lose_rough))
     second, _ = row.search()
     assert "failed (lost)" in first.gap
     assert row.searches == 2

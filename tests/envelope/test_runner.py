@@ -5,32 +5,21 @@ import pytest
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import encode_end
 from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import OwnProcess, solve_batch
+from netdesign.envelope.workers import solve_batch
+from tests.envelope.made_up_workers import Recording
 from tests.envelope.test_workers import build_line
 
 LOW, MIDDLE, HIGH, TOP = 10.0, 20.0, 30.0, 40.0  # degrees; the snow sticks from HIGH
 
 
-class Recording(OwnProcess):
-    """Workers that remember what they were asked for: friction angles [rad]."""
-
-    def __init__(self):
-        self.waves = []
-
-    def solve(self, batches):
-        self.waves.append(
-            [[job.scene.net.friction_angle for job in batch] for batch in batches]
-        )
-        return super().solve(batches)
-
-    def count(self):
-        """Jobs of each batch of each wave."""
-        return [[len(batch) for batch in wave] for wave in self.waves]
-
-
 @pytest.fixture
 def runner():
     return Runner(workers=Recording())
+
+
+def count_jobs(runner):
+    """Of each batch of each wave."""
+    return [[len(batch) for batch in wave] for wave in runner.workers.waves]
 
 
 def write(found):
@@ -50,7 +39,7 @@ def test_a_case_in_two_batches_is_solved_once(runner):
     ]
     found = write(runner.solve_batches(batches))
     assert found == solve_each(*batches)
-    assert runner.workers.count() == [[3], [1, 1]]
+    assert count_jobs(runner) == [[3], [1, 1]]
     assert (runner.counts.solved, runner.counts.reused) == (4, 1)
 
 
@@ -70,7 +59,7 @@ def test_a_known_case_that_sticks_ends_a_batch_before_workers_see_it(runner, tmp
         found = write(runner.solve_batches([batch]))
         again = write(runner.solve_batches([batch]))
     assert found == again == solve_each(batch)
-    assert runner.workers.count() == [[2]]
+    assert count_jobs(runner) == [[2]]
     assert (runner.counts.solved, runner.counts.reused) == (2, 1 + 3)
 
 

@@ -21,9 +21,10 @@ from netdesign.envelope.search import (
     search_rows,
 )
 from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import OwnProcess, ProcessPool
+from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
+from tests.envelope.made_up_workers import Recording, Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
@@ -137,26 +138,13 @@ def test_rows_together_end_as_each_alone(found):
         assert one.maxima.upper_bound == two.maxima.upper_bound
 
 
-class Spoilt(OwnProcess):
-    """Workers in whose hands every case with much friction fails."""
-
-    def solve(self, batches):
-        for place, ends in super().solve(batches):
-            spoilt = CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt")
-            yield (
-                place,
-                [
-                    spoilt
-                    if job.scene.net.friction_angle > 0.7
-                    and job.scene.snowpack.density > 390.0
-                    else end
-                    for job, end in zip(batches[place], ends, strict=False)
-                ],
-            )
+def spoil_rough_dense(job, end):
+    spoilt = job.scene.net.friction_angle > 0.7 and job.scene.snowpack.density > 390.0
+    return CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt") if spoilt else end
 
 
 def test_a_failed_case_leaves_a_gap_by_name():
-    (found,) = search_rows([TASK], Runner(workers=Spoilt()))
+    (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil_rough_dense)))
     assert "failed (spoilt)" in found.gap
     assert all(found.governing(m).is_converged for m in found.members)
 
@@ -251,13 +239,7 @@ def test_a_grid_does_not_depend_on_where_its_lines_are_solved(grid):
 
 @pytest.mark.parametrize(("samples", "shares"), [(2, False), (3, True)])
 def test_lines_of_two_begin_each_on_their_own(samples, shares):
-    seen = set()
-
-    class Recording(OwnProcess):
-        def solve(self, batches):
-            seen.update(job.settings.shares_start for one in batches for job in one)
-            return super().solve(batches)
-
+    workers = Recording()
     counts = {"density": 2, "friction_angle": samples}
-    run_grid(TASK, counts, Runner(workers=Recording()))
-    assert seen == {shares}
+    run_grid(TASK, counts, Runner(workers=workers))
+    assert {job.settings.shares_start for job in workers.jobs} == {shares}

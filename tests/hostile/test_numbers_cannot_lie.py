@@ -28,6 +28,7 @@ from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
 from netdesign.site_cases import CheckRun, search_site, solve_site
 from tests import small_site
+from tests.envelope.made_up_workers import Spoiling
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist
 
@@ -210,20 +211,14 @@ def test_a_limit_that_is_left_out_is_no_pass_where_a_check_needs_it(left_out):
 # --- stores of another time ----------------------------------------------------------
 
 
-class Liar(OwnProcess):
+def lie(_, end):
     """Forces a thousand times too small, as of a solver with a fault long mended."""
-
-    def solve(self, batches):
-        for place, ends in super().solve(batches):
-            yield place, [self._lie(end) for end in ends]
-
-    def _lie(self, end):
-        state = end.state
-        pulls = {
-            name: replace(pull, x=pull.x / 1e3, y=pull.y / 1e3)
-            for name, pull in (("foot", state.foot), ("head", state.head))
-        }
-        return replace(end, state=replace(state, **pulls))
+    state = end.state
+    pulls = {
+        name: replace(pull, x=pull.x / 1e3, y=pull.y / 1e3)
+        for name, pull in (("foot", state.foot), ("head", state.head))
+    }
+    return replace(end, state=replace(state, **pulls))
 
 
 @pytest.fixture
@@ -241,7 +236,7 @@ def stored(tmp_path):
 def test_a_store_of_another_solver_decides_nothing(stored, monkeypatch):
     weak = build_site(strength=2e4)
     monkeypatch.setattr(store_module, "identify_solver", lambda: "0.0+old")
-    lied, _ = stored(weak, Liar())
+    lied, _ = stored(weak, Spoiling(lie))
     assert lied.verdict is not Verdict.FAIL  # the store would turn the verdict
     monkeypatch.undo()
     study, counts = stored(weak)

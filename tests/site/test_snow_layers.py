@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from itertools import chain
 
 import pytest
 
@@ -11,11 +10,11 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Case
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.workers import OwnProcess
 from netdesign.rowcheck.probe import build_scene
 from netdesign.site.reader import read_site
 from netdesign.site_cases import CheckRun, search_site, solve_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
+from tests.envelope.made_up_workers import Recording
 
 SNOW = [
     ["net row", "layer", "thickness [m]", "density [kg/m3]", "temperature [°C]"],
@@ -145,7 +144,7 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     site = read_site(save(layered))
     workers = Recording()
     results = solve_site(site, run, Runner(workers=workers))
-    packs = [job.scene.snowpack for job in workers.seen]
+    packs = [job.scene.snowpack for job in workers.jobs]
     assert [pack.density for pack in packs] == [r.case.density for r in results[0]]
     for pack in packs:
         # in proportion as typed, with the mean of the case
@@ -174,21 +173,10 @@ def test_layers_follow_the_density_of_a_search_too(layered, save):
     workers = Recording()
     (found,) = search_site(site, run, Runner(workers=workers))
     assert found.gap == ""
-    densities = {job.scene.snowpack.density for job in workers.seen}
+    densities = {job.scene.snowpack.density for job in workers.jobs}
     assert {300.0, 330.0, 360.0} <= densities
-    for job in workers.seen:
+    for job in workers.jobs:
         pack = job.scene.snowpack
         assert [layer.density for layer in pack.layers] == pytest.approx(
             [density * pack.density / MEAN for density in (450, 300, 200)]
         )
-
-
-class Recording(OwnProcess):
-    """Workers that remember their jobs."""
-
-    def __init__(self):
-        self.seen = []
-
-    def solve(self, batches):
-        self.seen += chain.from_iterable(batches)
-        return super().solve(batches)
