@@ -14,7 +14,6 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +33,7 @@ from netdesign.envelope.search import (
     RowEnvelope,
     RowTask,
     build_point_task,
+    list_grid,
     run_grid,
     search_rows,
 )
@@ -181,8 +181,7 @@ def measure_excess(task: RowTask, found: RowEnvelope, samples: int) -> float | N
 
 def _choose_points(found: RowEnvelope, samples: int) -> list[Point]:
     """Points of a grid near a maximum of the model, and every 40th of the others."""
-    axis = [k / (samples - 1) for k in range(samples)]
-    grid = list(product(axis, repeat=len(found.task.box.axes)))
+    grid = list_grid([samples] * len(found.task.box.axes))
     model, maxima = found.maxima.surrogate, found.maxima
     if model is None or len(grid) <= _WHOLE:
         return grid
@@ -284,8 +283,7 @@ def _measure_batches(size: BenchSize) -> dict[str, Any]:
     runner = Runner()
     with Clock() as as_grid:
         grid = run_grid(task, counts, runner)
-    points = product(*([k / (n - 1) for k in range(n)] for n in counts.values()))
-    tasks = [build_point_task(task, point) for point in points]
+    tasks = [build_point_task(task, point) for point in list_grid([*counts.values()])]
     with Clock() as alone:
         run_cases(tasks, Runner())
     return {

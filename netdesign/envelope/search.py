@@ -342,9 +342,7 @@ class Grid(NamedTuple):
 
 def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) -> Grid:
     """Solve a tensor grid with so many samples of each axis."""
-    samples = [counts[name] or 2 for name in task.box.axes]
-    axes = [[k / (count - 1) for k in range(count)] for count in samples]
-    points = [tuple(point) for point in product(*axes)]
+    points = list_grid([counts[name] or 2 for name in task.box.axes])
     skip = FrictionSkip(task.box.axes)
     if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
         task = replace(task, settings=replace(task.settings, shares_start=True))
@@ -359,6 +357,11 @@ def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) ->
             results = [resolve_case(*one) for one in zip(tasks, end.value, strict=True)]
             return Grid(results=results, skipped=skip.skipped)
         answer = runner.solve_batches(batches)
+
+
+def list_grid(counts: Sequence[int]) -> list[Point]:
+    """All points of a grid with so many samples of each axis, at least two."""
+    return list(product(*([k / (count - 1) for k in range(count)] for count in counts)))
 
 
 def build_point_task(
