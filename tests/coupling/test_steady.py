@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling import interface, steady
+from netdesign.coupling import hanging, interface, steady
 from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
@@ -76,8 +76,8 @@ def test_net_without_equilibrium(a_scene, monkeypatch):
         cable = solve_funicular(*arguments)
         return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
 
-    solve_funicular = steady.solve_funicular
-    monkeypatch.setattr(steady, "solve_funicular", without_equilibrium)
+    solve_funicular = hanging.solve_funicular
+    monkeypatch.setattr(hanging, "solve_funicular", without_equilibrium)
     result = solve_steady(a_scene(), COARSE)
     assert_fails(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
 
