@@ -48,6 +48,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
+    from netdesign.coupling.bound import PullBound
+    from netdesign.coupling.scene import Scene
+    from netdesign.coupling.solve import Settings
     from netdesign.report.language import Language
     from netdesign.site.model import Site
     from netdesign.study import Study
@@ -255,7 +258,8 @@ def solve(
     start = time.perf_counter()
     solution = solve_scene(scene, settings)
     elapsed = time.perf_counter() - start
-    document = write_solution_document(solution, settings, elapsed)
+    bound = _bound_refused(scene, settings, solution)
+    document = write_solution_document(solution, settings, elapsed, bound)
     if out is not None:
         written = write_solution_folder(
             out, solution, document, scene_file.name, overwrite=force
@@ -266,10 +270,33 @@ def solve(
     elif document["outcome"] == "converged":
         _show_solution(document)
     else:
-        click.echo(f"{document['outcome']}: {document['reason']}")
+        _show_refusal(document)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
+
+
+def _bound_refused(
+    scene: Scene, settings: Settings, solution: object
+) -> PullBound | None:
+    """What a net without a steady state stays below; None if it has one."""
+    from netdesign.coupling.bound import bound_by_less_slack
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.coupling.solution import FailedSolution
+
+    if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
+        return bound_by_less_slack(scene, settings)
+    return None
+
+
+def _show_refusal(document: dict[str, Any]) -> None:
+    click.echo(f"{document['outcome']}: {document['reason']}")
+    if bound := document.get("upper_bound"):
+        click.echo(
+            f"With a slack of {bound['slack']:.3g} the net pulls with at most "
+            f"{bound['foot_kN_per_m']:.1f} kN/m at its foot and "
+            f"{bound['head_kN_per_m']:.1f} kN/m at its head; more slack lowers both."
+        )
 
 
 def main() -> NoReturn:
