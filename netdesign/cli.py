@@ -24,6 +24,7 @@ from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
 from netdesign.commands.options import (
     accuracy_option,
@@ -41,14 +42,18 @@ from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
 from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.given_files import make_printable
-from netdesign.outcome import Verdict
+from netdesign.outcome import Outcome, Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
+    from netdesign.coupling.scene import Scene
+    from netdesign.coupling.solve import Settings
     from netdesign.report.language import Language
+    from netdesign.report.solution_page import Solved
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -184,11 +189,12 @@ def check(
     require_free([path for group in names for path in group], overwrite=force)
     with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
         studies = judge_rows(site, run, solved, profiles)
+    failed = tell_faults(solved.runner.faults)
     style = ReportStyle(language=language, detail=detail)
     write_files(render_files(studies, names, style), overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
-    sys.exit(_exit_code(studies))
+    sys.exit(failed or _exit_code(studies))
 
 
 @cli.command()
@@ -245,7 +251,6 @@ def solve(
         require_free_folder,
         write_solution_folder,
     )
-    from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
@@ -253,7 +258,7 @@ def solve(
     if out is not None:
         require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
-    solution = solve_scene(scene, settings)
+    solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
     document = write_solution_document(solution, settings, elapsed)
     if out is not None:
@@ -269,7 +274,21 @@ def solve(
         click.echo(f"{document['outcome']}: {document['reason']}")
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
-    sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
+    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
+    """Solution of a scene, and the exit code of a fault; it is told on stderr."""
+    from netdesign.coupling.describe import describe_case
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.coupling.solve import solve_scene
+
+    case = describe_case(scene, settings)
+    solution = catch_fault(lambda: solve_scene(scene, settings), case)
+    if not isinstance(solution, Fault):
+        return solution, 0
+    failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
+    return failed, tell_faults({solution: ()})
 
 
 def main() -> NoReturn:
@@ -313,9 +332,7 @@ def main() -> NoReturn:
 
 def _tell_unexpected(error: Exception) -> int:
     """Say what nobody handled: what given paths can cause, their readers have."""
-    text = f"internal error, please report it: {type(error).__name__}: {error}"
-    click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
-    return _EXIT_INTERNAL
+    return tell_faults({describe_fault(error): ()})
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:

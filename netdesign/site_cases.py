@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from typing import Literal
 
@@ -165,11 +166,15 @@ def solve_site(
     return confirm_rows(tasks, by_row, build_history_settings(run.settings), runner)
 
 
-def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+def follow_site(
+    site: Site, run: CheckRun, runner: Runner | None = None
+) -> dict[str, list[MonitoringRecord]]:
     """Measured series by net row, each beside a history of the middle of the ranges.
 
-    Nothing is solved for rows without a measurement.
+    Nothing is solved for rows without a measurement; the runner, if there is one,
+    remembers the faults of the program.
     """
+    keep_fault = (runner or Runner()).keep_fault
     ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
     density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
     middle = Case(
@@ -180,7 +185,8 @@ def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
         series = [one for one in site.monitoring if one.row_id == row.id]
         if series:
             (task,) = _build_tasks(row, [middle], run)
-            found[row.id] = follow_monitoring(task, series)
+            on_fault = partial(keep_fault, row_id=row.id)
+            found[row.id] = follow_monitoring(task, series, on_fault)
     return found
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -123,6 +124,7 @@ def envelope(
             document = _sample(task, counts, runner, start)
         else:
             document, record = _search(task, runner, progress, start)
+    failed = tell_faults(runner.faults)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
         files = dict(zip(paths, _render(record, text), strict=True))
@@ -131,7 +133,7 @@ def envelope(
         click.echo(text)
     else:
         _show(document)
-    sys.exit(_NOT_PROVEN if document["outcome"] == "not_proven" else 0)
+    sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:

@@ -89,14 +89,26 @@ def judge_rows(
     from netdesign.rowcheck.probe import Probe
     from netdesign.site_cases import follow_site
 
-    measured = follow_site(site, run)
+    measured = follow_site(site, run, solved.runner)
     probe = Probe(run.settings, run.creep_law, solved.runner)
-    return [
+    studies = [
         judge_site(
             site, solved.results, profile, run, probe, measured, solved.envelopes
         )
         for profile in profiles
     ]
+    _keep_faults(site, solved)
+    return studies
+
+
+def _keep_faults(site: Site, solved: SolvedRows) -> None:
+    """Tell the runner which net rows the faults in their cases befell."""
+    for row, of_row in zip(site.rows, solved.results, strict=True):
+        for result in of_row:
+            solved.runner.keep_fault(result.fault, row.id)
+    for row, envelope in zip(site.rows, solved.envelopes or (), strict=False):
+        for one in envelope.confirmations:
+            solved.runner.keep_fault(one.confirmed.fault, row.id)
 
 
 def _ignore(_: object) -> None:

@@ -10,6 +10,7 @@ from netdesign.envelope.known_search import KnownSearch
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.store import CaseStore, name_case, name_search
 from netdesign.envelope.workers import Batch, Ends, Job, OwnProcess, Workers
+from netdesign.fault import Fault
 from netdesign.outcome import Outcome
 
 
@@ -38,6 +39,9 @@ class Runner:
         Takes what the user should know.
     counts : Counts
         Of all calls so far.
+    faults : dict of Fault to set of str
+        What failed in the program so far, and the net rows that it befell as far as
+        somebody told; whoever has any ends with ``fault.EXIT_CODE``.
     """
 
     workers: Workers = field(default_factory=OwnProcess)
@@ -45,6 +49,7 @@ class Runner:
     on_done: Callable[[CaseEnd], None] = lambda _: None
     say: Callable[[str], None] = lambda _: None
     counts: Counts = field(default_factory=Counts)
+    faults: dict[Fault, set[str]] = field(default_factory=dict)
 
     def solve(self, jobs: Sequence[Job]) -> list[CaseEnd]:
         """End of every job, in their order; equal jobs are solved once."""
@@ -82,7 +87,13 @@ class Runner:
         self._keep(name, end)
         self.counts.solved += 1
         self.counts.failed += end.outcome is not Outcome.CONVERGED
+        self.keep_fault(end.fault)
         self.on_done(end)
+
+    def keep_fault(self, fault: Fault | None, row_id: str = "") -> None:
+        """Remember a fault of the program, if it is one, and the net row it befell."""
+        if fault is not None:
+            self.faults.setdefault(fault, set()).update([row_id] if row_id else [])
 
     def find_search(self, task: object) -> KnownSearch | None:
         """What is known of the search of a task."""

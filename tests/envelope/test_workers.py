@@ -24,6 +24,7 @@ from netdesign.envelope.workers import (
     build_workers,
     solve_job,
 )
+from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
 from tests.envelope.small_scene import COARSE, build_scene
 
@@ -117,9 +118,9 @@ def test_a_worker_that_dies_costs_one_case_by_name(alone):
 
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
-    assert (end.outcome, end.reason) == (
-        Outcome.WORKER_FAILED, "ZeroDivisionError: spoilt",
-    )  # fmt: skip
+    assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
+    assert (end.fault.kind, end.fault.message) == ("ZeroDivisionError", "spoilt")
+    assert "density 300 kg/m3, friction 30 deg" in end.fault.case
 
 
 def test_small_waves_start_no_processes(alone):
