@@ -181,17 +181,24 @@ def check(
         started=_now(),
     )
     if dry_run:
-        announce(site, run, as_json=as_json)
-        return
+        sys.exit(announce(site, run, as_json=as_json, profiles=len(profiles)))
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
-        studies = judge_rows(site, run, solved, profiles)
-    failed = tell_faults(solved.runner.faults)
     style = ReportStyle(language=language, detail=detail)
-    write_files(render_files(studies, names, style), overwrite=force)
+    with open_rows(
+        site,
+        run,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        profiles=len(profiles),
+    ) as solved:
+        studies = judge_rows(site, run, solved, profiles)
+        files = render_files(studies, names, style)
+    failed = tell_faults(solved.runner.faults)
+    write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
     sys.exit(failed or _exit_code(studies))

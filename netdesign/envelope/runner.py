@@ -35,6 +35,8 @@ class Runner:
         Where finished ones are kept; None keeps nothing beyond a call.
     on_done : callable
         Called after each distinct case of a call, from the store or new.
+    on_ask : callable
+        Called with the cases that are about to be solved.
     say : callable
         Takes what the user should know.
     counts : Counts
@@ -46,7 +48,8 @@ class Runner:
 
     workers: Workers = field(default_factory=OwnProcess)
     store: CaseStore | None = None
-    on_done: Callable[[CaseEnd], None] = lambda _: None
+    on_done: Callable[[object], None] = lambda _: None
+    on_ask: Callable[[Sequence[Job]], None] = lambda _: None
     say: Callable[[str], None] = lambda _: None
     counts: Counts = field(default_factory=Counts)
     faults: dict[Fault, set[str]] = field(default_factory=dict)
@@ -73,6 +76,7 @@ class Runner:
         solved = self.counts.solved
         while missing := _list_missing(named, known):
             todo = [tuple(batch.values()) for batch in missing]
+            self.on_ask([job for batch in todo for job in batch])
             for place, ends in self.workers.solve(todo):
                 for name, end in zip(missing[place], ends, strict=False):
                     known[name] = end

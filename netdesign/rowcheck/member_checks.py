@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import (
@@ -54,7 +54,7 @@ class RowTask:
     """One net row under one profile.
 
     ``probe`` is None where nothing beyond the envelope is to be solved; ``envelope``
-    where the results are a grid.
+    where the results are a grid; ``on_check`` is called after each check of a force.
     """
 
     site: Site
@@ -63,6 +63,7 @@ class RowTask:
     standard: Standard
     probe: Probe | None
     envelope: RowEnvelope | None = None
+    on_check: Callable[[], None] = lambda: None
 
     @property
     def extremes(self) -> dict[str, Extreme]:
@@ -94,9 +95,10 @@ def check_row(task: RowTask) -> list[CheckRecord]:
     """Every check of a row: each member in each mode, then the geometry."""
     extremes = task.extremes
     effects = find_effects(task.row, task.standard)
-    checks = [
-        _check_one(task, given, extremes, effects) for given in task.row.resistances
-    ]
+    checks = []
+    for given in task.row.resistances:
+        checks.append(_check_one(task, given, extremes, effects))
+        task.on_check()
     geometry = [*check_geometry(_read_geometry(task), task.standard)]
     ends = check_ends(effects)
     if ends is not None:
