@@ -132,7 +132,6 @@ class RunProgress:
         self._phases, self._show, self._clock = tuple(phases), show, clock
         self._place, self._done, self._waiting = 0, 0, 0
         self._pace: float | None = None  # seconds of a case whose cost is 1
-        self._words = ""
         self._begin()
 
     @property
@@ -142,14 +141,15 @@ class RunProgress:
     def _begin(self) -> None:
         self._began, self._before = self._clock(), self._done
         self._expected, self._pieces = self._phase.cases, 0
+        self._words, self._stage = "", self._phase.key
 
     def enter(self, key: str) -> None:
         """A phase begins, if it is one of those to come; there is no way back."""
         keys = [phase.key for phase in self._phases]
         if key not in keys[self._place + 1 :]:
             return
-        self._measure_pace()
-        self._place, self._waiting, self._words = keys.index(key), 0, ""
+        self._keep_pace()
+        self._place, self._waiting = keys.index(key), 0
         self._begin()
         self._tell()
 
@@ -178,17 +178,24 @@ class RunProgress:
             f"gap {100 * wave.gap:.2g} %" if math.isfinite(wave.gap) else "no bound yet"
         )
         self._words = f"{gap}, {wave.rows_open} rows open" if wave.rows_open else ""
+        self._stage = self._words or self._stage  # that a search is over is not news
         self._tell()
 
     @property
     def _done_here(self) -> int:
         return self._done - self._before
 
-    def _measure_pace(self) -> None:
-        """What this phase says of the time of later ones."""
-        if self._done_here >= _ENOUGH:
-            elapsed = self._clock() - self._began
-            self._pace = elapsed / self._done_here / self._phase.cost
+    def _measure_pace(self) -> float | None:
+        """As this phase has it; until it is known, as the first one had it."""
+        if self._done_here < _ENOUGH:
+            return self._pace
+        elapsed = self._clock() - self._began
+        return elapsed / self._done_here / self._phase.cost
+
+    def _keep_pace(self) -> None:
+        """Of the first phase that tells: costs of later ones are known less well."""
+        if self._pace is None:
+            self._pace = self._measure_pace()
 
     def _count_left(self) -> int:
         """Solves of this phase that are still expected.
@@ -203,12 +210,13 @@ class RunProgress:
         return max(left, self._waiting)
 
     def _estimate_seconds(self, left: int) -> float | None:
-        self._measure_pace()
-        if self._pace is None:
+        pace = self._measure_pace()
+        if pace is None:
             return None
-        later = self._phases[self._place + 1 :]
-        solves = left * self._phase.cost + sum(one.cases * one.cost for one in later)
-        return solves * self._pace + sum(one.seconds for one in (self._phase, *later))
+        rest = self._phases[self._place :]
+        later = sum(one.cases * one.cost for one in rest[1:])
+        solves = left * self._phase.cost * pace + later * (self._pace or pace)
+        return solves + sum(one.seconds for one in rest)
 
     def _tell(self) -> None:
         left = self._count_left()
@@ -222,7 +230,7 @@ class RunProgress:
                 done=self._done,
                 open=max(left + later, 0 if is_last else 1),
                 words="; ".join([phase.words, *filter(None, words)]),
-                stage=f"{phase.key} {self._words}",
+                stage=self._stage,
                 seconds=self._estimate_seconds(left),
             )
         )

@@ -68,7 +68,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             key="envelope",
             words="cases of the grid"
             if site.ranges.is_grid
-            else "largest forces, confirmed",
+            else "largest forces and their confirmation",
             cases=count_cases(site),
             cost=1.0 / run.jobs,
         )

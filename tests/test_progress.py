@@ -72,7 +72,7 @@ def test_no_count_is_zero_before_the_last_solve_ends(drawn):
     shown, clock = [], Clock()
     run_made_up(drawn, clock, shown.append)
     number = sum(max(1, a - lost) for *_, waves in drawn for a, lost in waves)
-    before = [one for one in shown if one.stage != "reports "]
+    before = [one for one in shown if one.stage != "reports"]
     assert all(one.open >= 1 for one in before)
     assert (shown[-1].done, shown[-1].open) == (number, 0)
     assert [one.done for one in shown] == sorted(one.done for one in shown)
@@ -111,7 +111,7 @@ def test_there_is_no_way_back_to_an_earlier_phase():
     progress = RunProgress(phases, shown.append)
     for key in ("c", "a", "b", "c", "nowhere"):
         progress.enter(key)
-    assert [one.stage for one in shown] == ["c "]
+    assert [one.stage for one in shown] == ["c"]
 
 
 def test_a_wave_gives_gap_and_rows_and_corrects_the_count():
@@ -170,7 +170,7 @@ def test_every_solve_of_a_check_is_counted_in_its_phase(
     lines = read_lines(ended.err)
     phases = list(dict.fromkeys(phase for phase, _, _ in lines))
     expected = [
-        "cases of the grid" if is_grid else "largest forces, confirmed",
+        "cases of the grid" if is_grid else "largest forces and their confirmation",
         *(["histories of the governing cases"] if method == "transient" else []),
         "other creep laws, and what would turn a check",
         "reports",

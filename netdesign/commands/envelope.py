@@ -126,6 +126,7 @@ def envelope(
             document = _sample(task, counts, runner, start)
         else:
             document, record = _search(task, runner, progress, start)
+        progress.enter("outputs")
     failed = tell_faults(runner.faults)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
@@ -155,19 +156,17 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
 
 
 def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
-    """What is solved, with about so many cases; confirmations are part of a search."""
+    """What is done, with about so many cases; confirmations are part of a search."""
     from netdesign.progress import Phase
     from netdesign.site_cases import HISTORY
 
     counts = [one.count for one in given.values() if one.count]
-    if counts:
-        return [Phase(key="envelope", words="grid", cases=math.prod(counts))]
-    search = Phase(key="envelope", words="search", cases=_USUAL_CASES * len(given))
-    if confirm != "transient":
-        return [search]
-    words = "histories of the governing cases"
-    histories = Phase(key="histories", words=words, cases=3, cost=HISTORY)
-    return [search, histories]
+    number = math.prod(counts) if counts else _USUAL_CASES * len(given)
+    phases = [Phase(key="envelope", words="grid" if counts else "search", cases=number)]
+    if confirm == "transient" and not counts:
+        words = "histories of the governing cases"
+        phases.append(Phase(key="histories", words=words, cases=3, cost=HISTORY))
+    return [*phases, Phase(key="outputs", words="outputs", cases=0)]
 
 
 def _build_box(given: dict[str, GivenRange]) -> Box:

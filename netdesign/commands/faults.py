@@ -10,11 +10,12 @@ import click
 from netdesign.fault import EXIT_CODE, Fault
 from netdesign.given_files import make_printable
 
+_SHOWN = 20  # cases of one fault
 TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way
 
 
 def tell_faults(faults: Mapping[Fault, Collection[str]]) -> int:
-    """Tell each fault with its case and net rows, on stderr.
+    """Tell each fault with its cases and their net rows, on stderr.
 
     Parameters
     ----------
@@ -26,8 +27,11 @@ def tell_faults(faults: Mapping[Fault, Collection[str]]) -> int:
     int
         Exit code; 0 without any fault.
     """
+    alike: dict[str, dict[Fault, Collection[str]]] = {}
     for fault, rows in faults.items():
-        click.echo(_describe(fault, sorted(rows)), err=True)
+        alike.setdefault(str(fault), {})[fault] = rows
+    for cases in alike.values():
+        _tell_alike(cases)
     if not faults:
         return 0
     if not os.environ.get(TRACEBACK):
@@ -35,13 +39,21 @@ def tell_faults(faults: Mapping[Fault, Collection[str]]) -> int:
     return EXIT_CODE
 
 
-def _describe(fault: Fault, rows: Collection[str]) -> str:
-    text = f"internal error, please report it: {fault}"
-    if fault.case:
-        text += f"; {_name_rows(rows)}{fault.case}"
+def _tell_alike(faults: Mapping[Fault, Collection[str]]) -> None:
+    """The same fault in some cases: its text once, and the way to the first."""
+    first = next(iter(faults))
+    lines = [f"internal error, please report it: {first}"]
+    cases = [
+        f"  {_name_rows(sorted(rows))}{one.case}"
+        for one, rows in faults.items()
+        if one.case
+    ]
+    lines += cases[:_SHOWN]
+    if cases[_SHOWN:]:
+        lines.append(f"  and {len(cases) - _SHOWN} more cases")
     if os.environ.get(TRACEBACK):
-        text += f"\n{fault.trace}"
-    return make_printable(text)
+        lines.append(first.trace)
+    click.echo(make_printable("\n".join(lines)), err=True)
 
 
 def _name_rows(rows: Collection[str]) -> str:

@@ -177,7 +177,7 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
         r"gap [\d.e+-]+ %, 1 rows open; about \d+ s left",
         lines[-2],
     )
-    assert re.fullmatch(r"search: \d+ solved; about 0 s left", lines[-1])
+    assert re.fullmatch(r"outputs: \d+ solved; about 0 s left", lines[-1])
 
 
 @pytest.mark.parametrize(
