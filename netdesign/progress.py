@@ -55,8 +55,8 @@ class Phase:
     ----------
     key, words : str
         Its name, for programs and for people.
-    cases : int
-        About so many solves.
+    cases, most : int
+        About so many solves; ``most`` is the largest number that was seen.
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
@@ -70,6 +70,7 @@ class Phase:
     key: str
     words: str
     cases: int
+    most: int = 0
     cost: float = 1.0
     pieces: int = 0
     unit: str = "checks"

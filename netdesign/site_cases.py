@@ -34,9 +34,10 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.study import MonitoringRecord
 
-# Solves of a row, as --dry-run and progress expect them. Beside the envelope a row
-# that passes took 3, one that fails 2 to 160, 38 in the median (40 random sites).
-_USUAL_SEARCH, _USUAL_HISTORIES, _USUAL_BESIDE = 55, 3, 40
+# Solves of a row, usual and at most, as --dry-run and progress expect them. A search
+# has a limit of its own, and a row so many members. Beside the envelope a row that
+# passes took 3, one that fails 2 to 160, 38 in the median (random sites, one profile).
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 160)
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
@@ -58,39 +59,53 @@ def count_cases(site: Site) -> int:
     """Number of cases of a grid; about that of a search, which nobody knows yet."""
     if site.ranges.is_grid:
         return len(site.rows) * len(build_cases(site.ranges))
-    return len(site.rows) * _USUAL_SEARCH
+    return len(site.rows) * _SEARCH[0]
 
 
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     """What a check of a site does, in its order, with about so many solves."""
-    phases = [
-        Phase(
-            key="envelope",
-            words="cases of the grid"
-            if site.ranges.is_grid
-            else "largest forces and their confirmation",
-            cases=count_cases(site),
-            cost=1.0 / run.jobs,
-        )
-    ]
-    if run.method == "transient":
-        number = _USUAL_HISTORIES * len(site.rows)
-        words, cost = "histories of the governing cases", HISTORY / run.jobs
-        phases.append(Phase(key="histories", words=words, cases=number, cost=cost))
+    rows = len(site.rows)
     ids = {row.id for row in site.rows}
     measured = sum(one.row_id in ids for one in site.monitoring)
-    if measured:
-        words = "histories beside measured series"
-        phases.append(Phase(key="measured", words=words, cases=measured, cost=HISTORY))
-    checks = Phase(
-        key="checks",
-        words="other creep laws, and what would turn a check",
-        cases=_USUAL_BESIDE * len(site.rows),  # they serve all profiles
-        pieces=profiles * sum(len(row.resistances) for row in site.rows),
-    )
-    seconds = _REPORTS_S * profiles
-    reports = Phase(key="reports", words="reports", cases=0, seconds=seconds)
-    return [*phases, checks, reports]
+    histories = rows if run.method == "transient" else 0
+    checks = sum(len(row.resistances) for row in site.rows)
+    phases = [
+        _plan_envelope(site, run),
+        Phase(
+            key="histories",
+            words="histories of the governing cases",
+            cases=histories * _HISTORIES[0],
+            most=histories * _HISTORIES[1],
+            cost=HISTORY / run.jobs,
+        ),
+        Phase(
+            key="measured",
+            words="histories beside measured series",
+            cases=measured,
+            most=measured,
+            cost=HISTORY,
+        ),
+        Phase(
+            key="checks",
+            words="other creep laws, and what would turn a check",
+            cases=profiles * rows * _BESIDE[0],
+            most=profiles * rows * _BESIDE[1],
+            pieces=profiles * checks,
+        ),
+        Phase(key="reports", words="reports", cases=0, seconds=_REPORTS_S * profiles),
+    ]
+    return [one for one in phases if one.most or one.seconds]
+
+
+def _plan_envelope(site: Site, run: CheckRun) -> Phase:
+    """The grid, or the search with its confirmations."""
+    cases, cost = count_cases(site), 1.0 / run.jobs
+    if site.ranges.is_grid:
+        words, most = "cases of the grid", cases
+    else:
+        words = "largest forces and their confirmation"
+        most = len(site.rows) * _SEARCH[1]
+    return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
 
 
 def search_site(

@@ -40,7 +40,12 @@ def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> 
             "jobs": run.jobs,
             "predicted_s": seconds,
             "phases": [
-                {"phase": one.key, "does": one.words, "cases": one.cases}
+                {
+                    "phase": one.key,
+                    "does": one.words,
+                    "cases": one.cases,
+                    "cases_most": one.most,
+                }
                 for one in phases
             ],
             "notes": list(site.notes),
@@ -60,7 +65,8 @@ def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) ->
     )
     for phase in phases:
         if phase.cases:
-            click.echo(f"{phase.cases:7} {phase.words}")
+            most = f" (up to {phase.most})" if phase.most > phase.cases else ""
+            click.echo(f"{phase.cases:7}{most} {phase.words}")
     for note in site.notes:
         click.echo(f"note: {note}")
 

@@ -39,7 +39,7 @@ def test_histories_and_profiles_are_promised_too(call):
     }  # fmt: skip
     assert plan["predicted_s"] > 0.5 * 21 * 100.0
     two = announce(call, *("--standard", "eurocode", "--standard", "nf-p-95-304-style"))
-    assert two["further_solves"] == BESIDE  # they share what is solved
+    assert two["further_solves"] == 2 * BESIDE  # each turns elsewhere
 
 
 @pytest.mark.usefixtures("_timed")
@@ -48,7 +48,8 @@ def test_a_search_is_told_as_about_so_many_cases(call):
     assert (
         "7 net rows, about 385 cases and about 280 further solves, about 334 s"
     ) in ended.out
-    assert "385 largest forces" in ended.out
+    assert "385 (up to 1855) largest forces" in ended.out
+    assert "280 (up to 1120) other creep laws" in ended.out
     assert announce(call)["is_searched"]
 
 
@@ -70,12 +71,12 @@ def test_a_fault_of_the_program_ends_a_dry_run_with_5(call, monkeypatch):
     assert "internal error, please report it: IndexError: spoilt" in ended.err
 
 
-@pytest.mark.parametrize("rows", [["R1"], ["R4"], ["R7"], ["R2", "R5"]])
+@pytest.mark.parametrize("rows", [["R4"], ["R7"]])
 @pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
 def test_no_more_is_solved_of_the_example_than_was_promised(
     call, tmp_path, monkeypatch, rows, is_grid
 ):
-    """Rows that pass, that pass narrowly, and that fail."""
+    """One that passes narrowly, and one that fails."""
     path, calls = tmp_path / "site.xlsx", []
     write_short_example(path, rows, is_grid=is_grid)
     quick = ("check", path, "--accuracy", "0.05", "--jobs", "1", "--json")
