@@ -92,16 +92,21 @@ class Standing:
     stage: str
     seconds: float | None
 
+    @property
+    def count(self) -> str:
+        """``40 solved, about 90 to go``."""
+        to_go = f", about {self.open} to go" if self.open else ""
+        return f"{self.done} solved{to_go}"
+
+    @property
+    def left(self) -> str:
+        """``about 12 s left``; "" as long as nothing is known of it."""
+        return "" if self.seconds is None else f"about {self.seconds:.0f} s left"
+
     def __str__(self) -> str:
         """``search: 40 solved, about 90 to go; gap 2 %; about 12 s left``."""
         head, _, rest = self.words.partition("; ")
-        count = f"{self.done} solved"
-        if self.open:
-            count += f", about {self.open} to go"
-        parts = [f"{head}: {count}", *([rest] if rest else [])]
-        if self.seconds is not None:
-            parts.append(f"about {self.seconds:.0f} s left")
-        return "; ".join(parts)
+        return "; ".join(filter(None, (f"{head}: {self.count}", rest, self.left)))
 
 
 class SearchWave(Protocol):
@@ -245,22 +250,29 @@ def show_phases(phases: Sequence[Phase], *, quiet: bool) -> Iterator[RunProgress
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.table import Column
 
     console = Console(stderr=True)
     if not console.is_terminal:
         yield RunProgress(phases, _write_lines())
         return
-    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as progress:
-        total = sum(phase.cases for phase in phases)
-        task = progress.add_task(phases[0].words, total=total)
+    text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
+    columns = (
+        TimeElapsedColumn(),
+        BarColumn(12),
+        TextColumn("{task.description}", table_column=text),
+    )
+    with Progress(*columns, console=console, transient=True, expand=True) as progress:
+        task = progress.add_task("", total=sum(phase.cases for phase in phases))
 
         def show(standing: Standing) -> None:
+            # what matters least stands last, where a narrow terminal cuts it
+            told = (standing.count, standing.left, standing.words)
             progress.update(
                 task,
                 completed=standing.done,
                 total=standing.done + standing.open,
-                description=str(standing),
+                description="; ".join(filter(None, told)),
             )
 
         yield RunProgress(phases, show)

@@ -218,14 +218,17 @@ def test_a_terminal_shows_one_line_that_ends(tmp_path):
         cwd=tmp_path,
         stdout=subprocess.DEVNULL,
         stderr=theirs,
-        env=os.environ | {"TERM": "xterm", "COLUMNS": "150"},
+        env=os.environ | {"TERM": "xterm", "COLUMNS": "80"},
     ) as process:
         os.close(theirs)
         shown = read_all(ours)
     assert process.returncode == 1
     text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-    places = [text.index(f"{words}: ") for words in ("cases of the grid", "reports")]
+    places = [text.index(words) for words in ("cases of the grid", "other", "reports")]
     assert places == sorted(places)
+    lines = re.split(r"[\r\n]+", text)
+    assert all(len(line) <= 80 for line in lines)
+    assert any(re.search(r"\d+ to go; about \d+ s left", line) for line in lines)
     assert "0 to go" not in re.findall(r"\b\d+ to go", text)
     assert shown.endswith("\x1b[2K")  # the line is gone
 

@@ -247,12 +247,11 @@ def test_a_fault_beside_a_measured_series_is_its_reason(monkeypatch):
         air_temperatures=(None, 263.15),
         source="Monitoring!A2",
     )
-    site, runner = (
-        small_site.build_site(*small_site.ROWS, monitoring=(series,)),
-        Runner(),
-    )
+    site, seen = small_site.build_site(*small_site.ROWS, monitoring=(series,)), []
+    runner = Runner(on_done=seen.append)
     (record,) = site_cases.follow_site(site, small_site.RUN, runner)["R2"]
     assert (record.model_reason, record.model_kN) == (SENTENCE, [])
+    assert seen == [record]
     ((fault, rows),) = runner.faults.items()
     assert (fault.kind, rows) == ("IndexError", {"R2"})
     assert "Monitoring!A2" in fault.case
