@@ -24,6 +24,7 @@ from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
 from netdesign.commands.options import (
     accuracy_option,
@@ -41,8 +42,9 @@ from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
 from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.given_files import make_printable
-from netdesign.outcome import Verdict
+from netdesign.outcome import Outcome, Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,6 +54,7 @@ if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.solve import Settings
     from netdesign.report.language import Language
+    from netdesign.report.solution_page import Solved
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -179,19 +182,27 @@ def check(
         started=_now(),
     )
     if dry_run:
-        announce(site, run, as_json=as_json)
-        return
+        sys.exit(announce(site, run, as_json=as_json, profiles=len(profiles)))
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
-        studies = judge_rows(site, run, solved, profiles)
     style = ReportStyle(language=language, detail=detail)
-    write_files(render_files(studies, names, style), overwrite=force)
+    with open_rows(
+        site,
+        run,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        profiles=len(profiles),
+    ) as solved:
+        studies = judge_rows(site, run, solved, profiles)
+        files = render_files(studies, names, style)
+    failed = tell_faults(solved.runner.faults)
+    write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
-    sys.exit(_exit_code(studies))
+    sys.exit(failed or _exit_code(studies))
 
 
 @cli.command()
@@ -248,7 +259,6 @@ def solve(
         require_free_folder,
         write_solution_folder,
     )
-    from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
@@ -256,9 +266,9 @@ def solve(
     if out is not None:
         require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
-    solution = solve_scene(scene, settings)
+    solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
-    bound = _bound_refused(scene, settings, solution)
+    bound = None if failed else _bound_refused(scene, settings, solution)
     document = write_solution_document(solution, settings, elapsed, bound)
     if out is not None:
         written = write_solution_folder(
@@ -273,7 +283,21 @@ def solve(
         _show_refusal(document)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
-    sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
+    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
+    """Solution of a scene, and the exit code of a fault; it is told on stderr."""
+    from netdesign.coupling.describe import describe_case
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.coupling.solve import solve_scene
+
+    case = describe_case(scene, settings)
+    solution = catch_fault(lambda: solve_scene(scene, settings), case)
+    if not isinstance(solution, Fault):
+        return solution, 0
+    failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
+    return failed, tell_faults({solution: ()})
 
 
 def _bound_refused(
@@ -340,9 +364,7 @@ def main() -> NoReturn:
 
 def _tell_unexpected(error: Exception) -> int:
     """Say what nobody handled: what given paths can cause, their readers have."""
-    text = f"internal error, please report it: {type(error).__name__}: {error}"
-    click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
-    return _EXIT_INTERNAL
+    return tell_faults({describe_fault(error): ()})
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:

@@ -17,17 +17,21 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
+from netdesign.coupling.describe import describe_case
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.coupling.solve import Settings, solve_scene
 from netdesign.envelope.state import CaseEnd, keep_state
 from netdesign.envelope.store import identify_solver
-from netdesign.errors import NetDesignError
+from netdesign.errors import ModelError, NetDesignError, SolveError
+from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 
 DIED = "a worker process ended abruptly"
+NO_MEMORY = "a worker process had not enough memory"
 _AHEAD = 2  # batches in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
@@ -70,29 +74,37 @@ class Workers(Protocol):
 def solve_job(job: Job) -> CaseEnd:
     """Solve one case; a failure comes back as an outcome, even that of a bug."""
     try:
-        solution = solve_scene(job.scene, job.settings)
-        if isinstance(solution, FailedSolution):
-            return CaseEnd(outcome=solution.outcome, reason=solution.reason)
-        if isinstance(solution, WallSolution):
-            return CaseEnd(
-                outcome=Outcome.OUT_OF_VALIDITY,
-                reason="a rigid wall has no net whose forces could be followed",
-            )
-        history = solution.history
-        if history is not None and not history.plateau.reached:
-            return CaseEnd(
-                outcome=Outcome.PLATEAU_NOT_REACHED,
-                reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
-            )
-        state = keep_state(solution)
-        if not state.is_finite:
-            end = Outcome.NONFINITE
-            return CaseEnd(outcome=end, reason=end.sentence)
-        return CaseEnd(outcome=Outcome.CONVERGED, state=state)
-    except Exception as error:  # a bug in one case must not hide the others
+        end = catch_fault(partial(_solve, job), describe_case(job.scene, job.settings))
+    except SolveError as error:
+        return CaseEnd(outcome=error.outcome, reason=error.reason)
+    except ModelError as error:
+        return CaseEnd(outcome=Outcome.OUT_OF_VALIDITY, reason=str(error))
+    except MemoryError:
+        return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=NO_MEMORY)
+    if isinstance(end, Fault):
+        return CaseEnd(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE, fault=end)
+    return end
+
+
+def _solve(job: Job) -> CaseEnd:
+    solution = solve_scene(job.scene, job.settings)
+    if isinstance(solution, FailedSolution):
+        return CaseEnd(outcome=solution.outcome, reason=solution.reason)
+    if isinstance(solution, WallSolution):
         return CaseEnd(
-            outcome=Outcome.WORKER_FAILED, reason=f"{type(error).__name__}: {error}"
+            outcome=Outcome.OUT_OF_VALIDITY,
+            reason="a rigid wall has no net whose forces could be followed",
         )
+    history = solution.history
+    if history is not None and not history.plateau.reached:
+        return CaseEnd(
+            outcome=Outcome.PLATEAU_NOT_REACHED,
+            reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
+        )
+    state = keep_state(solution)
+    if not state.is_finite:
+        return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.sentence)
+    return CaseEnd(outcome=Outcome.CONVERGED, state=state)
 
 
 def solve_batch(batch: Batch) -> Ends:

@@ -24,6 +24,7 @@ from netdesign.envelope.workers import (
     build_workers,
     solve_job,
 )
+from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
 from tests.envelope.small_scene import COARSE, build_scene
 
@@ -117,9 +118,33 @@ def test_a_worker_that_dies_costs_one_case_by_name(alone):
 
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
-    assert (end.outcome, end.reason) == (
-        Outcome.WORKER_FAILED, "ZeroDivisionError: spoilt",
-    )  # fmt: skip
+    assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
+    assert (end.fault.kind, end.fault.message) == ("ZeroDivisionError", "spoilt")
+    assert "density 300 kg/m3, friction 30 deg" in end.fault.case
+
+
+def spoil_within(batches):
+    """The batches with one more case in the midst of the last, which has a bug."""
+    *rest, (low, *others) = batches
+    return [*rest, (job(350.0, FaultyScene, friction_deg=20.0), low, *others)]
+
+
+def require_fault(workers, alone):
+    """The fault comes whole from wherever it was; the other ends are as ever."""
+    arrived = dict(workers.solve(spoil_within(BATCHES)))
+    fault = arrived[2].pop(0).fault
+    assert [[encode_end(e) for e in arrived[k]] for k in range(3)] == alone
+    assert (fault.kind, fault.message) == ("ZeroDivisionError", "spoilt")
+    assert fault.place.startswith("coupling/")
+    assert "test_workers.py" in fault.trace
+
+
+@pytest.mark.parametrize("workers", [OwnProcess(), ProcessPool(2, worth=1)])
+def test_a_fault_comes_whole_from_any_process(workers, alone):
+    try:
+        require_fault(workers, alone)
+    finally:
+        workers.close()
 
 
 def test_small_waves_start_no_processes(alone):
@@ -228,6 +253,15 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
         workers.close()
     assert found[1].pop(1) == LOST
     assert found == alone
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_fault_comes_whole_from_a_cluster(cluster, alone):
+    workers = DaskCluster(cluster)
+    try:
+        require_fault(workers, alone)
+    finally:
+        workers.close()
 
 
 def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
