@@ -119,6 +119,7 @@ class Sheet:
     hidden_rows: frozenset[int] = frozenset()
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
+    is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
 
     def cell(self, row: int, column: int) -> Cell:
         """Cell at a place, blank where nothing is filled in."""

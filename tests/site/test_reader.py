@@ -236,12 +236,6 @@ def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
     assert missing.rule == 'lacks the heading "slope angle [deg]"'
 
 
-def test_an_unknown_project_item_is_noted(sheets, save):
-    sheets["Project"] = [["name", "value"], ["colour", "red"]]
-    (note,) = read_site(save(sheets)).notes
-    assert 'Project › A2: "colour" is no known item' in note
-
-
 # What is refused: one fault, one finding
 
 
@@ -415,14 +409,6 @@ def test_missing_sheets_are_refused(sheets, save, refused):
     nets, ranges = refused(save(sheets))
     assert nets.rule == 'lacks the sheet "Nets"'
     assert ranges.rule == 'lacks the sheet "Ranges"'
-
-
-def test_types_without_their_sheet_are_refused_where_they_are_named(
-    sheets, save, refused
-):
-    del sheets["Posts"]
-    (finding,) = refused(save(sheets))
-    assert (finding.cell, finding.rule) == ("N2", "is no id of sheet Posts")
 
 
 def test_sheets_without_headings_or_lines_are_refused(sheets, save, refused):
