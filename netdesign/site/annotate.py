@@ -104,6 +104,9 @@ def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
             _write(place, cell.value if cell.value is not None else cell.text)
             if cell.is_percent:
                 place.number_format = "0.##%"
+            elif cell.shown_unit:  # or the copy would lose what the finding is about
+                unit = cell.shown_unit.replace('"', "")
+                place.number_format = f'General" {unit}"'
 
 
 def _write(cell: Any, value: object) -> None:

@@ -44,6 +44,8 @@ class Cell:
     formula: str = ""
     is_error: bool = False
     is_percent: bool = False  # the cell's format shows hundredfold
+    is_thousandth: bool = False  # the cell's format shows a thousandth
+    shown_unit: str = ""  # what the cell's format shows beside the number
     decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
 
     @property

@@ -296,7 +296,10 @@ def test_a_percent_format_counts_as_shown_and_against_degrees_is_refused(
 
     assert read_site(save(sheets, show_slack_as_percent)).rows[0].slack == 0.05
     (finding,) = refused(save(sheets, show_slope_as_percent))
-    assert finding.rule == ("is ambiguous: its format shows 4000 %, the file holds 40")
+    assert finding.rule == (
+        "is ambiguous: its format shows 4000 %, the file holds 40, the unit of the "
+        "column is deg"
+    )
     sheets["Nets"][HEADINGS][1] = "slope angle [%]"
     sheets["Nets"][FIRST][1], sheets["Nets"][SECOND][1] = 0.7, 70
     rows = read_site(save(sheets, show_slope_as_percent)).rows
