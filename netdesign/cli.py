@@ -41,10 +41,11 @@ from netdesign.commands.site_input import open_site, site_options, temporary_exa
 from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
-from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.errors import NetDesignError, OutputError, SiteDataError
 from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.given_files import make_printable
 from netdesign.outcome import Outcome, Verdict
+from netdesign.streams import guard_streams, print_json
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -324,13 +325,32 @@ def _show_refusal(document: dict[str, Any]) -> None:
 
 
 def main() -> NoReturn:
-    """Entry point: every way of ending has its own exit code."""
+    """Entry point: every way of ending has its own exit code.
+
+    A reader who stops reading changes none of them: what was asked for was done. A
+    standard output that cannot be written to is the user's to mend.
+    """
+    streams = guard_streams()
+    try:
+        _run()
+    except SystemExit as end:
+        code = end.code
+    streams.flush()
+    if streams.fault and code in (None, *EXIT_CODES.values()):
+        reason = streams.fault.strerror
+        click.echo(f"error: standard output cannot be written to: {reason}", err=True)
+        streams.flush()
+        code = OutputError.exit_code
+    sys.exit(code)
+
+
+def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
     _unset_empty("SOURCE_DATE_EPOCH")
     try:
-        # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
+        # not cli.main(): click has exit codes of its own
         with cli.make_context(
             "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
         ) as context:
@@ -351,10 +371,6 @@ def main() -> NoReturn:
     except NetDesignError as error:
         click.echo(f"error: {make_printable(str(error))}", err=True)
         sys.exit(error.exit_code)
-    except BrokenPipeError:
-        # whoever read our output has stopped: nothing more to say
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(_EXIT_INTERNAL)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
@@ -403,10 +419,10 @@ def _show(
             if explain:
                 print_changes(study, console, words)
     elif len(studies) == 1:
-        click.echo(write_document(studies[0]))
+        print_json(write_document(studies[0]))
     else:
         documents = ",\n".join(write_document(study) for study in studies)
-        click.echo(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
+        print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
 
 
 def _show_solution(document: dict[str, Any]) -> None:

@@ -7,6 +7,7 @@ worker that dies costs the one case that kills it, by name.
 from __future__ import annotations
 
 import gc
+import logging
 import multiprocessing
 import os
 import signal
@@ -16,6 +17,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -207,6 +209,9 @@ class DaskCluster:
                 "pip install 'netdesign[dask]'"
             ) from None
         _require_answer(address)
+        self._address = address
+        # what Dask logs of a lost connection is told by a ClusterError
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         try:
             self._client = Client(
                 f"tcp://{address.removeprefix('tcp://')}",
@@ -231,7 +236,16 @@ class DaskCluster:
         """Solve all batches; those lost with a worker are tried again job by job.
 
         The scheduler gives up every batch that waited with one that kills workers.
+
+        Raises
+        ------
+        ClusterError
+            If the connection to the scheduler is lost, or it has no workers.
         """
+        with _naming_loss(self._address):
+            yield from self._solve(batches)
+
+    def _solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         from distributed import KilledWorker, as_completed
 
         places = {
@@ -318,6 +332,22 @@ def _require_answer(address: str) -> None:
         socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
     except (OSError, ValueError) as error:
         raise _name_silence(address, error) from None
+
+
+@contextmanager
+def _naming_loss(address: str) -> Iterator[None]:
+    """Say in our words that the scheduler is gone: Dask cancels what it was asked."""
+    from distributed import CancelledError
+    from distributed.comm import CommClosedError
+
+    try:
+        yield
+    except (CancelledError, CommClosedError) as error:
+        raise ClusterError(
+            f"--executor dask://{address}: the connection to the Dask scheduler is "
+            f"lost ({type(error).__name__}); finished cases are kept: start it, or "
+            "leave the option out, and run again"
+        ) from None
 
 
 def _name_silence(address: str, error: Exception) -> ClusterError:

@@ -37,6 +37,15 @@ class DyingScene(Scene):
         os._exit(9)
 
 
+class LongScene(Scene):
+    """Takes longer than any test waits."""
+
+    @property
+    def flow_law(self):
+        time.sleep(60.0)
+        raise TimeoutError
+
+
 class FaultyScene(Scene):
     """Raises what no case may raise: a bug."""
 
@@ -164,7 +173,9 @@ def test_an_interrupt_leaves_no_process_behind():
 
 
 PARENT = """
+import subprocess
 import sys
+import time
 sys.path[:0] = {path!r}
 from tests.envelope.test_workers import BATCHES, ProcessPool
 
@@ -262,6 +273,41 @@ def test_a_fault_comes_whole_from_a_cluster(cluster, alone):
         require_fault(workers, alone)
     finally:
         workers.close()
+
+
+SCHEDULER = """
+import time, dask, distributed
+if __name__ == "__main__":
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, host="127.0.0.1",
+        protocol="tcp://", dashboard_address="127.0.0.1:0", silence_logs=50,
+    )
+    print(cluster.scheduler_address.removeprefix("tcp://"), flush=True)
+    time.sleep(300)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills a process")
+@pytest.mark.filterwarnings("ignore")
+def test_a_scheduler_that_is_killed_is_named_with_its_address(alone, capfd):
+    """All that was asked of it is cancelled: no fault of the program, and no case's."""
+    root = Path(__file__).parents[2]
+    with subprocess.Popen(
+        [sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, text=True, cwd=root
+    ) as process:
+        address = process.stdout.readline().strip()
+        workers = DaskCluster(address)
+        arriving = workers.solve([BATCHES[0], (job(300.0, LongScene),)])
+        place, ends = next(arriving)
+        assert (place, [encode_end(end) for end in ends]) == (0, alone[0])
+        process.kill()
+        with pytest.raises(ClusterError) as caught:
+            next(arriving)
+        workers.close()
+    message = str(caught.value)
+    assert f"--executor dask://{address}: the connection" in message
+    assert "finished cases are kept" in message
+    assert "Traceback" not in capfd.readouterr().err
 
 
 def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
