@@ -119,7 +119,7 @@ def test_what_a_solver_means_keeps_its_outcome(end_of, error, outcome):
 # House rule: nobody else, since a bug that is caught is a bug that nobody sees.
 CATCH_ALL = {
     "fault.py": "catch_fault",  # every case, whoever solves it
-    "cli.py": "main",
+    "cli.py": "_run",
     "output.py": "_exchange",  # undoes, and raises again
     "benchmark/spread.py": "_work_through",  # stops its processes, and raises again
     "benchmark/stress.py": "attempt_scene",  # counts bugs: that is what it is for
