@@ -56,7 +56,7 @@ class Phase:
     key, words : str
         Its name, for programs and for people.
     cases, most : int
-        About so many solves; ``most`` is the largest number that was seen.
+        About so many solves; ``most`` has room for the largest number seen.
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int

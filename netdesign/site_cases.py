@@ -36,8 +36,8 @@ from netdesign.study import MonitoringRecord
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
 # has a limit of its own, and a row so many members. Beside the envelope a row that
-# passes took 3, one that fails 2 to 160, 38 in the median (random sites, one profile).
-_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 160)
+# passes took 3, one that fails 2 to 184, 38 in the median (130 random sites).
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 250)
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are

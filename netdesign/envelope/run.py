@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from netdesign.checks.result import Band
+from netdesign.coupling.describe import describe_case
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solve import Settings
 from netdesign.envelope.grid import Case
@@ -13,7 +15,7 @@ from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd, SolvedState
 from netdesign.envelope.workers import Job
 from netdesign.errors import ModelError
-from netdesign.fault import Fault
+from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
@@ -113,13 +115,19 @@ def build_job(task: CaseTask) -> Job | None:
 
 def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
     """Forces of a case from the end of its solve; failures stay outcomes."""
-    if end is None:
+    if end is None or task.scene is None:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
     if end.state is None:
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
     if task.layout is None:
         return _resolve_net(task, end.state)
-    return _resolve_support(task, task.layout, end.state)
+    found = catch_fault(
+        partial(_resolve_support, task, task.layout, end.state),
+        describe_case(task.scene, task.settings),
+    )
+    if not isinstance(found, Fault):
+        return found
+    return replace(_failed(task, Outcome.PROGRAM_FAULT, SENTENCE), fault=found)
 
 
 def _resolve_net(task: CaseTask, state: SolvedState) -> CaseResult:

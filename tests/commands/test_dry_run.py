@@ -49,7 +49,7 @@ def test_a_search_is_told_as_about_so_many_cases(call):
         "7 net rows, about 385 cases and about 280 further solves, about 334 s"
     ) in ended.out
     assert "385 (up to 1855) largest forces" in ended.out
-    assert "280 (up to 1120) other creep laws" in ended.out
+    assert "280 (up to 1750) other creep laws" in ended.out
     assert announce(call)["is_searched"]
 
 

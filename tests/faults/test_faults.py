@@ -114,7 +114,7 @@ def test_ctrl_c_twice_ends_as_once(begin, clean, tmp_path, pause):
     options = ("--out", "out", "--jobs", 2)
     pool = "import netdesign.envelope.workers as w; w._WORTH_A_POOL = 1\n"
     run = begin(*options, before=pool, start_new_session=True)
-    assert run.stderr.readline() == "2 of 8 cases\n"
+    assert "1 solved, about" in run.stderr.readline()
     run.send_signal(signal.SIGINT)
     time.sleep(pause)
     run.send_signal(signal.SIGINT)

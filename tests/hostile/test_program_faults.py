@@ -16,6 +16,7 @@ from netdesign.coupling import solve as solve_module
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solve import solve_scene
 from netdesign.coupling.transient import TransientSettings
+from netdesign.envelope import run as run_module
 from netdesign.envelope import workers as workers_module
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.workers import ProcessPool
@@ -137,6 +138,24 @@ def test_a_fault_in_all_histories_leaves_no_row_proven(spoil, check):
     assert code == 5
     assert require_told(rows, sound, told, ValueError) == set(ROWS)
     assert {one["method"] for one in read_told(told, ValueError)} == {"transient"}
+
+
+def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeypatch):
+    """What follows from a solve in this process spares the other rows, too."""
+    spoil()
+    _, sound, _ = check()
+    calls, solve = [], run_module.compute_anchor_forces
+
+    def fail_in_one(*args, **values):
+        calls.append(args)
+        if len(calls) == 3:
+            raise TypeError("spoilt 3 times")
+        return solve(*args, **values)
+
+    monkeypatch.setattr(run_module, "compute_anchor_forces", fail_in_one)
+    code, rows, told = check()
+    assert code == 5
+    assert require_told(rows, sound, told, TypeError) == {"R1"}
 
 
 def test_every_fault_of_a_run_is_told(spoil, check):
