@@ -30,7 +30,7 @@ ROWS = (
     {"site"},
     {
         *("study", "check_site", "monitoring", "rowcheck", "site_cases"),
-        *("envelope_record", "envelope_file", "study_repeat"),
+        *("envelope_record", "envelope_file", "study_repeat", "study_values"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
     {"benchmark"},
@@ -62,6 +62,7 @@ NEIGHBOURS = {
     ("study_repeat", "check_site"),  # what a study says of its settings
     ("study_repeat", "site_cases"),
     ("study_repeat", "study"),
+    ("study_repeat", "study_values"),
 }
 
 # Third-party packages, and the modules that may import them.

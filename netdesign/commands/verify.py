@@ -171,7 +171,8 @@ def _show_comparison(study: Study, again: Study) -> bool:
     from netdesign.given_files import make_printable
     from netdesign.report.tables import hash_results
     from netdesign.study import write_document
-    from netdesign.study_repeat import SAME, list_differences, list_versions
+    from netdesign.study_repeat import list_differences, list_versions
+    from netdesign.study_values import SAME
 
     old, new = list_versions(study), list_versions(again)
     for name in [name for name in old | new if old.get(name) != new.get(name)]:
