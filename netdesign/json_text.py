@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from functools import lru_cache
 from json.encoder import encode_basestring
 from math import isfinite
@@ -129,6 +129,7 @@ def read_json(shape: type, text: str) -> Any:
     if values <= _SMALL and len(text) <= _SMALL_TEXT:
         return TypeAdapter(shape).validate_json(text)
     strange = keys.symmetric_difference(field.name for field in fields(shape))
+    strange -= {one.name for one in fields(shape) if one.default is not MISSING} - keys
     if strange:
         raise ValueError(f"unknown or missing: {', '.join(sorted(strange))[:500]}")
     return _build_quick_validator(shape).validate_json(text)

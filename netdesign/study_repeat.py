@@ -73,6 +73,6 @@ def list_versions(study: Study) -> dict[str, str]:
 
 
 def _leave_out_versions(study: Study) -> Study:
-    """Study without what made it; a reader of a difference wants that beside it."""
+    """Study without what made it and the digest over it, which are told beside."""
     made = replace(study.provenance, version="", libraries={})
-    return replace(study, provenance=made)
+    return replace(study, provenance=made, digest="")

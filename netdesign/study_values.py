@@ -84,7 +84,7 @@ def _list_ids(members: Sequence[Any]) -> list[str]:
 
 
 def _is_same(old: Any, new: Any, *, is_exact: bool) -> bool:
-    if all(type(one) in (int, float) for one in (old, new)):
+    if all(isinstance(one, float) or type(one) is int for one in (old, new)):
         tolerance = 0.0 if is_exact else 1.0
         return math.isclose(
             old, new, rel_tol=SAME * tolerance, abs_tol=_NOISE * tolerance

@@ -30,7 +30,7 @@ ROWS = (
     {"site"},
     {
         *("study", "check_site", "monitoring", "rowcheck", "site_cases"),
-        *("envelope_record", "envelope_file", "study_repeat", "study_values"),
+        *("envelope_record", "envelope_file", "study_repeat", "study_values", "audit"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
     {"benchmark"},
@@ -62,6 +62,10 @@ NEIGHBOURS = {
     ("study_repeat", "check_site"),  # what a study says of its settings
     ("study_repeat", "site_cases"),
     ("study_repeat", "study"),
+    ("audit", "study"),
+    ("audit", "check_site"),  # how a study states a profile
+    ("audit", "rowcheck"),  # judges checks again
+    ("audit", "study_values"),
     ("study_repeat", "study_values"),
 }
 

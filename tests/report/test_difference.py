@@ -10,7 +10,7 @@ from netdesign.study import read_document, write_document
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_study
 
-UNTOLD = (("provenance", "started"), ("provenance", "command"), ("schema",))
+UNTOLD = (("provenance", "started"), ("provenance", "command"), ("digest",))
 
 
 def changes_of(old, new):
