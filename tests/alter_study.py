@@ -15,11 +15,14 @@ def list_leaves(part, path=()):
 
 
 def alter_leaf(document, path, draw):
-    """Put another value of the same kind in the place of one."""
+    """Put another value of the same kind in the place of one; how far it moved."""
     *parents, key = path
     for parent in parents:
         document = document[parent]
-    document[key] = _alter(document[key], str(key), draw)
+    before = document[key]
+    document[key] = after = _alter(before, str(key), draw)
+    is_number = isinstance(before, float) and isinstance(after, float)
+    return abs(after - before) if is_number else float("inf")
 
 
 def _alter(value, key, draw):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from netdesign.audit.comparing import Pair, tell_unequal
 from netdesign.audit.envelope_audit import (
@@ -31,6 +31,8 @@ from netdesign.study import (
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 _BROUGHT_BY = ("net", "uphill_guy", "downhill_guy", "post")
 _LAWS = ("global_balance", "friction_excess", "end_direction", "tension_share")
+_END_SHARE = 0.005  # of the chord: the drawn points are rounded to a tenth of a mm
+_BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
 _CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are lost
 
 
@@ -59,6 +61,7 @@ def audit_support(
     if is_steady:
         yield from _audit_sizes(place, row.anchors, drawing, drawn)
     yield from _audit_head(place, row, drawing)
+    yield from _audit_ends(place, row, drawing)
     yield from _audit_laws(place, row, drawn, is_steady=is_steady)
 
 
@@ -153,6 +156,31 @@ def _audit_head(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
             yield f"{place}: {member} has {anchor.size_kN!r} kN, but {force!r} follows"
     expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
     yield from _compare_head(place, others, expected)
+
+
+def _audit_ends(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
+    """A net pulls on its ends along itself, as far as its drawing shows that."""
+    foot, pull = row.anchors[0], row.head[0]
+    for name, points, force in (
+        ("foot", drawing.net_m, (foot.force_x_kN, foot.force_y_kN)),
+        ("head", drawing.net_m[::-1], (pull.x_kN, pull.y_kN)),
+    ):
+        angle = _find_angle(points, force)
+        if angle is None or angle > _BESIDE_NET:
+            yield f"{place}: the net does not pull along itself on its {name}"
+
+
+def _find_angle(
+    points: Sequence[tuple[float, float]], force: tuple[float, float]
+) -> float | None:
+    """Angle between a force and the curve that leaves the first point [rad]."""
+    (x0, y0), (x1, y1) = points[0], points[-1]
+    least = _END_SHARE * math.hypot(x1 - x0, y1 - y0)
+    for x, y in points[1:]:
+        if math.hypot(x - x0, y - y0) >= least:
+            turn = math.atan2(y - y0, x - x0) - math.atan2(force[1], force[0])
+            return abs(math.remainder(turn, 2.0 * math.pi))
+    return None
 
 
 def _compare_head(
