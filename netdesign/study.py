@@ -7,6 +7,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 from __future__ import annotations
 
 import hashlib
+import json
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -445,8 +446,9 @@ def compute_digest(study: Study) -> str:
     was altered by somebody who did not think of it. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
-    text = write_json(replace(study, digest=""))
-    return hashlib.sha256(text.encode()).hexdigest()
+    # 2 and 2.0 are one number, and become one when a document is read
+    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
 
 
 def write_document(study: Study) -> str:

@@ -251,6 +251,7 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
     signed = (("Prepared", view.prepared), ("Checked", view.checked), ("Approved", ""))
     blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
+        ("To verify this report", view.verification),
         ("Identification and sign-off", view.identification),
         ("Signatures", [(book.words(label), name) for label, name in signed]),
         ("Assumed: confirm in your copy of the standard", _list_assumed(book, view)),

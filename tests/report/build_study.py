@@ -164,7 +164,6 @@ def build_row(
         reasons=reasons,
         anchors=build_anchors(),
         head=build_head(),
-        independent=build_independent(),
         guideline=build_guideline(extremes[0]),
         notes=[f"no gap is given {SCRIPT}"],
     )

@@ -8,7 +8,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, write_difference
 from netdesign.study import read_document, write_document
 from tests.alter_study import alter_leaf, list_leaves
-from tests.report.build_study import build_study
+from tests.report.build_study import build_independent, build_study
 
 UNTOLD = (("provenance", "started"), ("provenance", "command"), ("digest",))
 
@@ -83,6 +83,12 @@ def test_the_document_and_the_lines_show_the_same_values():
     }
 
 
+def obey_laws(study):
+    """The same study with independent checks."""
+    rows = [replace(row, independent=build_independent()) for row in study.rows]
+    return replace(study, rows=rows)
+
+
 def turn(study, *, row, check, verdict, **changes):
     """The same study with another verdict, and more, of one check."""
     rows = list(study.rows)
@@ -123,7 +129,7 @@ def test_lost_passes_stand_before_all_other_turns():
 
 @pytest.mark.parametrize("gone", ["checks", "independent"])
 def test_what_is_gone_counts_as_turned_and_what_comes_and_passes_does_not(gone):
-    old = build_study()
+    old = obey_laws(build_study())
     row = replace(old.rows[0], **{gone: getattr(old.rows[0], gone)[1:]})
     new = replace(old, rows=[row, *old.rows[1:]])
     assert any(change.is_turned for change in compare_studies(old, new))
@@ -151,7 +157,7 @@ def test_values_are_told_apart_however_close():
 
 def test_every_value_of_a_study_is_compared():
     """Whatever one leaf of the document is altered to: it is told, save two."""
-    small = build_study(samples=2, rows=2)
+    small = obey_laws(build_study(samples=2, rows=2))
     drawn = [replace(row, drawing=replace(row.drawing, mesh_edges_m=[(0.0, 0.0, 1.0,
              1.0)])) for row in small.rows]  # fmt: skip
     text = write_document(replace(small, rows=drawn))

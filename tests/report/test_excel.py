@@ -9,7 +9,9 @@ from netdesign.report.check_sheet import CHANGED
 from netdesign.report.check_view import find_utilisation_band
 from netdesign.report.excel import SHEETS, render_workbook
 from netdesign.report.language import LANGUAGES, load_words
+from netdesign.report.view import EXPLANATION
 from netdesign.report.words import VERDICTS
+from netdesign.study import compute_digest
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_rows, read_workbook, recalculate
 
@@ -206,6 +208,16 @@ def test_what_governs_and_why_follows_an_edited_cell(fresh):
         False, True, True, True
     ]  # fmt: skip
     assert summary["D3"].value == VERDICTS["fail"].meaning
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_sheet_says_how_the_report_is_verified(language):
+    words = load_words(language)
+    book = read_workbook(render_workbook(STUDY, words))
+    shown = [cell.value for line in next(iter(book)).iter_rows() for cell in line]
+    assert "netdesign verify --study study.json --site combe.xlsx" in shown
+    assert compute_digest(STUDY) in shown
+    assert words(EXPLANATION) in shown
 
 
 def test_a_spreadsheet_program_refuses_what_no_factor_can_be(content):
