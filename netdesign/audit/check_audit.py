@@ -145,10 +145,21 @@ def _audit_verdict(place: str, check: CheckRecord, *, complete: bool) -> Iterato
         )  # fmt: skip
     if bool(resistance and is_known) and check.utilisation is None:
         yield f"{place}: no utilisation, though demand and resistance are there"
-    if check.verdict is not verdict:
+    if check.verdict is not verdict and not is_held_back(check):
         yield f"{place} says {check.verdict}, but its numbers give {verdict}"
     if not check.reason.startswith(_OPENINGS[check.verdict]):
         yield f"{place} says {check.verdict}, but its reason does not"
+
+
+def is_held_back(check: CheckRecord) -> bool:
+    """Whether a check that would pass is not proven for a reason beside its numbers.
+
+    Such as a fault of the program in a solve that the check does not rest on.
+    """
+    high, resistance = check.demand_high_kN, check.resistance_kN
+    is_met = high is not None and bool(resistance) and high <= (resistance or 0.0)
+    is_told = check.reason.startswith(_OPENINGS[Verdict.NOT_PROVEN])
+    return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
 
 
 def _audit_spreads(place: str, check: CheckRecord) -> Iterator[str]:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+from netdesign.study import Study
+
 SAME = 1e-9  # relative; stored numbers that follow from each other differ by rounding
 _ZERO = 1e-12  # kN; what is left of a sum that must vanish
+_STEADY = "steady"
 
 Pair = tuple[str, float | None, float | None]
 
@@ -16,6 +19,11 @@ def is_same(one: float | None, other: float | None) -> bool:
     if one is None or other is None:
         return one is other
     return math.isclose(one, other, rel_tol=SAME, abs_tol=_ZERO)
+
+
+def is_of_steady_states(study: Study) -> bool:
+    """Whether no history had a part in its forces."""
+    return study.provenance.settings.get("method") == _STEADY
 
 
 def tell_unequal(place: str, pairs: Iterable[Pair]) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
@@ -32,7 +33,8 @@ def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[st
     spans : mapping of str to (float, float)
         Ranges by the keys of a ``CasePoint``, in their units.
     tolerance : float
-        Largest residual of a balance that counts as converged [-].
+        Largest residual of a balance that counts as converged [-]; infinite for
+        histories, which have another measure of it.
     """
     place = f"net row {row.id!r}"
     for number, case in enumerate(row.cases):
@@ -71,7 +73,9 @@ def _audit_case(
     place: str, case: CaseRecord, spans: Spans, tolerance: float
 ) -> Iterator[str]:
     forces = [read_force(case, member) for member in MEMBERS]
-    numbers = (*forces, case.error_percent, case.balance_residual)
+    numbers = [*forces]
+    if math.isfinite(tolerance):
+        numbers += [case.error_percent, case.balance_residual]
     if case.outcome is Outcome.CONVERGED:
         if any(number is None or number < 0.0 for number in numbers) or case.reason:
             yield f"{place} converged, but has a reason, or no numbers of at least 0"
@@ -80,7 +84,7 @@ def _audit_case(
     elif any(force is not None for force in forces) or not case.reason:
         yield f"{place} has no result, but forces, or no reason"
     for key in _AXES:
-        low, high = spans.get(key, (0.0, float("inf")))
+        low, high = spans.get(key, (0.0, math.inf))
         value = getattr(case.case, key)
         if not low * (1.0 - SAME) <= value <= high * (1.0 + SAME):
             yield f"{place}: {key} = {value!r} lies outside {low!r} to {high!r}"

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from netdesign.audit.comparing import is_same
+from netdesign.audit.check_audit import is_held_back
+from netdesign.audit.comparing import is_of_steady_states, is_same
 from netdesign.audit.envelope_audit import find_largest, is_complete, same_point
 from netdesign.check_site import is_calibrated, list_notes, list_row_notes
 from netdesign.checks import Band, Standard, check_member
@@ -40,7 +41,7 @@ def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[
     standard : Standard or None
         The profile with the study's hash; without it no check is judged again.
     """
-    law = _find_law(study)
+    law, is_steady = _find_law(study), is_of_steady_states(study)
     stored = [row.id for row in study.rows]
     given = [row.id for row in site.rows]
     if stored != given:
@@ -60,7 +61,9 @@ def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[
         if row.id in rows:
             yield from _audit_row(row, rows[row.id], site, law)
             if standard is not None and is_known:
-                yield from _audit_judgement(row, rows[row.id], site, standard)
+                yield from _audit_judgement(
+                    row, rows[row.id], site, standard, is_steady=is_steady
+                )
 
 
 def _find_law(study: Study) -> CreepLaw:
@@ -91,7 +94,7 @@ def _audit_row(
 
 
 def _audit_judgement(
-    row: RowStudy, given: NetRow, site: Site, standard: Standard
+    row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
 ) -> Iterator[str]:
     """Judge every check again from its action, as if that had just been solved."""
     effects = find_effects(given, standard)
@@ -101,13 +104,16 @@ def _audit_judgement(
     ]
     expected = [*members, *record_geometry(given, site.ranges, standard)]
     stored, again = (
-        [_leave_out_solves(check, row) for check in checks]
+        [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
     )
     place = f"net row {row.id!r}"
     for found in compare_values(stored, again)[:_MOST]:
         yield f"{place}: judged again, its checks differ: {found}"
-    for found in compare_values(row.notes, list_row_notes(given, effects))[:_MOST]:
+    notes = list_row_notes(given, effects)
+    # of histories more is noted, behind these
+    shown = row.notes if is_steady else row.notes[: len(notes)]
+    for found in compare_values(shown, notes)[:_MOST]:
         yield f"{place}: its notes differ: {found}"
     for check in row.checks:
         if check.action is not None:
@@ -131,14 +137,16 @@ def _judge_again(
         sizes = sorted((low, check.action_kN, high))
         low, middle, high = map(newton_from_kilonewton, sizes)
         action = Band(low=low, value=middle, high=high)
-    gap = "" if is_complete(row) else _UNKNOWN_GAP
-    return record_result(check_member(action, given, standard, gap=gap), given)
+    is_whole = is_complete(row) and not is_held_back(check)
+    gap = "" if is_whole else _UNKNOWN_GAP
+    again = record_result(check_member(action, given, standard, gap=gap), given)
+    # a gap in its own words is one
+    return again if is_whole else replace(again, reason=check.reason)
 
 
-def _leave_out_solves(check: CheckRecord, row: RowStudy) -> CheckRecord:
-    """Check without what only a solve can tell; a gap in its own words is one."""
-    reason = check.reason if is_complete(row) else ""
-    return replace(check, case=None, action=None, spreads=[], changes=[], reason=reason)
+def _leave_out_solves(check: CheckRecord) -> CheckRecord:
+    """Check without what only a solve can tell."""
+    return replace(check, case=None, action=None, spreads=[], changes=[])
 
 
 def _hold(force_kN: float) -> Band:

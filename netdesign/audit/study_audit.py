@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import asdict
 
 from netdesign.audit.check_audit import audit_checks
+from netdesign.audit.comparing import is_of_steady_states
 from netdesign.audit.envelope_audit import Spans, audit_envelope
 from netdesign.audit.support_audit import audit_support
 from netdesign.checks import Standard
@@ -18,7 +20,6 @@ _AXES = {
     "friction angle": "friction_deg",
     "net inclination": "inclination_deg",
 }
-STEADY = "steady"
 
 
 def audit_study(
@@ -48,8 +49,8 @@ def audit_study(
     """
     found = [*_audit_profile(study, standard)]
     spans = _read_spans(study)
-    tolerance = _read_number(study, "balance tolerance")
-    is_steady = study.provenance.settings.get("method") == STEADY
+    is_steady = is_of_steady_states(study)
+    tolerance = _read_number(study, "balance tolerance") if is_steady else math.inf
     for row in study.rows:
         found += audit_envelope(row, spans, tolerance)
         found += audit_checks(row, study.profile)
@@ -124,6 +125,6 @@ def _read_spans(study: Study) -> Spans:
 def _read_number(study: Study, setting: str) -> float:
     """Number of a setting; nothing is known without it."""
     try:
-        return float(study.provenance.settings.get(setting, "inf"))
+        return float(study.provenance.settings.get(setting, math.inf))
     except ValueError:
-        return float("inf")
+        return math.inf
