@@ -8,7 +8,7 @@ from __future__ import annotations
 import importlib.metadata
 import math
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import repeat
 from types import MappingProxyType
@@ -69,6 +69,7 @@ def judge_site(
     probe: Probe | None = None,
     monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
     envelopes: Sequence[RowEnvelope] | None = None,
+    on_check: Callable[[], None] = lambda: None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
 
@@ -89,6 +90,8 @@ def judge_site(
         As ``follow_site`` returns it; decides nothing.
     envelopes : sequence of RowEnvelope, optional
         As ``search_site`` returns them: their upper bounds are what is checked.
+    on_check : callable, optional
+        Called after each check of a force.
 
     Returns
     -------
@@ -104,6 +107,7 @@ def judge_site(
                 standard=standard,
                 probe=probe,
                 envelope=searched,
+                on_check=on_check,
             ),
             run,
         )

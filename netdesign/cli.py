@@ -24,6 +24,7 @@ from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
 from netdesign.commands.options import (
     accuracy_option,
@@ -40,15 +41,21 @@ from netdesign.commands.site_input import open_site, site_options, temporary_exa
 from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
-from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.errors import NetDesignError, OutputError, SiteDataError
+from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.given_files import make_printable
-from netdesign.outcome import Verdict
+from netdesign.outcome import Outcome, Verdict
+from netdesign.streams import guard_streams, print_json
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
+    from netdesign.coupling.bound import PullBound
+    from netdesign.coupling.scene import Scene
+    from netdesign.coupling.solve import Settings
     from netdesign.report.language import Language
+    from netdesign.report.solution_page import Solved
     from netdesign.site.model import Site
     from netdesign.study import Study
 
@@ -176,19 +183,27 @@ def check(
         started=_now(),
     )
     if dry_run:
-        announce(site, run, as_json=as_json)
-        return
+        sys.exit(announce(site, run, as_json=as_json, profiles=len(profiles)))
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
-    with open_rows(site, run, executor=executor, cache=cache, quiet=quiet) as solved:
-        studies = judge_rows(site, run, solved, profiles)
     style = ReportStyle(language=language, detail=detail)
-    write_files(render_files(studies, names, style), overwrite=force)
+    with open_rows(
+        site,
+        run,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        profiles=len(profiles),
+    ) as solved:
+        studies = judge_rows(site, run, solved, profiles)
+        files = render_files(studies, names, style)
+    failed = tell_faults(solved.runner.faults)
+    write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
-    sys.exit(_exit_code(studies))
+    sys.exit(failed or _exit_code(studies))
 
 
 @cli.command()
@@ -245,7 +260,6 @@ def solve(
         require_free_folder,
         write_solution_folder,
     )
-    from netdesign.coupling.solve import solve_scene
     from netdesign.scene_file import read_scene
     from netdesign.solution_file import write_solution_document
 
@@ -253,9 +267,10 @@ def solve(
     if out is not None:
         require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
-    solution = solve_scene(scene, settings)
+    solution, failed = _solve(scene, settings)
     elapsed = time.perf_counter() - start
-    document = write_solution_document(solution, settings, elapsed)
+    bound = None if failed else _bound_refused(scene, settings, solution)
+    document = write_solution_document(solution, settings, elapsed, bound)
     if out is not None:
         written = write_solution_folder(
             out, solution, document, scene_file.name, overwrite=force
@@ -266,20 +281,76 @@ def solve(
     elif document["outcome"] == "converged":
         _show_solution(document)
     else:
-        click.echo(f"{document['outcome']}: {document['reason']}")
+        _show_refusal(document)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
-    sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
+    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
+    """Solution of a scene, and the exit code of a fault; it is told on stderr."""
+    from netdesign.coupling.describe import describe_case
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.coupling.solve import solve_scene
+
+    case = describe_case(scene, settings)
+    solution = catch_fault(lambda: solve_scene(scene, settings), case)
+    if not isinstance(solution, Fault):
+        return solution, 0
+    failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
+    return failed, tell_faults({solution: ()})
+
+
+def _bound_refused(
+    scene: Scene, settings: Settings, solution: object
+) -> PullBound | None:
+    """What a net without a steady state stays below; None if it has one."""
+    from netdesign.coupling.bound import bound_by_less_slack
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.coupling.solution import FailedSolution
+
+    if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
+        return bound_by_less_slack(scene, settings)
+    return None
+
+
+def _show_refusal(document: dict[str, Any]) -> None:
+    click.echo(f"{document['outcome']}: {document['reason']}")
+    if bound := document.get("upper_bound"):
+        click.echo(
+            f"With a slack of {bound['slack']:.3g} the net pulls with at most "
+            f"{bound['foot_kN_per_m']:.1f} kN/m at its foot and "
+            f"{bound['head_kN_per_m']:.1f} kN/m at its head; more slack lowers both."
+        )
 
 
 def main() -> NoReturn:
-    """Entry point: every way of ending has its own exit code."""
+    """Entry point: every way of ending has its own exit code.
+
+    A reader who stops reading changes none of them: what was asked for was done. A
+    standard output that cannot be written to is the user's to mend.
+    """
+    streams = guard_streams()
+    try:
+        _run()
+    except SystemExit as end:
+        code = end.code
+    streams.flush()
+    if streams.fault and code in (None, *EXIT_CODES.values()):
+        reason = streams.fault.strerror
+        click.echo(f"error: standard output cannot be written to: {reason}", err=True)
+        streams.flush()
+        code = OutputError.exit_code
+    sys.exit(code)
+
+
+def _run() -> NoReturn:
     gc.set_threshold(_OBJECTS)
     if instruction := os.environ.get(COMPLETE_VARIABLE):
         sys.exit(answer_shell(cli, instruction))
     _unset_empty("SOURCE_DATE_EPOCH")
     try:
-        # not cli.main(): click ends a broken pipe with 1, which would read as "fail"
+        # not cli.main(): click has exit codes of its own
         with cli.make_context(
             "netdesign", sys.argv[1:], auto_envvar_prefix=ENVIRONMENT_PREFIX
         ) as context:
@@ -300,10 +371,6 @@ def main() -> NoReturn:
     except NetDesignError as error:
         click.echo(f"error: {make_printable(str(error))}", err=True)
         sys.exit(error.exit_code)
-    except BrokenPipeError:
-        # whoever read our output has stopped: nothing more to say
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(_EXIT_INTERNAL)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
             raise
@@ -313,9 +380,7 @@ def main() -> NoReturn:
 
 def _tell_unexpected(error: Exception) -> int:
     """Say what nobody handled: what given paths can cause, their readers have."""
-    text = f"internal error, please report it: {type(error).__name__}: {error}"
-    click.echo(f"{make_printable(text)}\n(NETDESIGN_TRACEBACK=1 shows where)", err=True)
-    return _EXIT_INTERNAL
+    return tell_faults({describe_fault(error): ()})
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:
@@ -354,10 +419,10 @@ def _show(
             if explain:
                 print_changes(study, console, words)
     elif len(studies) == 1:
-        click.echo(write_document(studies[0]))
+        print_json(write_document(studies[0]))
     else:
         documents = ",\n".join(write_document(study) for study in studies)
-        click.echo(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
+        print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
 
 
 def _show_solution(document: dict[str, Any]) -> None:

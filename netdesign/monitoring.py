@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.staggered import StaggeredSettings
 from netdesign.coupling.transient import TransientSettings, solve_transient
 from netdesign.envelope.run import CaseTask
+from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.site.model import MonitoringSeries
 from netdesign.snow.fluidity import COLDEST, FLUIDITY_EXPONENT, WARMEST
 from netdesign.structure.anchors import compute_anchor_forces
@@ -36,7 +38,9 @@ class _Modelled:
 
 
 def follow_monitoring(
-    task: CaseTask, series: Sequence[MonitoringSeries]
+    task: CaseTask,
+    series: Sequence[MonitoringSeries],
+    on_fault: Callable[[Fault], None] = lambda _: None,
 ) -> list[MonitoringRecord]:
     """Record measured series with the history of one case beside each.
 
@@ -46,13 +50,15 @@ def follow_monitoring(
         Case of the net row that stands for it.
     series : sequence of MonitoringSeries
         Of this net row; without any, nothing is solved.
+    on_fault : callable, optional
+        Takes what failed in the program.
 
     Returns
     -------
     list of MonitoringRecord
         One for each series. A history that fails leaves its reason.
     """
-    return [_record(task, one) for one in series]
+    return [_record(one, _guard(task, one, on_fault)) for one in series]
 
 
 def build_clock(series: MonitoringSeries, scene: Scene) -> Clock:
@@ -73,8 +79,19 @@ def build_clock(series: MonitoringSeries, scene: Scene) -> Clock:
     return Clock.of_temperatures(times, kelvins, scene.fluidity)
 
 
-def _record(task: CaseTask, series: MonitoringSeries) -> MonitoringRecord:
-    modelled = _follow(task, series)
+def _guard(
+    task: CaseTask, series: MonitoringSeries, on_fault: Callable[[Fault], None]
+) -> _Modelled:
+    """History of a series; that the program failed is a reason of its own."""
+    case = f"history beside the readings of {series.source}"
+    found = catch_fault(partial(_follow, task, series), case)
+    if not isinstance(found, Fault):
+        return found
+    on_fault(found)
+    return _Modelled(times_d=[], forces_kN=[], reason=SENTENCE)
+
+
+def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
     return MonitoringRecord(
         member=series.member,
         source=series.source,

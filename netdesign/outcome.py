@@ -18,6 +18,7 @@ class Outcome(StrEnum):
     PLATEAU_NOT_REACHED = "plateau_not_reached"
     OUT_OF_VALIDITY = "out_of_validity"
     WORKER_FAILED = "worker_failed"
+    PROGRAM_FAULT = "program_fault"
 
     @property
     def sentence(self) -> str:
@@ -35,6 +36,7 @@ _SENTENCES = {
     Outcome.PLATEAU_NOT_REACHED: "The history came to no plateau within its horizon.",
     Outcome.OUT_OF_VALIDITY: "The scene lies outside what the model can represent.",
     Outcome.WORKER_FAILED: "The process that computed this case ended early.",
+    Outcome.PROGRAM_FAULT: "A fault of the program, not of the input.",
 }
 
 

@@ -16,8 +16,17 @@ _OLD = ".old"
 _RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name
 
 
-def require_free(paths: list[Path], *, overwrite: bool) -> None:
+def require_free(paths: list[Path], *, overwrite: bool, may_force: bool = True) -> None:
     """Refuse before any work if an output exists or its folder is unfit.
+
+    Parameters
+    ----------
+    paths : list of Path
+        Outputs.
+    overwrite : bool
+        Whether files may be there.
+    may_force : bool
+        Whether the command has ``--force``: no option is advised that it lacks.
 
     Raises
     ------
@@ -25,24 +34,37 @@ def require_free(paths: list[Path], *, overwrite: bool) -> None:
         Naming every path that is in the way, or that no file can have.
     """
     try:
-        _require_free(paths, overwrite=overwrite)
+        _require_files(paths)
+        _require_free(paths, overwrite=overwrite, may_force=may_force)
     except OSError as error:
         raise OutputError(f"{error.filename}: {error.strerror}") from error
 
 
-def _require_free(paths: list[Path], *, overwrite: bool) -> None:
+def _require_files(paths: list[Path]) -> None:
+    """Refuse what stands there and is no file: a folder, a device, a pipe.
+
+    To put a file in its place would take it away from the system.
+    """
+    for path in paths:
+        if path.exists() and not path.is_file():
+            raise OutputError(
+                f"{path} is there and is no file: choose another place for the output"
+            )
+
+
+def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
     taken = [str(path) for path in paths if path.exists()]
     if taken and not overwrite:
+        advice = "use --force to overwrite, or " if may_force else ""
         raise OutputError(
-            f"exists already: {', '.join(taken)}; use --force to overwrite, or --out "
-            "for another folder"
+            f"exists already: {', '.join(taken)}; {advice}choose another place"
         )
     for folder in {path.parent for path in paths}:
         nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
         if not nearest.is_dir():
-            raise OutputError(f"{nearest} is not a folder: choose another with --out")
+            raise OutputError(f"{nearest} is not a folder: choose another place")
         if not os.access(nearest, os.W_OK):
-            raise OutputError(f"{nearest} cannot be written to: choose another folder")
+            raise OutputError(f"{nearest} cannot be written to: choose another place")
 
 
 def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:

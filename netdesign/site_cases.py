@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from typing import Literal
 
@@ -27,12 +28,18 @@ from netdesign.envelope.search import (
 )
 from netdesign.errors import ModelError
 from netdesign.monitoring import follow_monitoring
+from netdesign.progress import Phase
 from netdesign.rowcheck.probe import build_scene
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.study import MonitoringRecord
 
-_USUAL_SEARCH = 55  # cases of a row, for --dry-run only
+# Solves of a row, usual and at most, as --dry-run and progress expect them. A search
+# has a limit of its own, and a row so many members. Beside the envelope a row that
+# passes took 3, one that fails 2 to 160, 38 in the median (random sites, one profile).
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 160)
+HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
+_REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
 
 
@@ -52,7 +59,53 @@ def count_cases(site: Site) -> int:
     """Number of cases of a grid; about that of a search, which nobody knows yet."""
     if site.ranges.is_grid:
         return len(site.rows) * len(build_cases(site.ranges))
-    return len(site.rows) * _USUAL_SEARCH
+    return len(site.rows) * _SEARCH[0]
+
+
+def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
+    """What a check of a site does, in its order, with about so many solves."""
+    rows = len(site.rows)
+    ids = {row.id for row in site.rows}
+    measured = sum(one.row_id in ids for one in site.monitoring)
+    histories = rows if run.method == "transient" else 0
+    checks = sum(len(row.resistances) for row in site.rows)
+    phases = [
+        _plan_envelope(site, run),
+        Phase(
+            key="histories",
+            words="histories of the governing cases",
+            cases=histories * _HISTORIES[0],
+            most=histories * _HISTORIES[1],
+            cost=HISTORY / run.jobs,
+        ),
+        Phase(
+            key="measured",
+            words="histories beside measured series",
+            cases=measured,
+            most=measured,
+            cost=HISTORY,
+        ),
+        Phase(
+            key="checks",
+            words="other creep laws, and what would turn a check",
+            cases=profiles * rows * _BESIDE[0],
+            most=profiles * rows * _BESIDE[1],
+            pieces=profiles * checks,
+        ),
+        Phase(key="reports", words="reports", cases=0, seconds=_REPORTS_S * profiles),
+    ]
+    return [one for one in phases if one.most or one.seconds]
+
+
+def _plan_envelope(site: Site, run: CheckRun) -> Phase:
+    """The grid, or the search with its confirmations."""
+    cases, cost = count_cases(site), 1.0 / run.jobs
+    if site.ranges.is_grid:
+        words, most = "cases of the grid", cases
+    else:
+        words = "largest forces and their confirmation"
+        most = len(site.rows) * _SEARCH[1]
+    return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
 
 
 def search_site(
@@ -165,11 +218,15 @@ def solve_site(
     return confirm_rows(tasks, by_row, build_history_settings(run.settings), runner)
 
 
-def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
+def follow_site(
+    site: Site, run: CheckRun, runner: Runner | None = None
+) -> dict[str, list[MonitoringRecord]]:
     """Measured series by net row, each beside a history of the middle of the ranges.
 
-    Nothing is solved for rows without a measurement.
+    Nothing is solved for rows without a measurement; the runner, if there is one,
+    remembers the faults of the program, and tells of each series.
     """
+    runner = runner or Runner()
     ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
     density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
     middle = Case(
@@ -180,7 +237,10 @@ def follow_site(site: Site, run: CheckRun) -> dict[str, list[MonitoringRecord]]:
         series = [one for one in site.monitoring if one.row_id == row.id]
         if series:
             (task,) = _build_tasks(row, [middle], run)
-            found[row.id] = follow_monitoring(task, series)
+            on_fault = partial(runner.keep_fault, row_id=row.id)
+            found[row.id] = follow_monitoring(task, series, on_fault)
+            for record in found[row.id]:
+                runner.on_done(record)
     return found
 
 

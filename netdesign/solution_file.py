@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign import __version__
+from netdesign.coupling.bound import PullBound
 from netdesign.coupling.history import History, Moment
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
@@ -33,13 +34,18 @@ def write_solution_document(
     solution: Solution | WallSolution | FailedSolution,
     settings: Settings,
     wall_s: float,
+    bound: PullBound | None = None,
 ) -> dict[str, Any]:
-    """Solution as plain values in the form ``netdesign.solution/1``."""
+    """Solution as plain values in the form ``netdesign.solution/1``.
+
+    ``bound`` is that of a failed solution, where there is one.
+    """
     if isinstance(solution, FailedSolution):
         return {
             "schema": SOLUTION_SCHEMA,
             "outcome": solution.outcome.value,
             "reason": solution.reason,
+            **({} if bound is None else {"upper_bound": _write_bound(bound)}),
         }
     held = (
         _write_wall(solution)
@@ -61,6 +67,18 @@ def write_solution_document(
             "creep_law": solution.scene.creep_law.name,
             "element": solution.scene.flow_law.element,
             "settings": _write_settings(settings),
+        },
+    }
+
+
+def _write_bound(bound: PullBound) -> dict[str, float]:
+    """Pulls that a refused net stays below: those of the same net with this slack."""
+    ends = {"foot": bound.foot, "head": bound.head}
+    return {
+        "slack": bound.slack,
+        **{
+            f"{end}_kN_per_m": kilonewton_from_newton(pull.size + pull.error)
+            for end, pull in ends.items()
         },
     }
 

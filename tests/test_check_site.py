@@ -72,6 +72,7 @@ def test_study_is_complete(results, standard):
         assert [check.id for check in row.checks] == [
             *expected,
             "geometry.inclination",
+            "geometry.slope",
             "geometry.height",
         ]
         assert len(row.cases) == 4
@@ -196,7 +197,7 @@ def test_one_failed_case_is_a_gap_in_every_check(judge, results):
     study = judge([*results[0][:3], fail(results[0][3])])
     row = study.rows[0]
     assert row.verdict == Verdict.NOT_PROVEN
-    for check in row.checks[:-2]:
+    for check in row.checks[:-3]:
         assert check.verdict == Verdict.NOT_PROVEN
         assert "1 of 4 cases failed (snow flow: spoilt)" in check.reason
     record = row.cases[3]
@@ -296,7 +297,7 @@ def test_a_net_overtopped_by_snow_fails_by_its_height_and_says_why(standard):
     study = judge_site(site, solve_site(site, RUN), standard, RUN)
     assert study.verdict == check_of(study, "geometry.height").verdict == Verdict.FAIL
     assert {case.outcome for case in study.rows[0].cases} == {Outcome.OUT_OF_VALIDITY}
-    for check in study.rows[0].checks[:-2]:
+    for check in study.rows[0].checks[:-3]:
         assert check.verdict == Verdict.NOT_PROVEN
         assert "4 of 4 cases failed" in check.reason
         assert "overtops the net" in check.reason

@@ -22,6 +22,7 @@ ROWS = (
     {
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
         *("quantities", "output", "progress", "given_files", "json_text"),
+        *("fault",),
     },
     {"numerics", "resistance"},
     {"snow", "cable", "structure", "checks"},
@@ -44,6 +45,7 @@ ROWS = (
 NEIGHBOURS = {
     ("errors", "outcome"),  # a SolveError carries its outcome
     ("guards", "errors"),  # guards raise
+    ("fault", "errors"),  # tells what is raised on purpose from what is not
     ("resources", "errors"),
     ("output", "errors"),
     ("check_site", "study"),  # fills in what study.py declares

@@ -1,6 +1,7 @@
 """A site searched instead of sampled, on two coarse meshes."""
 
 import math
+import random
 from dataclasses import replace
 
 import pytest
@@ -17,7 +18,7 @@ from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import ProcessPool
 from netdesign.outcome import Outcome, Verdict
 from netdesign.rowcheck.probe import Probe
-from netdesign.site_cases import count_cases, search_site
+from netdesign.site_cases import count_cases, list_phases, search_site, solve_site
 from netdesign.snow.snowpack import Layer
 from netdesign.study import read_document, write_document
 from tests.envelope.made_up_workers import Recording
@@ -249,3 +250,64 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
 
 def loaded(envelope):
     return [m for m in envelope.members if envelope.force(m).high > 0.0]
+
+
+# --- what is promised beforehand -----------------------------------------------------
+
+
+def draw_site(seed, *, is_grid):
+    """One or two rows of any strength, over untidy ranges."""
+    draw = random.Random(seed)
+
+    def spread(low, high, widest):
+        start = draw.uniform(low, high)
+        count = draw.randint(2, 3) if is_grid else None
+        return Interval(
+            low=start, high=start + draw.uniform(0.2, 1) * widest, count=count
+        )
+
+    def row(name):
+        thickness = draw.uniform(1.6, 3.9)
+        return build_row(
+            name,
+            slope_angle=math.radians(draw.uniform(28.0, 48.0)),
+            snow_thickness=thickness,
+            net_height=thickness * draw.uniform(1.0, 1.2),
+            upslope_length=draw.uniform(5.0, 18.0),
+            slack=draw.uniform(0.01, 0.08),
+            resistances=resist(10.0 ** draw.uniform(4.3, 6.3)),
+        )
+
+    ranges = Ranges(
+        density=spread(230.0, 330.0, 140.0),
+        friction_angle=spread(0.1, 0.5, 0.3),
+        inclination=spread(0.35, 0.5, 0.12),
+    )
+    return build_site(*map(row, ("R1", "R2")[: draw.randint(1, 2)]), ranges=ranges)
+
+
+SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 30)]
+
+
+@pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
+@pytest.mark.parametrize("seed", [0, 1, *SLOW])
+def test_each_phase_solves_no_more_than_was_promised(standard, is_grid, seed):
+    """At most so many as were ever seen; of a row that passes not even the usual."""
+    site, runner, asked = draw_site(seed, is_grid=is_grid), Runner(), []
+    runner.on_ask = asked.extend
+    promised = {one.key: one for one in list_phases(site, RUN)}
+    envelopes = None if is_grid else search_site(site, RUN, runner)
+    results = (
+        solve_site(site, RUN, runner)
+        if envelopes is None
+        else [list(one.results) for one in envelopes]
+    )
+    of_envelope = runner.counts.solved
+    probe = Probe(RUN.settings, RUN.creep_law, runner)
+    study = judge_site(site, results, standard, RUN, probe, envelopes=envelopes)
+    beside = runner.counts.solved - of_envelope
+    assert 0 < of_envelope <= promised["envelope"].cases
+    assert 0 < beside <= promised["checks"].most
+    if study.verdict is Verdict.PASS:
+        assert beside <= promised["checks"].cases
+    assert len(asked) >= of_envelope + beside

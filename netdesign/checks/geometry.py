@@ -11,14 +11,16 @@ from netdesign.checks.result import CheckResult
 from netdesign.checks.schema import (
     GROUND_FRICTION,
     HEIGHT_RATIO,
+    LEAST_PLAUSIBLE_SLOPE,
     MAX_GAP,
     MAX_INCLINATION,
     MAX_SLOPE,
     MIN_INCLINATION,
     MIN_SLOPE,
+    MOST_PLAUSIBLE_SLOPE,
 )
 from netdesign.outcome import Verdict
-from netdesign.units import degree_from_radian
+from netdesign.units import degree_from_radian, radian_from_percent
 
 _PLACES = {
     Verdict.PASS: "lies inside",
@@ -57,8 +59,8 @@ class RowGeometry:
 def check_geometry(row: RowGeometry, standard: Standard) -> list[CheckResult]:
     """Check a row against every limit of geometry that the profile has.
 
-    Theory: checks/THEORY.md. The inclination is checked under every profile: without
-    limits it is not proven.
+    Theory: checks/THEORY.md. The inclination and the slope are checked under every
+    profile: without limits, or a plausible range, they are not proven.
     """
     checks = (
         check_inclination(row.inclination_low, row.inclination_high, standard),
@@ -98,9 +100,38 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
     return _result("inclination", verdict, reason, least, most)
 
 
-def check_slope(slope_angle: float, standard: Standard) -> CheckResult | None:
-    """Check the slope angle [rad]; None where the profile has no limits of it."""
-    least, most = standard.find(MIN_SLOPE), standard.find(MAX_SLOPE)
+def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
+    """Check the slope angle [rad] against limits, and whether it can be one at all.
+
+    Outside the profile's limits it fails. Outside the plausible range it is not proven:
+    it may be a percentage that somebody gave as degrees, and all forces follow from it.
+    """
+    low, high = standard.find(MIN_SLOPE), standard.find(MAX_SLOPE)
+    limits = _judge_slope(slope_angle, low, high)
+    if limits and limits.verdict is not Verdict.PASS:
+        return limits
+    least = standard.find(LEAST_PLAUSIBLE_SLOPE)
+    most = standard.find(MOST_PLAUSIBLE_SLOPE)
+    plausible = _judge_slope(slope_angle, least, most)
+    if least is None or most is None or plausible is None:
+        reason = "Not proven: the profile has no plausible range of the slope angle."
+        return _result("slope", Verdict.NOT_PROVEN, reason)
+    if plausible.verdict is Verdict.PASS:
+        return limits or plausible
+    number = degree_from_radian(slope_angle)
+    meant = degree_from_radian(radian_from_percent(number))
+    guess = f" Is it a percentage? {number:g} % are {meant:.4g} degrees."
+    reason = (
+        f"Not proven: the slope angle {number:g} degrees lies outside the plausible "
+        f"{least.value:g} to {most.value:g} degrees."
+        f"{guess if slope_angle > most.value_si else ''}"
+    )
+    return _result("slope", Verdict.NOT_PROVEN, reason, least, most)
+
+
+def _judge_slope(
+    slope_angle: float, least: StandardValue | None, most: StandardValue | None
+) -> CheckResult | None:
     if least is None or most is None:
         return None
     verdict = judge(slope_angle, slope_angle, least=least.value_si, most=most.value_si)

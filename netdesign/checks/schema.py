@@ -24,6 +24,8 @@ MIN_INCLINATION = "geometry.inclination.min"
 MAX_INCLINATION = "geometry.inclination.max"
 MIN_SLOPE = "geometry.slope.min"
 MAX_SLOPE = "geometry.slope.max"
+LEAST_PLAUSIBLE_SLOPE = "geometry.slope.plausible.min"
+MOST_PLAUSIBLE_SLOPE = "geometry.slope.plausible.max"
 HEIGHT_RATIO = "geometry.height.ratio"
 MAX_GAP = "geometry.gap.max"
 GROUND_FRICTION = "geometry.spacing.ground_friction"
@@ -40,11 +42,17 @@ LIMIT_UNITS = {
     MAX_INCLINATION: "deg",
     MIN_SLOPE: "deg",
     MAX_SLOPE: "deg",
+    LEAST_PLAUSIBLE_SLOPE: "deg",
+    MOST_PLAUSIBLE_SLOPE: "deg",
     HEIGHT_RATIO: "-",
     MAX_GAP: "m",
     GROUND_FRICTION: "-",
 }
-_PAIRS = ((MIN_INCLINATION, MAX_INCLINATION), (MIN_SLOPE, MAX_SLOPE))
+_PAIRS = (
+    (MIN_INCLINATION, MAX_INCLINATION),
+    (MIN_SLOPE, MAX_SLOPE),
+    (LEAST_PLAUSIBLE_SLOPE, MOST_PLAUSIBLE_SLOPE),
+)
 LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (

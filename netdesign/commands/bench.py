@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from netdesign.benchmark.rows import Row
     from netdesign.study import Study
 
+Kind = Literal["stress", "errors", "lines"]
+
 _EXIT_FAIL = 1
 _REACHED = {True: "reached", False: "NOT reached"}
 
@@ -33,6 +35,12 @@ _REACHED = {True: "reached", False: "NOT reached"}
     type=click.IntRange(1),
     metavar="N",
     help="Compare N random scenes with finer meshes instead: are errors honest?",
+)
+@click.option(
+    "--lines",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Follow N lines of 200 scenes instead: does a force jump beyond its error?",
 )
 @click.option(
     "--envelope",
@@ -69,6 +77,7 @@ def bench(
     *,
     stress: int | None,
     errors: int | None,
+    lines: int | None,
     envelope: bool,
     missed: int,
     seed: int,
@@ -86,19 +95,24 @@ def bench(
     netdesign bench --plot bench.svg
     netdesign bench --stress 2000 --seed 1 --jobs 2
     netdesign bench --errors 200 --seed 1 --jobs 2
+    netdesign bench --lines 60 --jobs 2
     netdesign bench --envelope --json
     netdesign bench --envelope --missed 200
     """
-    if sum((stress is not None, errors is not None, envelope)) > 1:
-        raise click.UsageError("give one of --stress, --errors and --envelope")
-    random = stress or errors
-    if (random or envelope) and (scenes or plot):
+    random: dict[Kind, int | None] = {
+        "stress": stress,
+        "errors": errors,
+        "lines": lines,
+    }
+    wanted = {kind: count for kind, count in random.items() if count is not None}
+    if len(wanted) + envelope > 1:
+        raise click.UsageError("give one of --stress, --errors, --lines, --envelope")
+    if (wanted or envelope) and (scenes or plot):
         raise click.UsageError("--scenes and --plot are for named scenes only")
-    if random and quick:
+    if wanted and quick:
         raise click.UsageError("--quick: not with random scenes")
-    if random:
-        kind: Literal["stress", "errors"] = "stress" if stress else "errors"
-        sys.exit(_run_random(kind, random, seed, accuracy, jobs, as_json=as_json))
+    for kind, count in wanted.items():
+        sys.exit(_run_random(kind, count, seed, accuracy, jobs, as_json=as_json))
     if envelope:
         sys.exit(_run_envelope(missed, quick=quick, as_json=as_json))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
@@ -106,35 +120,31 @@ def bench(
 
 
 def _run_random(
-    kind: Literal["stress", "errors"],
-    count: int,
-    seed: int,
-    accuracy: float,
-    jobs: int,
-    *,
-    as_json: bool,
+    kind: Kind, count: int, seed: int, accuracy: float, jobs: int, *, as_json: bool
 ) -> int:
     """Exit code of a run over random scenes."""
     from netdesign.benchmark.honesty import study_errors, write_errors
+    from netdesign.benchmark.lines import study_lines, write_lines
     from netdesign.benchmark.stress import run_stress, write_stress
     from netdesign.progress import show_progress
-    from netdesign.report.bench_table import print_errors, print_stress
+    from netdesign.report.bench_table import print_errors, print_lines, print_stress
 
-    with show_progress(count, "scenes", quiet=False) as on_done:
-        if kind == "stress":
-            attempts = run_stress(
-                count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done
-            )
-            document = write_stress(attempts, seed, accuracy)
-        else:
-            findings = study_errors(count, seed, accuracy, jobs=jobs, on_done=on_done)
-            document = write_errors(findings, seed, accuracy)
+    known: dict[Kind, tuple[Any, Any, Any]] = {
+        "stress": (run_stress, write_stress, print_stress),
+        "errors": (study_errors, write_errors, print_errors),
+        "lines": (study_lines, write_lines, print_lines),
+    }
+    study, write, show = known[kind]
+    what = "lines" if kind == "lines" else "scenes"
+    with show_progress(count, what, quiet=False) as on_done:
+        found = study(count, seed, accuracy=accuracy, jobs=jobs, on_done=on_done)
+        document = write(found, seed, accuracy)
     if as_json:
         _print_json(document)
     else:
         from rich.console import Console
 
-        (print_stress if kind == "stress" else print_errors)(document, Console())
+        show(document, Console())
     return 0 if document["pass"] else _EXIT_FAIL
 
 

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from netdesign.commands.faults import tell_faults
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.envelope.runner import Runner
+    from netdesign.progress import Phase
     from netdesign.site.model import Site
     from netdesign.site_cases import CheckRun
 
@@ -17,34 +23,65 @@ if TYPE_CHECKING:
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 
-def announce(site: Site, run: CheckRun, *, as_json: bool) -> None:
-    """Print net rows, cases and the predicted time."""
-    from netdesign.site_cases import count_cases
+def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> int:
+    """Print net rows, solves of every phase and the predicted time; the exit code."""
+    from netdesign.envelope.runner import Runner
+    from netdesign.site_cases import list_phases
 
-    cases = count_cases(site)
-    seconds = _measure_case(site, run) * cases / run.jobs
+    runner, phases = Runner(), list_phases(site, run, profiles)
+    seconds = _predict(phases, _measure_case(site, run, runner))
     if as_json:
         plan = {
             "schema": "netdesign.plan/1",
             "net_rows": len(site.rows),
-            "cases": cases,
+            "cases": phases[0].cases,
             "is_searched": not site.ranges.is_grid,  # then about so many
+            "further_solves": _count_further(phases),  # about
             "jobs": run.jobs,
             "predicted_s": seconds,
+            "phases": [
+                {
+                    "phase": one.key,
+                    "does": one.words,
+                    "cases": one.cases,
+                    "cases_most": one.most,
+                }
+                for one in phases
+            ],
             "notes": list(site.notes),
         }
         click.echo(json.dumps(plan, indent=1))
-        return
+    else:
+        _show(site, run, phases, seconds)
+    return tell_faults(runner.faults)
+
+
+def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) -> None:
     about = "" if site.ranges.is_grid else "about "
     click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {about}{cases} cases, about "
+        f"{site.file_name}: {len(site.rows)} net rows, {about}{phases[0].cases} cases "
+        f"and about {_count_further(phases)} further solves, about "
         f"{max(seconds, 1.0):.0f} s with {run.jobs} processes; nothing was written"
     )
+    for phase in phases:
+        if phase.cases:
+            most = f" (up to {phase.most})" if phase.most > phase.cases else ""
+            click.echo(f"{phase.cases:7}{most} {phase.words}")
     for note in site.notes:
         click.echo(f"note: {note}")
 
 
-def _measure_case(site: Site, run: CheckRun) -> float:
+def _count_further(phases: Sequence[Phase]) -> int:
+    """Solves beside the cases of the envelope."""
+    return sum(phase.cases for phase in phases[1:])
+
+
+def _predict(phases: Sequence[Phase], of_case: float) -> float:
+    """Seconds of all phases, from those of a steady case in one process."""
+    return sum(one.cases * one.cost * of_case + one.seconds for one in phases)
+
+
+def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
     """Seconds of one case on this machine: the middle of the ranges, for some rows."""
     from netdesign.envelope.grid import Interval, Ranges
     from netdesign.site_cases import solve_site
@@ -59,9 +96,9 @@ def _measure_case(site: Site, run: CheckRun) -> float:
         inclination=middle(site.ranges.inclination),
     )
     rows = site.rows[:: max(1, len(site.rows) // _TIMED_ROWS)]
-    alone = replace(run, jobs=1)
+    steady = replace(run, jobs=1, method="steady")
     # the first solve also loads what the solver needs, which happens only once
-    solve_site(replace(site, rows=rows[:1], ranges=ranges), alone)
+    solve_site(replace(site, rows=rows[:1], ranges=ranges), steady, runner)
     start = time.perf_counter()
-    solve_site(replace(site, rows=rows, ranges=ranges), alone)
+    solve_site(replace(site, rows=rows, ranges=ranges), steady, runner)
     return (time.perf_counter() - start) / len(rows)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 import time
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -19,7 +21,7 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.ranges import RANGE, GivenRange
-from netdesign.commands.solving import solving_options
+from netdesign.commands.solving import follow_runner, solving_options
 
 if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
     from netdesign.envelope.parameters import Box
     from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowTask
-    from netdesign.progress import SearchProgress
+    from netdesign.progress import Phase, RunProgress
     from netdesign.study import EnvelopeRecord
 
 _OPTIONS = (
@@ -41,6 +43,7 @@ _OPTIONS = (
 )
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
+_USUAL_CASES = 18  # of a search, for each range
 DOCUMENT, FIGURES = "envelope.json", ("maps.svg", "lines.svg", "drivers.svg")
 
 
@@ -95,7 +98,7 @@ def envelope(
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
     from netdesign.output import require_free, write_files
-    from netdesign.progress import show_search
+    from netdesign.progress import show_phases
     from netdesign.scene_file import read_scene
 
     given = {name: one for name, one in ranges.items() if one is not None}
@@ -107,15 +110,15 @@ def envelope(
     require_free(paths, overwrite=force)
     start = time.perf_counter()
     with (
-        show_search(1, quiet=quiet) as progress,
         open_runner(
             executor=executor,
             processes=jobs or os.cpu_count() or 1,
             store=find_store() if cache else None,
             say=lambda text: click.echo(text, err=True),
-            on_done=progress.count_case,
         ) as runner,
+        show_phases(_list_phases(given, confirm), quiet=quiet) as progress,
     ):
+        follow_runner(progress, runner)
         task = _build_task(scene, _read_confirming(scene_file, confirm), box, accuracy)
         record: EnvelopeRecord | None = None
         if counted:
@@ -123,6 +126,8 @@ def envelope(
             document = _sample(task, counts, runner, start)
         else:
             document, record = _search(task, runner, progress, start)
+        progress.enter("outputs")
+    failed = tell_faults(runner.faults)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
         files = dict(zip(paths, _render(record, text), strict=True))
@@ -131,7 +136,7 @@ def envelope(
         click.echo(text)
     else:
         _show(document)
-    sys.exit(_NOT_PROVEN if document["outcome"] == "not_proven" else 0)
+    sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
@@ -148,6 +153,20 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
             "for a grid, or in none for a bounded search"
         )
     return all(counts)
+
+
+def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
+    """What is done, with about so many cases; confirmations are part of a search."""
+    from netdesign.progress import Phase
+    from netdesign.site_cases import HISTORY
+
+    counts = [one.count for one in given.values() if one.count]
+    number = math.prod(counts) if counts else _USUAL_CASES * len(given)
+    phases = [Phase(key="envelope", words="grid" if counts else "search", cases=number)]
+    if confirm == "transient" and not counts:
+        words = "histories of the governing cases"
+        phases.append(Phase(key="histories", words=words, cases=3, cost=HISTORY))
+    return [*phases, Phase(key="outputs", words="outputs", cases=0)]
 
 
 def _build_box(given: dict[str, GivenRange]) -> Box:
@@ -219,7 +238,7 @@ def _sample(
 
 
 def _search(
-    task: RowTask, runner: Runner, progress: SearchProgress, start: float
+    task: RowTask, runner: Runner, progress: RunProgress, start: float
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document of a bounded search, and its model to draw."""
     from netdesign.envelope.search import search_rows

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from netdesign.envelope.run import CaseResult
     from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowEnvelope
+    from netdesign.envelope.workers import Job
+    from netdesign.progress import RunProgress
     from netdesign.site.model import Site
     from netdesign.site_cases import CheckRun
     from netdesign.study import Study
@@ -48,37 +50,56 @@ class SolvedRows:
     results: Sequence[Sequence[CaseResult]]
     envelopes: list[RowEnvelope] | None  # None for a grid
     runner: Runner
+    progress: RunProgress
 
 
 @contextmanager
 def open_rows(
-    site: Site, run: CheckRun, *, executor: str, cache: bool, quiet: bool
+    site: Site,
+    run: CheckRun,
+    *,
+    executor: str,
+    cache: bool,
+    quiet: bool,
+    profiles: int = 1,
 ) -> Iterator[SolvedRows]:
-    """Search or sample the rows of a site; workers and store stay open within."""
+    """Search or sample the rows of a site; workers, store and progress stay open."""
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
-    from netdesign.progress import show_progress, show_search
-    from netdesign.site_cases import count_cases, search_site, solve_site
+    from netdesign.progress import show_phases
+    from netdesign.site_cases import list_phases, search_site, solve_site
 
-    with open_runner(
-        executor=executor,
-        processes=run.jobs,
-        store=find_store() if cache else None,
-        say=lambda text: click.echo(text, err=True),
-        on_done=_ignore,
-    ) as runner:
+    with (
+        open_runner(
+            executor=executor,
+            processes=run.jobs,
+            store=find_store() if cache else None,
+            say=lambda text: click.echo(text, err=True),
+        ) as runner,
+        show_phases(list_phases(site, run, profiles), quiet=quiet) as progress,
+    ):
+        follow_runner(progress, runner)
         envelopes: list[RowEnvelope] | None = None
         if site.ranges.is_grid:
-            with show_progress(count_cases(site), "cases", quiet=quiet) as on_done:
-                runner.on_done = on_done or _ignore
-                results = solve_site(site, run, runner)
+            results = solve_site(site, run, runner)
         else:
-            with show_search(len(site.rows), quiet=quiet) as progress:
-                runner.on_done = progress.count_case
-                envelopes = search_site(site, run, runner, progress.tell_wave)
+            envelopes = search_site(site, run, runner, progress.tell_wave)
             results = [list(one.results) for one in envelopes]
-        runner.on_done = _ignore
-        yield SolvedRows(results=results, envelopes=envelopes, runner=runner)
+        yield SolvedRows(
+            results=results, envelopes=envelopes, runner=runner, progress=progress
+        )
+
+
+def follow_runner(progress: RunProgress, runner: Runner) -> None:
+    """Count every case of a runner; that histories have begun is seen by them."""
+    from netdesign.coupling.solve import method_of
+
+    def ask(jobs: Sequence[Job]) -> None:
+        if any(method_of(job.settings) != "steady" for job in jobs):
+            progress.enter("histories")
+        progress.ask(len(jobs))
+
+    runner.on_ask, runner.on_done = ask, progress.count_case
 
 
 def judge_rows(
@@ -89,15 +110,33 @@ def judge_rows(
     from netdesign.rowcheck.probe import Probe
     from netdesign.site_cases import follow_site
 
-    measured = follow_site(site, run)
+    solved.progress.enter("measured")
+    measured = follow_site(site, run, solved.runner)
+    solved.progress.enter("checks")
     probe = Probe(run.settings, run.creep_law, solved.runner)
-    return [
+    studies = [
         judge_site(
-            site, solved.results, profile, run, probe, measured, solved.envelopes
+            site,
+            solved.results,
+            profile,
+            run,
+            probe,
+            measured,
+            solved.envelopes,
+            solved.progress.count_piece,
         )
         for profile in profiles
     ]
+    solved.progress.enter("reports")
+    _keep_faults(site, solved)
+    return studies
 
 
-def _ignore(_: object) -> None:
-    """Show no progress."""
+def _keep_faults(site: Site, solved: SolvedRows) -> None:
+    """Tell the runner which net rows the faults in their cases befell."""
+    for row, of_row in zip(site.rows, solved.results, strict=True):
+        for result in of_row:
+            solved.runner.keep_fault(result.fault, row.id)
+    for row, envelope in zip(site.rows, solved.envelopes or (), strict=False):
+        for one in envelope.confirmations:
+            solved.runner.keep_fault(one.confirmed.fault, row.id)

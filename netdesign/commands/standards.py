@@ -81,7 +81,8 @@ def copy_profile(name: str, folder: Path) -> None:
             "digits, dots and dashes, starting with a letter or digit"
         )
     paths = [path for path in sorted(source.iterdir()) if path.is_file()]
-    require_free([folder / path.name for path in paths], overwrite=False)
+    free = [folder / path.name for path in paths]
+    require_free(free, overwrite=False, may_force=False)
     texts = {path.name: path.read_text(encoding="utf-8") for path in paths}
     texts["document.toml"] = texts["document.toml"].replace(
         f'id = "{profile.id}"', f'id = "{own}"', 1

@@ -83,7 +83,8 @@ def check_balance(
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
             f"the snow would pull on the net with {balance.suction_share:.0%} of what "
-            f"it presses; up to {LARGEST_SUCTION:.0%} is accepted",
+            f"it presses; up to {LARGEST_SUCTION:.0%} is accepted: more friction or "
+            "less slack is needed, or a one-sided contact with the net",
         )
 
 
@@ -102,9 +103,12 @@ def _net_components(mesh: PlacedMesh, on_net: Floats) -> tuple[Floats, Floats]:
 
 
 def negative_share(forces: Floats) -> float:
-    """Sum of negative entries over the sum of positive ones, as a positive number."""
+    """Sum of negative entries over the sum of positive ones, from 0 to 1.
+
+    1 where they pull as much as they press, or more: also where nothing presses.
+    """
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())
     if negative == 0.0:
         return 0.0
-    return negative / positive if positive > 0.0 else float("inf")
+    return negative / positive if negative < positive else 1.0

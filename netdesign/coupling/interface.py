@@ -7,7 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.snow.contact import free_unknowns, may_lift, net_components
+from netdesign.coupling.refine import Looseness
+from netdesign.snow.contact import (
+    Contact,
+    free_unknowns,
+    may_lift,
+    net_components,
+)
 from netdesign.snow.flow import (
     FlowState,
     compute_residual,
@@ -103,3 +109,10 @@ def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats
     if law.ground != "no-slip":
         on_net[0, 0] = corner[0]
     return on_net
+
+
+def measure_looseness(contact: Contact) -> Looseness:
+    """How loosely net and ground hold the snow."""
+    return Looseness(
+        slip=float((contact.sign != 0).mean()), lifts=bool(contact.is_lifted.any())
+    )

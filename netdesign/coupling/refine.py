@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -21,32 +22,105 @@ class Estimate(NamedTuple):
     error: float
 
 
+class Looseness(NamedTuple):
+    """How loosely its supports hold the snow.
+
+    Attributes
+    ----------
+    slip : float
+        Share of the net along which the snow slips [-].
+    lifts : bool
+        The snow lifts off the ground somewhere: where it does so moves with the mesh.
+    """
+
+    slip: float = 0.0
+    lifts: bool = False
+
+
+_FIRM = Looseness()
+
+
 class ErrorModel(NamedTuple):
-    """What two meshes in turn say of the error of the finer one.
+    """What the meshes so far say of the error of the last one, eq. (K8).
 
     Attributes
     ----------
     share : float
-        Error over the difference of the two [-].
+        Error over the difference of the last two [-].
     floor : float
-        Relative error that is added for what neither mesh sees [-].
+        Relative error that is added for what no mesh sees [-].
     floor_ratio : float
         The floor of each further mesh over that before [-].
+    slip_share, lift_share : float
+        What is added to ``share`` where the snow slips along the whole net, and where
+        it lifts off the ground [-].
+    lift_floor : float
+        What is added to ``floor`` where it lifts [-].
+    memory : float
+        What a further mesh leaves at least of a difference: two meshes in turn may
+        agree by accident [-].
+    kinship : float
+        Least relative error of a vector over that of the others [-].
     """
 
     share: float
     floor: float
     floor_ratio: float = 1.0
+    slip_share: float = 0.0
+    lift_share: float = 0.0
+    lift_floor: float = 0.0
+    memory: float = 0.0
+    kinship: float = 0.0
 
-    def estimate(self, coarse: Floats, fine: Floats, place: int = 0) -> Estimate:
-        """The finer vector with its error; ``place`` counts meshes from the second."""
-        floor = self.floor * self.floor_ratio**place
-        error = self.share * np.hypot(*(fine - coarse)) + floor * np.hypot(*fine)
-        return Estimate(vector=fine, error=float(error))
+    def estimate(
+        self, meshes: Sequence[Sequence[Floats]], held: Looseness = _FIRM
+    ) -> list[Estimate]:
+        """The last mesh's vectors with their errors.
+
+        Parameters
+        ----------
+        meshes : sequence of sequence of ndarray
+            The vectors, shape (2,) each, on two meshes or more from coarse to fine.
+        held : Looseness
+            Of the last mesh.
+        """
+        share = self.share + self.slip_share * held.slip + self.lift_share * held.lifts
+        floor = self.floor + self.lift_floor * held.lifts
+        floor *= self.floor_ratio ** (len(meshes) - 2)
+        sizes = np.array([np.hypot(*vector) for vector in meshes[-1]])
+        steps = np.array([self._remember(one) for one in zip(*meshes, strict=True)])
+        errors = share * steps + floor * sizes
+        relative = np.divide(errors, sizes, out=np.zeros_like(sizes), where=sizes > 0.0)
+        errors = np.maximum(errors, self.kinship * relative.max() * sizes)
+        return [
+            Estimate(vector=vector, error=float(error))
+            for vector, error in zip(meshes[-1], errors, strict=True)
+        ]
+
+    def _remember(self, meshes: Sequence[Floats]) -> float:
+        """Difference of the last two, or what is left of those before."""
+        step = 0.0
+        for coarse, fine in pairwise(meshes):
+            step = np.maximum(np.hypot(*(fine - coarse)), self.memory * step)
+        return float(step)
 
 
-# Of nets and walls at rest; measured on random scenes (netdesign bench --errors).
-STEADY_ERROR = ErrorModel(share=0.9, floor=2.5e-3, floor_ratio=0.8)
+# Of nets and walls at rest; measured on random scenes and along lines of scenes
+# (netdesign bench --errors, --lines).
+STEADY_ERROR = ErrorModel(
+    share=0.9,
+    floor=2.5e-3,
+    floor_ratio=0.8,
+    slip_share=0.3,
+    lift_share=0.5,
+    lift_floor=3e-3,
+    memory=0.5,
+    kinship=0.5,
+)
+
+
+def _is_firm(_: object) -> Looseness:
+    return _FIRM
 
 
 def refine(
@@ -55,6 +129,7 @@ def refine(
     measure: Callable[[State], Sequence[Floats]],
     accuracy: float,
     model: ErrorModel,
+    loosen: Callable[[State], Looseness] = _is_firm,
 ) -> tuple[list[State], list[Estimate]]:
     """Solve level after level until two in turn agree.
 
@@ -69,7 +144,9 @@ def refine(
     accuracy : float
         Relative error allowed in each vector [-].
     model : ErrorModel
-        Turns the difference of two meshes into an error.
+        Turns the differences of meshes into an error.
+    loosen : callable, optional
+        State to how loosely its snow is held.
 
     Returns
     -------
@@ -78,10 +155,11 @@ def refine(
         does not reach the accuracy, the error says so.
     """
     states = [solve(levels[0], None)]
-    for place, level in enumerate(levels[1:]):
+    meshes = [measure(states[0])]
+    for level in levels[1:]:
         states.append(solve(level, states[-1]))
-        pairs = zip(measure(states[-2]), measure(states[-1]), strict=True)
-        estimates = [model.estimate(*pair, place) for pair in pairs]
+        meshes.append(measure(states[-1]))
+        estimates = model.estimate(meshes, loosen(states[-1]))
         if all(e.error <= accuracy * np.hypot(*e.vector) for e in estimates):
             break
     return states, estimates

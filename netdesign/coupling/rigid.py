@@ -12,6 +12,7 @@ from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
     SupportForces,
     find_support_forces,
+    measure_looseness,
 )
 from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -74,6 +75,7 @@ def solve_rigid(
             lambda pressed: [pressed.forces.on_net.sum(axis=1)],
             chosen.accuracy,
             STEADY_ERROR,
+            lambda pressed: measure_looseness(pressed.state.contact),
         )
         end = states[-1]
         balance = measure_balance(

@@ -57,9 +57,10 @@ class Balance:
     smallest_tension : float or None
         Of the net [N/m]; None for a wall.
     suction_share : float
-        Share of the normal force by which the snow would pull on the net.
+        What the snow would pull on the net with, over what it presses with; 1 if
+        that is as much, or more.
     ground_tension_share : float
-        Share of the ground's normal force by which the ground would pull.
+        The same of the ground.
     """
 
     weight_along_slope: float

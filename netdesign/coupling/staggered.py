@@ -132,8 +132,8 @@ def solve_staggered(
             raise
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
     foot, head = (
-        EndPull.of_estimate(_ERROR.estimate(*pulls), scene.force_scale)
-        for pulls in zip(*(measure_run(run) for run in runs), strict=True)
+        EndPull.of_estimate(one, scene.force_scale)
+        for one in _ERROR.estimate([measure_run(run) for run in runs])
     )
     history = scale_history(
         runs[-1], scene, Clock(), start=settings.start, densifies=True

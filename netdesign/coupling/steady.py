@@ -29,6 +29,7 @@ from netdesign.coupling.hanging import (
 from netdesign.coupling.interface import (
     SupportForces,
     find_support_forces,
+    measure_looseness,
     share_net_forces,
 )
 from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
@@ -165,6 +166,7 @@ def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> S
         lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
         settings.accuracy,
         STEADY_ERROR,
+        lambda end: measure_looseness(end.state.contact),
     )
     solution = _build_solution(scene, states, [one.error for one in estimates])
     check_balance(
@@ -295,7 +297,10 @@ def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
     """The failure, with what in the scene is known to leave no steady state."""
     causes = []
     if "one-sided" in (law.ground_contact, law.net_contact):
-        causes.append("snow lifts off a one-sided support and settles again")
+        causes.append(
+            "snow lifts off a one-sided support and settles again; a two-sided "
+            "contact, or more friction on the net, is accepted"
+        )
     rates = [layer.fluidity for layer in law.layers]
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
@@ -367,14 +372,18 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
     if curve[1, 1:].min() <= 0.0:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the net would touch the ground: less slack or less inclination is needed",
+            "the net would touch the ground: less slack, less inclination or a stiffer "
+            "net is needed",
         )
     nodes = place_nodes(problem.template, curve)
     mesh = build_placed_mesh(problem.template, nodes, problem.law.element)
     if not mesh.is_valid:
+        above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the net bulges so far that the snow's mesh folds over",
+            "the net bulges so far that the snow's mesh folds over (it leaves its "
+            f"foot at {above:.0f} degrees from the ground): less slack, less "
+            "inclination or a stiffer net is needed",
         )
     return mesh
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
@@ -13,6 +13,7 @@ from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd, SolvedState
 from netdesign.envelope.workers import Job
 from netdesign.errors import ModelError
+from netdesign.fault import Fault
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
@@ -54,6 +55,8 @@ class CaseResult:
         Force vectors on the ground.
     solution : SolvedState or None
         State of snow and net.
+    fault : Fault or None
+        What failed in the program, where it was the program.
     """
 
     case: Case
@@ -62,6 +65,7 @@ class CaseResult:
     member_forces: dict[str, Band]
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
+    fault: Fault | None = None
 
     @property
     def is_converged(self) -> bool:
@@ -84,7 +88,8 @@ def run_cases(
     Returns
     -------
     list of CaseResult
-        One for each task. A worker that died leaves a ``worker_failed`` result.
+        One for each task. A worker that died leaves a ``worker_failed`` result, a
+        fault of the program a ``program_fault``.
     """
     jobs = [build_job(task) for task in tasks]
     ends = iter((runner or Runner()).solve([job for job in jobs if job is not None]))
@@ -111,7 +116,7 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
     if end is None:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
     if end.state is None:
-        return _failed(task, end.outcome, end.reason)
+        return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
     if task.layout is None:
         return _resolve_net(task, end.state)
     return _resolve_support(task, task.layout, end.state)

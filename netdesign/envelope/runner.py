@@ -10,6 +10,7 @@ from netdesign.envelope.known_search import KnownSearch
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.store import CaseStore, name_case, name_search
 from netdesign.envelope.workers import Batch, Ends, Job, OwnProcess, Workers
+from netdesign.fault import Fault
 from netdesign.outcome import Outcome
 
 
@@ -34,17 +35,24 @@ class Runner:
         Where finished ones are kept; None keeps nothing beyond a call.
     on_done : callable
         Called after each distinct case of a call, from the store or new.
+    on_ask : callable
+        Called with the cases that are about to be solved.
     say : callable
         Takes what the user should know.
     counts : Counts
         Of all calls so far.
+    faults : dict of Fault to set of str
+        What failed in the program so far, and the net rows that it befell as far as
+        somebody told; whoever has any ends with ``fault.EXIT_CODE``.
     """
 
     workers: Workers = field(default_factory=OwnProcess)
     store: CaseStore | None = None
-    on_done: Callable[[CaseEnd], None] = lambda _: None
+    on_done: Callable[[object], None] = lambda _: None
+    on_ask: Callable[[Sequence[Job]], None] = lambda _: None
     say: Callable[[str], None] = lambda _: None
     counts: Counts = field(default_factory=Counts)
+    faults: dict[Fault, set[str]] = field(default_factory=dict)
 
     def solve(self, jobs: Sequence[Job]) -> list[CaseEnd]:
         """End of every job, in their order; equal jobs are solved once."""
@@ -68,6 +76,7 @@ class Runner:
         solved = self.counts.solved
         while missing := _list_missing(named, known):
             todo = [tuple(batch.values()) for batch in missing]
+            self.on_ask([job for batch in todo for job in batch])
             for place, ends in self.workers.solve(todo):
                 for name, end in zip(missing[place], ends, strict=False):
                     known[name] = end
@@ -82,7 +91,13 @@ class Runner:
         self._keep(name, end)
         self.counts.solved += 1
         self.counts.failed += end.outcome is not Outcome.CONVERGED
+        self.keep_fault(end.fault)
         self.on_done(end)
+
+    def keep_fault(self, fault: Fault | None, row_id: str = "") -> None:
+        """Remember a fault of the program, if it is one, and the net row it befell."""
+        if fault is not None:
+            self.faults.setdefault(fault, set()).update([row_id] if row_id else [])
 
     def find_search(self, task: object) -> KnownSearch | None:
         """What is known of the search of a task."""

@@ -264,7 +264,8 @@ def search_row(
     if found is None:
         search = partial(search_maxima, len(task.box.axes), task.search, on_gap)
         found, row = yield from _converse(task, search)
-        keep(KnownSearch(maxima=found, watched=row.reader.watch()))
+        if not any(one.fault for one in row.results):
+            keep(KnownSearch(maxima=found, watched=row.reader.watch()))
     maxima, members = row.reader.bound_members(found), row.reader.members
     confirmations = yield from _confirm(task, members, row.results, maxima)
     return RowEnvelope(

@@ -7,7 +7,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.store import CaseStore, StoreError
 from netdesign.envelope.workers import build_workers
 
@@ -19,7 +18,6 @@ def open_runner(
     processes: int,
     store: Path | None,
     say: Callable[[str], None],
-    on_done: Callable[[CaseEnd], None],
 ) -> Iterator[Runner]:
     """Runner for the time of a ``with``.
 
@@ -33,8 +31,6 @@ def open_runner(
         File of the finished cases; None keeps none.
     say : callable
         Takes what the user should know, for instance that there can be no store.
-    on_done : callable
-        Called after each distinct case, from the store or new.
 
     Raises
     ------
@@ -50,4 +46,4 @@ def open_runner(
                 kept = stack.enter_context(CaseStore(store, say))
             except StoreError as error:
                 say(f"{error}; going on without it")
-        yield Runner(workers=workers, store=kept, on_done=on_done, say=say)
+        yield Runner(workers=workers, store=kept, say=say)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.coupling.solution import Balance, EndPull, Solution
+from netdesign.fault import Fault
 from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
@@ -96,11 +97,15 @@ class SolvedState:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CaseEnd:
-    """How one solve ended; ``state`` exists only if it converged."""
+    """How one solve ended.
+
+    ``state`` exists only if it converged, ``fault`` only if the program failed.
+    """
 
     outcome: Outcome
     reason: str = ""
     state: SolvedState | None = None
+    fault: Fault | None = None
 
     @property
     def sticks(self) -> bool:

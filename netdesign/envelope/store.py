@@ -33,7 +33,8 @@ _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "snow", "cable", "coupling")
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
-_FORGOTTEN = Outcome.WORKER_FAILED  # says nothing about the case itself
+# They say nothing about the case itself.
+_FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
 
 
 class StoreError(NetDesignError):
@@ -226,7 +227,7 @@ class CaseStore:
 
     def keep(self, name: str, end: CaseEnd) -> None:
         """Store one finished case, in a transaction of its own."""
-        if end.outcome is _FORGOTTEN:
+        if end.outcome in _FORGOTTEN:
             return
         numbers, shape = encode_end(end)
         self._base.execute(

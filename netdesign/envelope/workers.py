@@ -7,6 +7,7 @@ worker that dies costs the one case that kills it, by name.
 from __future__ import annotations
 
 import gc
+import logging
 import multiprocessing
 import os
 import signal
@@ -16,18 +17,23 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
+from netdesign.coupling.describe import describe_case
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.coupling.solve import Settings, solve_scene
 from netdesign.envelope.state import CaseEnd, keep_state
 from netdesign.envelope.store import identify_solver
-from netdesign.errors import NetDesignError
+from netdesign.errors import ModelError, NetDesignError, SolveError
+from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 
 DIED = "a worker process ended abruptly"
+NO_MEMORY = "a worker process had not enough memory"
 _AHEAD = 2  # batches in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
@@ -70,29 +76,37 @@ class Workers(Protocol):
 def solve_job(job: Job) -> CaseEnd:
     """Solve one case; a failure comes back as an outcome, even that of a bug."""
     try:
-        solution = solve_scene(job.scene, job.settings)
-        if isinstance(solution, FailedSolution):
-            return CaseEnd(outcome=solution.outcome, reason=solution.reason)
-        if isinstance(solution, WallSolution):
-            return CaseEnd(
-                outcome=Outcome.OUT_OF_VALIDITY,
-                reason="a rigid wall has no net whose forces could be followed",
-            )
-        history = solution.history
-        if history is not None and not history.plateau.reached:
-            return CaseEnd(
-                outcome=Outcome.PLATEAU_NOT_REACHED,
-                reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
-            )
-        state = keep_state(solution)
-        if not state.is_finite:
-            end = Outcome.NONFINITE
-            return CaseEnd(outcome=end, reason=end.sentence)
-        return CaseEnd(outcome=Outcome.CONVERGED, state=state)
-    except Exception as error:  # a bug in one case must not hide the others
+        end = catch_fault(partial(_solve, job), describe_case(job.scene, job.settings))
+    except SolveError as error:
+        return CaseEnd(outcome=error.outcome, reason=error.reason)
+    except ModelError as error:
+        return CaseEnd(outcome=Outcome.OUT_OF_VALIDITY, reason=str(error))
+    except MemoryError:
+        return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=NO_MEMORY)
+    if isinstance(end, Fault):
+        return CaseEnd(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE, fault=end)
+    return end
+
+
+def _solve(job: Job) -> CaseEnd:
+    solution = solve_scene(job.scene, job.settings)
+    if isinstance(solution, FailedSolution):
+        return CaseEnd(outcome=solution.outcome, reason=solution.reason)
+    if isinstance(solution, WallSolution):
         return CaseEnd(
-            outcome=Outcome.WORKER_FAILED, reason=f"{type(error).__name__}: {error}"
+            outcome=Outcome.OUT_OF_VALIDITY,
+            reason="a rigid wall has no net whose forces could be followed",
         )
+    history = solution.history
+    if history is not None and not history.plateau.reached:
+        return CaseEnd(
+            outcome=Outcome.PLATEAU_NOT_REACHED,
+            reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
+        )
+    state = keep_state(solution)
+    if not state.is_finite:
+        return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.sentence)
+    return CaseEnd(outcome=Outcome.CONVERGED, state=state)
 
 
 def solve_batch(batch: Batch) -> Ends:
@@ -195,6 +209,9 @@ class DaskCluster:
                 "pip install 'netdesign[dask]'"
             ) from None
         _require_answer(address)
+        self._address = address
+        # what Dask logs of a lost connection is told by a ClusterError
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         try:
             self._client = Client(
                 f"tcp://{address.removeprefix('tcp://')}",
@@ -219,7 +236,16 @@ class DaskCluster:
         """Solve all batches; those lost with a worker are tried again job by job.
 
         The scheduler gives up every batch that waited with one that kills workers.
+
+        Raises
+        ------
+        ClusterError
+            If the connection to the scheduler is lost, or it has no workers.
         """
+        with _naming_loss(self._address):
+            yield from self._solve(batches)
+
+    def _solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         from distributed import KilledWorker, as_completed
 
         places = {
@@ -306,6 +332,22 @@ def _require_answer(address: str) -> None:
         socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
     except (OSError, ValueError) as error:
         raise _name_silence(address, error) from None
+
+
+@contextmanager
+def _naming_loss(address: str) -> Iterator[None]:
+    """Say in our words that the scheduler is gone: Dask cancels what it was asked."""
+    from distributed import CancelledError
+    from distributed.comm import CommClosedError
+
+    try:
+        yield
+    except (CancelledError, CommClosedError) as error:
+        raise ClusterError(
+            f"--executor dask://{address}: the connection to the Dask scheduler is "
+            f"lost ({type(error).__name__}); finished cases are kept: start it, or "
+            "leave the option out, and run again"
+        ) from None
 
 
 def _name_silence(address: str, error: Exception) -> ClusterError:

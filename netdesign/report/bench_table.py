@@ -87,6 +87,33 @@ def print_errors(document: Mapping[str, Any], console: Console) -> None:
         console.print(line, highlight=False, markup=False)
 
 
+def print_lines(document: Mapping[str, Any], console: Console) -> None:
+    """Print jumps and true errors along lines; what is beyond its bound last."""
+    lines = [
+        f"{document['lines']} lines of {document['points']} scenes: "
+        f"{document['solved']} solved, {document['refused']} refused",
+        f"jumps beyond the stated errors: {document['jumps']}; the largest is "
+        f"{_show(document['largest_jump'], '.2f')} of them",
+        f"{document['compared']} compared with a finer mesh: "
+        f"{_show(document['share_outside'], '.1%')} outside the stated error; the true "
+        f"one is at most {_show(document['largest_true_over_stated'], '.2f')} of it",
+        *(
+            f"JUMP line {line['number']}, {line['parameter']}, point {jump['place']}: "
+            f"{jump['end']} by {jump['relative']:.2%}, {jump['over_stated']:.2f} of "
+            "the stated errors"
+            for line in document["of_lines"]
+            for jump in line["jumps"]
+        ),
+        *(
+            f"not compared: line {line['number']}, {reason}"
+            for line in document["of_lines"]
+            for reason in line["missing"]
+        ),
+    ]
+    for line in lines:
+        console.print(line, highlight=False, markup=False)
+
+
 def _describe(rows: Sequence[Row]) -> list[str]:
     found = summarise(rows)
     lines = []

@@ -55,8 +55,9 @@ class Probe:
         """Without a ``runner`` cases are solved in this process and kept nowhere."""
         self.law = law
         self.count = 0
+        self.faults = 0  # of the program, in what was asked for
         self._settings = settings
-        self._runner = runner
+        self._runner = runner or Runner()
         self._known: dict[tuple[NetRow, Case, str], CaseResult] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
@@ -77,7 +78,11 @@ class Probe:
         self.count += len(unknown)
         results = run_cases(list(unknown.values()), self._runner)
         self._known |= zip(unknown, results, strict=True)
-        return [self._known[key] for key in keys]
+        found = [self._known[key] for key in keys]
+        for (row, _, _), result in zip(keys, found, strict=True):
+            self._runner.keep_fault(result.fault, row.id)
+            self.faults += result.fault is not None
+        return found
 
     def _build_task(self, row: NetRow, case: Case, law: CreepLaw) -> CaseTask:
         return build_task(

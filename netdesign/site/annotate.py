@@ -72,11 +72,19 @@ def annotate_workbook(
             _copy_sheet(workbook, sheet)
     for finding in findings:
         if finding.cell and finding.sheet in workbook.sheetnames:
-            _mark_cell(workbook[finding.sheet][finding.cell], finding)
+            _mark_cell(_find_shown(workbook[finding.sheet], finding.cell), finding)
     _list_findings(workbook, findings)
     content = BytesIO()
     workbook.save(content)
     return content.getvalue()
+
+
+def _find_shown(sheet: Any, address: str) -> Any:
+    """Cell at an address; of merged cells the first one, the only one that is shown."""
+    for merged in sheet.merged_cells.ranges:
+        if address in merged:
+            return sheet.cell(merged.min_row, merged.min_col)
+    return sheet[address]
 
 
 def _open(path: Path) -> OpenWorkbook:
@@ -96,6 +104,9 @@ def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
             _write(place, cell.value if cell.value is not None else cell.text)
             if cell.is_percent:
                 place.number_format = "0.##%"
+            elif cell.shown_unit:  # or the copy would lose what the finding is about
+                unit = cell.shown_unit.replace('"', "")
+                place.number_format = f'General" {unit}"'
 
 
 def _write(cell: Any, value: object) -> None:

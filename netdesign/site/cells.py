@@ -44,6 +44,8 @@ class Cell:
     formula: str = ""
     is_error: bool = False
     is_percent: bool = False  # the cell's format shows hundredfold
+    is_thousandth: bool = False  # the cell's format shows a thousandth
+    shown_unit: str = ""  # what the cell's format shows beside the number
     decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
 
     @property
@@ -119,6 +121,7 @@ class Sheet:
     hidden_rows: frozenset[int] = frozenset()
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
+    is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
 
     def cell(self, row: int, column: int) -> Cell:
         """Cell at a place, blank where nothing is filled in."""

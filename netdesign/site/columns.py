@@ -364,6 +364,7 @@ RANGES = word_plan(
     SheetPlan(
         name="Ranges",
         required=True,
+        items=RANGE_QUANTITIES,
         fields=(
             Field(
                 key="quantity",
@@ -414,6 +415,7 @@ PROJECT_ITEMS: tuple[Field, ...] = tuple(
 PROJECT = word_plan(
     SheetPlan(
         name="Project",
+        items=PROJECT_ITEMS,
         fields=(
             Field(
                 key="item",

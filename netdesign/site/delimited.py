@@ -21,6 +21,7 @@ from netdesign.site.limits import (
     require_rows,
     require_width,
 )
+from netdesign.site.unit_names import KNOWN_UNITS, normalise_unit
 
 DELIMITERS = (";", ",", "\t", "|")
 _DEFAULT_SHEET = "Nets"
@@ -33,6 +34,7 @@ _Records = list[list[str]]
 def read_delimited(
     contents: Mapping[str, bytes],
     is_wanted: Callable[[str], bool],
+    is_name: Callable[[str], bool],
     is_heading: Callable[[str], bool],
     text_format: TextFormat,
     *,
@@ -44,8 +46,8 @@ def read_delimited(
     ----------
     contents : mapping of str to bytes
         Content of each file by its name.
-    is_wanted, is_heading : callable
-        Tell whether a text is the name of a sheet, and a heading.
+    is_wanted, is_name, is_heading : callable
+        Tell whether a text is the name of a sheet, or one misspelt, and a heading.
     text_format : TextFormat
         What is declared of the files.
     by_name : bool
@@ -74,7 +76,11 @@ def read_delimited(
         shown = _NAMES.get(delimiter, f'"{delimiter}"')
         rule = f"was read with the delimiter {shown} and the encoding {encoding}"
         remarks.append(note_file(file, rule))
-        sheets += _cut_sheets(file, name, records, is_wanted, text_format)
+        for sheet in _cut_sheets(file, name, records, is_wanted, is_name, text_format):
+            if is_wanted(sheet.name):
+                sheets.append(sheet)
+            else:
+                unread.append(sheet.name)
     return tuple(sheets), tuple(unread), tuple(remarks)
 
 
@@ -149,14 +155,16 @@ def _cut_sheets(
     first: str,
     records: _Records,
     is_wanted: Callable[[str], bool],
+    is_name: Callable[[str], bool],
     text_format: TextFormat,
 ) -> list[Sheet]:
     """Cut a file into its sheets at the lines that name one."""
     groups: list[tuple[str, list[Cell]]] = [(first, [])]
     for row, record in enumerate(records, start=1):
-        filled = [text.strip() for text in record if text.strip()]
-        if len(filled) == 1 and is_wanted(filled[0].strip("[]#: ")):
-            groups.append((filled[0].strip("[]#: "), []))
+        # a misspelt name is told from a line of the table by the empty one above
+        is_apart = row == 1 or not any(map(str.strip, records[row - 2]))
+        if title := _find_title(record, is_name if is_apart else is_wanted):
+            groups.append((title, []))
             continue
         name, cells = groups[-1]
         cells += [
@@ -175,5 +183,21 @@ def _cut_sheets(
     for name, cells in groups:
         require_columns(file, name, cells)
         if cells:
-            sheets.append(Sheet(file=file, name=name, rows=group_by_row(cells)))
+            rows = group_by_row(cells)
+            sheets.append(Sheet(file=file, name=name, rows=rows, is_delimited=True))
     return sheets
+
+
+def _find_title(record: list[str], is_name: Callable[[str], bool]) -> str:
+    """Name of the sheet that a line begins; empty for any other line.
+
+    A name in brackets that nobody knows begins a sheet too: what stands below it
+    must not count as lines of the sheet before.
+    """
+    filled = [text.strip() for text in record if text.strip()]
+    if len(filled) != 1:
+        return ""
+    name = filled[0].strip("[]#: ")
+    in_brackets = record[0].strip().startswith("[") and filled[0].endswith("]")
+    is_title = in_brackets and normalise_unit(name) not in KNOWN_UNITS
+    return name if is_title or is_name(name) else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Literal
@@ -14,6 +14,7 @@ from netdesign.site.unit_names import normalise_unit
 Kind = Literal["number", "count", "word", "id", "text"]
 Language = Literal["en", "fr", "de"]
 
+LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 _LONGEST_HEADING = 100
 
 
@@ -142,6 +143,7 @@ class SheetPlan:
     # Headings that may mean any of several fields: refused with their readings.
     unclear: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)  # by language
+    items: tuple[Field, ...] = ()  # what the lines of a table of items may name
 
     def matches(self, sheet_name: str) -> bool:
         """Whether a workbook's sheet of this name is the planned one."""
@@ -151,6 +153,14 @@ class SheetPlan:
     def name_in(self, language: Language) -> str:
         """Name of the sheet in a language."""
         return self.names.get(language, self.name)
+
+    def find_language(self, names: Iterable[str]) -> Language:
+        """Language with the most of these normalised headings; English in a tie."""
+        return max(LANGUAGES, key=lambda one: len(self._names_in(one) & set(names)))
+
+    def _names_in(self, language: Language) -> set[str]:
+        wordings = (field.wording(language) for field in self.fields)
+        return {normalise(n) for one in wordings for n in (one.label, *one.aliases)}
 
     def find_unclear(self, name: str) -> tuple[Field, ...]:
         """Fields that a normalised heading may mean, if it is an unclear one."""
@@ -180,3 +190,9 @@ def split_heading(text: str) -> tuple[str, str]:
     if match is None:
         return normalise(heading), ""
     return normalise(match[1]), normalise_unit(match[2])
+
+
+def find_item(text: str, items: Iterable[Field]) -> Field | None:
+    """Field of that name, which may have a unit behind it; None if there is none."""
+    key, _ = split_heading(text)
+    return next((field for field in items if key in field.names), None)

@@ -9,12 +9,24 @@ from dataclasses import dataclass
 
 from netdesign.site.cells import Cell, MergedRange, Sheet, name_column
 from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
-from netdesign.site.fields import Field, SheetPlan, normalise, split_heading
+from netdesign.site.fields import (
+    Field,
+    Language,
+    SheetPlan,
+    normalise,
+    split_heading,
+)
 from netdesign.site.numbers import parse_number
 from netdesign.site.readings import refuse_stored
-from netdesign.site.unit_names import UNCLEAR_UNITS, convert_unit, normalise_unit
+from netdesign.site.unit_names import (
+    KNOWN_UNITS,
+    UNCLEAR_UNITS,
+    convert_unit,
+    normalise_unit,
+)
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
+_UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 # How alike a heading must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
 
@@ -42,11 +54,17 @@ class Headings:
         Below headings and units.
     columns : mapping of str to Column
         By field key; absent headings are absent.
+    language : str
+        That of most of the headings.
+    group_rows : frozenset of int
+        Rows above that hold merged groups of headings, or headings merged downwards.
     """
 
     row: int
     first_data_row: int
     columns: Mapping[str, Column]
+    language: Language
+    group_rows: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +113,7 @@ def find_headings(
         refusal = Refusal("has no row of headings", f"a row such as {wanted}, ...")
         findings.append(sheet.finding(refusal))
         return None
-    units_row = _find_units_row(sheet, plan, row)
+    units_row = _find_units_row(sheet, plan, row, findings)
     merged_to = [
         merged.last_row
         for merged in sheet.merged
@@ -103,7 +121,19 @@ def find_headings(
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
     columns = _find_columns(sheet, plan, row, units_row, first_data_row, findings)
-    return Headings(row=row, first_data_row=first_data_row, columns=columns)
+    names = {name for title in _list_titles(sheet, row) for name in title.names}
+    return Headings(
+        row=row,
+        first_data_row=first_data_row,
+        columns=columns,
+        language=plan.find_language(names),
+        group_rows=frozenset(
+            above
+            for merged in sheet.merged
+            for above in range(merged.row, merged.last_row + 1)
+            if merged.last_row >= row - 1 and above < row
+        ),
+    )
 
 
 def _list_titles(sheet: Sheet, row: int) -> list[_Title]:
@@ -158,15 +188,46 @@ def _last_row(sheet: Sheet) -> int:
     return first + _LAST_HEADING_ROW - 1
 
 
-def _find_units_row(sheet: Sheet, plan: SheetPlan, heading_row: int) -> int | None:
-    """Row below the headings if it holds nothing but units."""
-    row = heading_row + 1
-    known = {unit for field in plan.fields for unit in field.units} | set(UNCLEAR_UNITS)
-    units = [_read_unit(cell) for cell in sheet.row(row)]
-    is_units = units and all(
-        unit in known or in_brackets for unit, in_brackets in units
-    )
-    return row if is_units else None
+def _find_units_row(
+    sheet: Sheet, plan: SheetPlan, heading_row: int, findings: list[Finding]
+) -> int | None:
+    """Row below the headings if it holds units; other texts in it are findings.
+
+    One unit that nobody knows does not make it a line of the table, which would have
+    a number somewhere.
+    """
+    titles = {title.cell.column: title for title in _list_titles(sheet, heading_row)}
+    fields = {column: _match_field(title, plan) for column, title in titles.items()}
+    cells = [
+        (cell, field)
+        for cell in sheet.row(heading_row + 1)
+        if (field := fields.get(cell.column))
+    ]
+    measured = [(cell, field) for cell, field in cells if field.units]
+    others = [one for one in cells if one not in measured]
+    known = sum(_is_unit(*one) for one in measured)
+    strangers = [cell for cell, field in others if not _is_unit(cell, field)]
+    has_units_above = any(titles[cell.column].unit for cell, _ in measured)
+    is_row = 2 * known > len(measured) or not (strangers or has_units_above)
+    if not measured or not is_row or any(_is_number(*one) for one in cells):
+        return None
+    for cell in strangers:
+        if normalise(str(cell.value)) not in _UNITS_WORDS:
+            refusal = Refusal("stands in the row of units", "units, or an empty cell")
+            findings.append(cell.finding(refusal))
+    return heading_row + 1
+
+
+def _is_unit(cell: Cell, field: Field) -> bool:
+    """Whether it is a unit; of a 1, where the field may have none."""
+    unit, in_brackets = _read_unit(cell)
+    is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
+    return in_brackets or is_known
+
+
+def _is_number(cell: Cell, field: Field) -> bool:
+    number = parse_number(cell.value, cell.decimal_mark)
+    return not isinstance(number, Refusal) and not _is_unit(cell, field)
 
 
 def _read_unit(cell: Cell) -> tuple[str, bool]:

@@ -11,7 +11,6 @@ from typing import Any
 
 from netdesign.site.fields import Field, Language, SheetPlan, Wording
 
-LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 _TRANSLATED = ("fr", "de")  # English stands in columns.py, beside the fields
 
 

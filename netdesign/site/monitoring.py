@@ -28,9 +28,11 @@ def read_monitoring(
         do not ascend.
     """
     series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
+    unknown: set[str] = set()  # told once each, not once a line
     for line in read_rows(table, findings) if table else ():
         name, member = line["row"], line["member"]
-        if row_ids and name.word and name.word not in row_ids:
+        if row_ids and name.word not in {"", *row_ids, *unknown}:
+            unknown.add(name.word)
             accepted = add_nearest("an id of sheet Nets", name.word, row_ids)
             refuse(name, "is no id of sheet Nets", accepted, findings)
         time = _read_time(line, findings)

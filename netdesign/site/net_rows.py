@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from netdesign.errors import ModelError
-from netdesign.site.diagnostics import Finding, Refusal, add_nearest
+from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
 from netdesign.site.model import (
     MEMBER_MODES,
     OPTIONAL_MODES,
@@ -38,8 +38,10 @@ from netdesign.structure.layout import (
 )
 
 Types = Mapping[str, Row]  # the lines of one type sheet, by id
-TypeSheets = Mapping[str, Types]  # by name of the sheet
+# By name of the sheet; None without a sheet whose ids can be read.
+TypeSheets = Mapping[str, Types | None]
 
+_MOST_PLACES = 5  # named in one finding
 _MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
 
 
@@ -48,6 +50,7 @@ def build_net_rows(
     type_sheets: TypeSheets,
     snow: LayersByRow,
     findings: list[Finding],
+    absent: Iterable[str] = (),
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -61,6 +64,8 @@ def build_net_rows(
         Lines of sheet Snow by net row, from the ground up.
     findings : list of Finding
         Appended to.
+    absent : iterable of str
+        Type sheets that the workbook does not have, under whatever name.
 
     Returns
     -------
@@ -77,6 +82,7 @@ def build_net_rows(
         _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
         for row in rows
     ]
+    _refuse_missing_sheets(table, rows, absent, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -97,6 +103,43 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
     return by_id
 
 
+def _list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
+    """Cells that name an id of a type sheet."""
+    return [
+        row[member]
+        for row in rows
+        for member in _MEMBERS
+        if row[member].word and row[member].field.refers_to == sheet
+    ]
+
+
+def _refuse_missing_sheets(
+    table: Table, rows: list[Row], absent: Iterable[str], findings: list[Finding]
+) -> None:
+    """One finding for a type sheet that is not there, not one for each of its ids."""
+    for name in absent:
+        named = _list_references(rows, name)
+        if not named:
+            continue
+        ids = list(dict.fromkeys(one.word for one in named))
+        rule = (
+            f"lacks the sheet {quote(name)}: {_count(ids)} of sheet "
+            f"{table.sheet.name} cannot be found"
+        )
+        places = ", ".join(one.place for one in named[:_MOST_PLACES])
+        accepted = f"a sheet {quote(name)} with these ids, or empty cells in {places}"
+        more = len(named) - _MOST_PLACES
+        accepted += f" and {more} more" if more > 0 else ""
+        findings.append(Finding(file=table.sheet.file, rule=rule, accepted=accepted))
+
+
+def _count(ids: list[str]) -> str:
+    shown = ", ".join(map(quote, ids[:_MOST_PLACES]))
+    if len(ids) == 1:
+        return f"the id {shown}"
+    return f"{len(ids)} ids ({shown}{', ...' if len(ids) > _MOST_PLACES else ''})"
+
+
 def _build_net_row(
     row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
 ) -> NetRow | None:
@@ -106,7 +149,11 @@ def _build_net_row(
     thickness = _understand_thickness(row, lines, layers, findings)
     ground = _understand_ground(row, thickness, findings)
     _check_types(row, type_sheets, findings)
-    is_faulty = any(reading.state == "faulty" for reading in row.values())
+    is_faulty = any(reading.state == "faulty" for reading in row.values()) or any(
+        _list_references([row], name)
+        for name, types in type_sheets.items()
+        if types is None
+    )
     if is_faulty or thickness is None or ground is None or len(findings) > count_before:
         return None
     return NetRow(
@@ -215,7 +262,7 @@ def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> 
         reading = row[member]
         sheet = reading.field.refers_to
         types = type_sheets[sheet]
-        if reading.word and reading.word not in types:
+        if types is not None and reading.word and reading.word not in types:
             accepted = f"an id defined in sheet {sheet}, or an empty cell"
             places = {name: line["id"].place for name, line in types.items()}
             accepted = add_nearest(accepted, reading.word, types, places)
@@ -259,7 +306,7 @@ def _find_resistance(
             type_id="",
             source=reading.place or "Nets",
         )
-    kind = type_sheets[reading.field.refers_to][reading.word]
+    kind = (type_sheets[reading.field.refers_to] or {})[reading.word]
     resistance = kind[mode]
     tests = find_tests(kind) if mode == "pull_out" else None
     is_given = resistance.state == "given"

@@ -16,6 +16,7 @@ from typing import Any
 
 from netdesign.site.cells import Cell, MergedRange, Sheet, group_by_row
 from netdesign.site.limits import MAX_COLUMNS, MAX_ROWS, require_columns, require_rows
+from netdesign.site.number_formats import find_text_unit
 from netdesign.site.numbers import DecimalMark
 
 _OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"
@@ -27,6 +28,7 @@ _CALCEXT = "{urn:org:documentfoundation:names:experimental:calc:xmlns:calcext:1.
 _ERROR = re.compile(r"#[A-Z/0?!]+|Err:[0-9]+")
 _TIME = re.compile(r"PT([0-9]+)H([0-9]+)M([0-9.]+)S")
 _LARGEST_WHOLE = 1e15
+_NUMBERS = ("float", "percentage", "currency")
 
 
 @dataclass(slots=True)
@@ -203,13 +205,14 @@ def _take_cell(sheet: _OpenSheet, cell: Any, row: int, column: int) -> list[Cell
             formula="".join(formula[1:]),
             is_error=is_error,
             is_percent=kind == "percentage",
+            shown_unit=find_text_unit(text) if kind in _NUMBERS else "",
             decimal_mark=sheet.decimal_mark,
         )
     ]
 
 
 def _read_value(cell: Any, kind: str, text: str) -> object:
-    if kind in ("float", "percentage", "currency"):
+    if kind in _NUMBERS:
         number = float(cell.get(f"{_OFFICE}value"))
         is_whole = number.is_integer() and abs(number) < _LARGEST_WHOLE
         return int(number) if is_whole else number

@@ -10,8 +10,9 @@ from netdesign.site.columns import (
     RANGE_QUANTITIES,
     SEARCHED,
 )
-from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
+from netdesign.site.diagnostics import Finding, Refusal, quote
 from netdesign.site.fields import Field, split_heading
+from netdesign.site.items import match_item
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
@@ -70,12 +71,10 @@ def _read_line(
     samples = read_field(table, "samples", row, findings)
     if name.state != "given":
         return
-    field = _match_quantity(name)
+    field = match_item(name, table, "quantity", findings)
     if field is None:
-        labels = [quantity.heading for quantity in RANGE_QUANTITIES]
-        accepted = add_nearest(", ".join(labels), name.word, labels)
-        refuse(name, "is no known quantity", accepted, findings)
-    elif field.key in found:
+        return
+    if field.key in found:
         refuse(name, "is given twice", "one line for each quantity", findings)
     else:
         found[field.key] = None
@@ -86,11 +85,6 @@ def _read_line(
                 for key in ("low", "high")
             )
             found[field.key] = _read_range(field, low, high, samples, findings)
-
-
-def _match_quantity(name: Reading) -> Field | None:
-    quantity, _ = split_heading(name.word)
-    return next((field for field in RANGE_QUANTITIES if quantity in field.names), None)
 
 
 def _settle_unit(

@@ -13,15 +13,15 @@ from netdesign.site.columns import (
     NETS,
     POSTS,
     PROJECT,
-    PROJECT_ITEMS,
     QUIET_SHEETS,
     RANGES,
     ROPES,
     SHEETS,
     SNOW,
 )
-from netdesign.site.diagnostics import Finding, add_nearest, note_file
-from netdesign.site.fields import normalise, split_heading
+from netdesign.site.diagnostics import Finding, note_file
+from netdesign.site.fields import split_heading
+from netdesign.site.items import match_item
 from netdesign.site.model import Project, Site
 from netdesign.site.monitoring import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
@@ -29,8 +29,17 @@ from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_layers import check_densities, read_layers
 from netdesign.site.spreadsheet import read_workbook
-from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.site.tables import (
+    Table,
+    find_table,
+    is_absent,
+    is_near,
+    read_field,
+    read_rows,
+)
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+
+_TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
 
 
 def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
@@ -60,19 +69,18 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     tables = {plan.name: find_table(workbook, plan, findings) for plan in SHEETS}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     type_sheets = {
-        plan.name: _read_types(tables[plan.name], findings)
-        for plan in (ANCHORS, ROPES, POSTS)
+        plan.name: _read_types(tables[plan.name], findings) for plan in _TYPE_SHEETS
     }
     snow = read_layers(tables[SNOW.name], findings)
     nets, ranges = tables[NETS.name], tables[RANGES.name]
-    net_rows = build_net_rows(nets, type_sheets, snow, findings) if nets else ()
+    absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
+    net_rows = build_net_rows(nets, type_sheets, snow, findings, absent) if nets else ()
     built_ranges = build_ranges(ranges, findings) if ranges else None
     if built_ranges:
         density = built_ranges[0].density
         check_densities(net_rows, snow, density.low, density.high, findings)
-    row_ids = {row.id for row in net_rows}
-    monitoring = read_monitoring(tables[MONITORING.name], row_ids, findings)
-    findings.extend(_note_unread(workbook))
+    monitoring = read_monitoring(tables[MONITORING.name], _list_ids(nets), findings)
+    findings.extend(_note_unread(workbook, findings))
     if built_ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings)
     return Site(
@@ -91,7 +99,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     """Cells of the sheets that a site workbook has; nothing is understood yet."""
-    return read_workbook(path, _is_wanted, is_heading, text_format)
+    return read_workbook(path, _is_wanted, _is_name, is_heading, text_format)
 
 
 def is_heading(text: str) -> bool:
@@ -109,12 +117,17 @@ def _is_wanted(sheet_name: str) -> bool:
     return any(plan.matches(sheet_name) for plan in SHEETS)
 
 
-def _note_unread(workbook: Workbook) -> list[Finding]:
+def _is_name(text: str) -> bool:
+    return _is_wanted(text) or any(is_near(text, plan) for plan in SHEETS)
+
+
+def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
     rule = "has no part in the check: it is not read"
+    told = {finding.sheet for finding in findings}
     return [
         note_file(workbook.file, rule, name)
         for name in workbook.unread
-        if name not in QUIET_SHEETS
+        if name not in QUIET_SHEETS and name not in told
     ]
 
 
@@ -124,27 +137,35 @@ def _read_project(
     """Project and the cell of each of its values."""
     values: dict[str, str] = {}
     cells: dict[str, str] = {}
-    for row in read_rows(table, findings) if table else ():
+    if table is None:
+        return Project(), cells
+    for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
-        if item.state != "given" or value.state != "given":
+        field = match_item(item, table, "item", findings) if item.word else None
+        if field is None or value.state != "given":
             continue
-        name = normalise(item.word)
-        key = next((field.key for field in PROJECT_ITEMS if name in field.names), None)
-        if key is None:
-            labels = [field.label for field in PROJECT_ITEMS]
-            accepted = add_nearest(", ".join(labels), item.word, labels)
-            refuse(item, "is no known item", accepted, findings, severity="note")
-        elif key in values:
-            rule = f"is given twice: also for {cells[key]}"
+        if field.key in values:
+            rule = f"is given twice: also for {cells[field.key]}"
             refuse(item, rule, "one line for each item", findings)
         else:
-            values[key], cells[key] = value.word, value.place
+            values[field.key], cells[field.key] = value.word, value.place
     return Project(**values), cells
 
 
-def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row]:
-    """Lines of a type sheet by id; a faulty line keeps its id known."""
-    rows = list(read_rows(table, findings)) if table else []
+def _list_ids(nets: Table | None) -> set[str]:
+    """Ids of sheet Nets, also of lines with a fault: that is a finding of its own."""
+    ids = (read_field(nets, "id", row, []).word for row in nets.rows) if nets else ()
+    return {one for one in ids if one}
+
+
+def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] | None:
+    """Lines of a type sheet by id; a faulty line keeps its id known.
+
+    None without the sheet, its headings or its column of ids.
+    """
+    if table is None:
+        return None
+    rows = list(read_rows(table, findings))
     for row in rows:
         basis = row.get("basis")
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
@@ -152,4 +173,5 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row]:
             refuse(basis, rule, basis.field.accepted, findings)
         check_tests(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
-    return index_by_id(filled, findings)
+    by_id = index_by_id(filled, findings)
+    return by_id if "id" in table.columns else None

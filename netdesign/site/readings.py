@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import Literal
 
@@ -13,7 +13,7 @@ from netdesign.site.diagnostics import Finding, Refusal, Severity, add_nearest
 from netdesign.site.fields import Field, normalise
 from netdesign.site.model import InputEcho
 from netdesign.site.numbers import parse_number
-from netdesign.site.unit_names import convert_unit, to_si
+from netdesign.site.unit_names import convert_unit, normalise_unit, to_si
 
 State = Literal["given", "blank", "default", "faulty"]
 
@@ -119,7 +119,7 @@ def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
     """Text as typed; with its unit where that is another than the field's."""
     if unit == field.unit:
         return cell.text
-    shown = _take_percentage(cell, unit) if cell.is_percent else cell.text
+    shown = _take_number(cell, unit) if _is_percentage(cell) else cell.text
     return f"{shown:g} {unit}" if isinstance(shown, float) else f"{cell.text} {unit}"
 
 
@@ -166,7 +166,8 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
     if cell.is_blank:
         refusal = Refusal("is empty", field.accepted) if field.required else None
     else:
-        number = refuse_stored(cell) or _parse(cell)
+        # a percentage is a number, whether or not it can be one in this column
+        number = refuse_stored(cell) or _take_number(replace(cell, shown_unit=""), "%")
         refusal = number if isinstance(number, Refusal) else None
     if refusal:
         findings.append(cell.finding(refusal, field.label))
@@ -186,7 +187,7 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
-    number = _take_percentage(cell, unit) if cell.is_percent else _parse(cell)
+    number = _take_number(cell, unit)
     if isinstance(number, Refusal):
         return number
     value = convert_unit(number, unit, field.unit)
@@ -204,18 +205,51 @@ def _parse(cell: Cell) -> float | Refusal:
     return parse_number(cell.value, cell.decimal_mark)
 
 
-def _take_percentage(cell: Cell, unit: str) -> float | Refusal:
-    """Read a cell whose format shows 0.7 as 70 %."""
+def _take_number(cell: Cell, unit: str) -> float | Refusal:
+    """Read a number as the column's unit has it; refuse one shown in another unit."""
+    if isinstance(cell.value, str) and _is_percentage(cell):
+        return _take_typed_percentage(cell, unit)
     number = _parse(cell)
-    if unit == "-" or isinstance(number, Refusal):
+    if isinstance(number, Refusal):
         return number
-    if unit == "%":
-        # The decimal shift of what was typed: 0.285 must not become 28.499999999999996.
-        return float(Decimal(repr(number)).scaleb(2))
+    shown = f"{number:g} {cell.shown_unit}"
+    if cell.is_percent:
+        if unit in ("-", "%"):
+            return _shift(number, 2) if unit == "%" else number
+        shown = f"{100 * number:g} %"
+    elif cell.is_thousandth:
+        shown = f"{number / 1000:g} {cell.shown_unit}".strip()
+    elif not cell.shown_unit or normalise_unit(cell.shown_unit) == unit:
+        return number
     return Refusal(
-        f"is ambiguous: its format shows {100 * number:g} %, the file holds {number:g}",
+        f"is ambiguous: its format shows {shown}, the file holds {number:g}"
+        + (f", the unit of the column is {unit}" if unit else ""),
         "a plain number in the unit of the heading",
     )
+
+
+def _is_percentage(cell: Cell) -> bool:
+    """Whether a cell shows a number of hundredths, by its format or in its text."""
+    return cell.is_percent or (
+        isinstance(cell.value, str) and cell.value.strip().endswith("%")
+    )
+
+
+def _take_typed_percentage(cell: Cell, unit: str) -> float | Refusal:
+    """Read a text such as ``65 %``: a share, or a number of a column in percent."""
+    typed = str(cell.value).strip().removesuffix("%").rstrip()
+    number = parse_number(typed, cell.decimal_mark)
+    if isinstance(number, Refusal) or unit == "%":
+        return number
+    if unit == "-":
+        return _shift(number, -2)
+    rule = f"is a percentage, the unit of the column is {unit or 'none'}"
+    return Refusal(rule, "a plain number in the unit of the heading")
+
+
+def _shift(number: float, digits: int) -> float:
+    """The decimal shift of what was typed: 0.285 is 28.5 %, not 28.499999999999996."""
+    return float(Decimal(repr(number)).scaleb(digits))
 
 
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:

@@ -34,6 +34,7 @@ _Content = tuple[tuple[Sheet, ...], tuple[str, ...], tuple[Finding, ...]]
 def read_workbook(
     path: Path,
     is_wanted: Callable[[str], bool],
+    is_name: Callable[[str], bool] | None = None,
     is_heading: Callable[[str], bool] = lambda _: False,
     text_format: TextFormat = UNDECLARED,
 ) -> Workbook:
@@ -45,6 +46,9 @@ def read_workbook(
         The file. It is read once; guards, hash and content see the same bytes.
     is_wanted : callable
         Tells from a sheet's name whether to read it.
+    is_name : callable, optional
+        Tells whether a line alone in its row names a sheet of a csv file, perhaps
+        misspelt; by default, whether the sheet is wanted.
     is_heading : callable
         Tells from a cell's text whether it is a known heading; finds the
         delimiter of a csv file.
@@ -69,7 +73,12 @@ def read_workbook(
             raise refuse_file(path.name, "is a folder without csv files", "Nets.csv")
         contents = _read_texts(path.name, paths)
         read = read_delimited(
-            contents, is_wanted, is_heading, text_format, by_name=is_folder
+            contents,
+            is_wanted,
+            is_name or is_wanted,
+            is_heading,
+            text_format,
+            by_name=is_folder,
         )
         content = b"".join(contents.values())
     else:

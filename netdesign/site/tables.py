@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 from netdesign.site.cells import Cell, Sheet, Workbook
-from netdesign.site.diagnostics import Finding, Refusal, add_nearest
-from netdesign.site.fields import Field, SheetPlan
+from netdesign.site.diagnostics import Finding, Refusal, quote
+from netdesign.site.fields import (
+    Field,
+    Language,
+    SheetPlan,
+    find_item,
+    normalise,
+)
 from netdesign.site.headings import Column, Headings, find_cover, find_headings
 from netdesign.site.readings import (
     Reading,
@@ -20,11 +27,16 @@ from netdesign.site.readings import (
 )
 
 # What makes a single text below a table a note and not the start of another line.
-_NOTE = re.compile(
-    r"(\*|note|nota|nb\b|n\.b\.|remark|remarque|source|anm|bemerkung|hinweis|quelle)",
-    re.IGNORECASE,
+_NOTE_WORD = (
+    r"(notes?|nota|nb|n\.b|remarks?|remarques?|sources?|anm|anmerkung|bemerkung|hinweis"
+    r"|quelle)\b"
 )
+_NOTE = re.compile(_NOTE_WORD, re.IGNORECASE)
+_MARKED_NOTE = re.compile(rf"\*|{_NOTE_WORD}\s*[.:]", re.IGNORECASE)
 _NOTE_WORDS = 4
+_CUTS = (";", ",", "\t", "|")  # one of them may be the delimiter of a line
+# How alike the name of a sheet must be to a missing one to count as that, misspelt.
+_MISSPELT = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +47,7 @@ class Table:
     plan: SheetPlan
     columns: Mapping[str, Column]  # by field key; absent headings are absent
     rows: tuple[int, ...]  # numbers of the lines that hold something
+    language: Language  # of its headings
 
     def cell(self, row: int, key: str) -> Cell | None:
         """Cell of a field in a row; None without such a heading."""
@@ -72,7 +85,8 @@ def find_table(
         sheet=sheet,
         plan=plan,
         columns=headings.columns,
-        rows=_find_data_rows(sheet, headings.first_data_row, findings),
+        rows=_find_data_rows(sheet, plan, headings, findings),
+        language=headings.language,
     )
     _inspect_layout(table, headings, findings)
     return table
@@ -111,26 +125,56 @@ def _find_sheet(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> Sheet | None:
     sheets = [sheet for sheet in workbook.sheets if plan.matches(sheet.name)]
-    if not sheets and plan.required:
-        names = " or ".join((plan.name, *plan.aliases))
-        findings.append(
-            Finding(
-                file=workbook.file,
-                rule=f'lacks the sheet "{plan.name}"',
-                accepted=add_nearest(f"the name {names}", plan.name, workbook.unread),
-            )
-        )
+    if not sheets:
+        findings.extend(_judge_missing(workbook, plan))
     for double in sheets[1:]:
         refusal = Refusal(f'is a second sheet "{plan.name}", after {sheets[0].name}')
         findings.append(double.finding(refusal))
     return sheets[0] if sheets else None
 
 
+def is_near(name: str, plan: SheetPlan) -> bool:
+    """Whether a name is a planned sheet's, misspelt."""
+    known = [normalise(one) for one in (plan.name, *plan.aliases, *plan.names.values())]
+    stem = name.removesuffix(".csv")  # of a file: "site - Nets.csv"
+    words = {normalise(stem), normalise(re.split("[-_]", stem)[-1])}
+    return any(
+        difflib.get_close_matches(word, known, n=1, cutoff=_MISSPELT) for word in words
+    )
+
+
+def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
+    """Whether a workbook has no sheet that is a planned one, even by a near name."""
+    return not any(plan.matches(sheet.name) for sheet in workbook.sheets) and not any(
+        is_near(name, plan) for name in workbook.unread
+    )
+
+
+def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
+    """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
+    near = [name for name in workbook.unread if is_near(name, plan)]
+    wanted = quote(plan.name)
+    if near:
+        rule = f"is no known sheet, but its name is close to {wanted}, which is missing"
+        accepted = f"{wanted}, or a name quite unlike it"
+        return [
+            Finding(file=workbook.file, sheet=near[0], rule=rule, accepted=accepted)
+        ]
+    if not plan.required:
+        return []
+    names = " or ".join((plan.name, *plan.aliases))
+    rule, accepted = f"lacks the sheet {wanted}", f"the name {names}"
+    return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
+
+
 def _find_data_rows(
-    sheet: Sheet, first_row: int, findings: list[Finding]
+    sheet: Sheet, plan: SheetPlan, headings: Headings, findings: list[Finding]
 ) -> tuple[int, ...]:
+    first_row = headings.first_data_row
+    # of a line of items nothing may be taken for prose: its value would be lost
+    width = 0 if plan.items else len(headings.columns)
     filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
-    while filled and _is_note(sheet.row(filled[-1])):
+    while filled and _is_note(sheet.row(filled[-1]), width):
         refusal = Refusal("is a note below the table: it is not read")
         cell = sheet.row(filled.pop())[0]
         findings.append(cell.finding(refusal, severity="note"))
@@ -141,11 +185,20 @@ def _find_data_rows(
     return tuple(filled)
 
 
-def _is_note(cells: tuple[Cell, ...]) -> bool:
-    """Whether a row holds a single text that can be no line begun: many words."""
+def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
+    """Whether a row holds a single text that can be no line begun: many words.
+
+    A text that another delimiter would cut into a line of the table of ``width``
+    columns is that line; without a width only a text marked as a note is one.
+    """
     if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
         return False
     text = cells[0].value.strip()
+    if _MARKED_NOTE.match(text):
+        return True
+    parts = 1 + max(text.count(mark) for mark in _CUTS)
+    if not width or (parts > 1 and 2 * parts >= width):
+        return False
     return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
 
 
@@ -170,7 +223,22 @@ def _inspect_layout(table: Table, headings: Headings, findings: list[Finding]) -
             cell = sheet.cell(headings.row, column.number)
             refusal = Refusal("is in a hidden column; it was read all the same")
             findings.append(cell.finding(refusal, severity="note"))
+    findings.extend(_note_lines_above(table, headings))
     _judge_columns_without_heading(table, headings, findings)
+
+
+def _note_lines_above(table: Table, headings: Headings) -> Iterator[Finding]:
+    """Lines above the headings: a title block, or lines of a table put too high."""
+    for row in range(1, headings.row):
+        cells = table.sheet.row(row)
+        if len(cells) < 2 or row in headings.group_rows:
+            continue
+        item = find_item(str(cells[0].value), table.plan.items)
+        refusal = Refusal(
+            "stands above the headings: the line is not read",
+            "lines below the headings" if item else "",
+        )
+        yield cells[0].finding(refusal, severity="error" if item else "note")
 
 
 def _judge_columns_without_heading(
@@ -188,6 +256,12 @@ def _judge_columns_without_heading(
                 rule = f"stands below a heading merged over {cover.text}"
                 findings.append(
                     cell.finding(Refusal(rule, "a heading for each column"))
+                )
+            elif table.sheet.is_delimited or table.plan.items:
+                # a delimiter too many: what stands here may belong to the left of it
+                accepted = "as many cells as headings, or a heading for each column"
+                findings.append(
+                    cell.finding(Refusal("stands below no heading", accepted))
                 )
             else:
                 refusal = Refusal("stands below no heading: the column is not read")

@@ -132,6 +132,12 @@ _TO_SI = {
     "degC": kelvin_from_celsius,
 }
 
+# Every unit that some column may be given in, and what is refused as one.
+KNOWN_UNITS: frozenset[str] = frozenset(UNCLEAR_UNITS).union(
+    *(LENGTHS, AREAS, SECOND_MOMENTS, STRENGTHS, GROUND_STRESSES, FORCES),
+    *(FORCES_PER_LENGTH, ANGLES, SLOPES, SHARES, DENSITIES, TEMPERATURES, TIMES),
+)
+
 
 def normalise_unit(text: str) -> str:
     """Fold a unit to the spelling of this table: ``kg/m³`` to ``kg/m3``.

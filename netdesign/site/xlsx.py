@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -20,6 +19,11 @@ from netdesign.site.limits import (
     guard_archive,
     require_columns,
     require_rows,
+)
+from netdesign.site.number_formats import (
+    find_format_unit,
+    show_percent,
+    show_thousands,
 )
 from netdesign.site.numbers import DecimalMark
 
@@ -155,7 +159,7 @@ def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) ->
         value=cell.value,
         formula=formula,
         is_error=cell.data_type == "e",
-        is_percent=cell.data_type == "n" and _shows_percent(cell.number_format),
+        **_read_format(cell),
         decimal_mark=decimal_mark,
     )
 
@@ -165,9 +169,16 @@ def _show_formula(value: Any) -> str:
     return str(getattr(value, "text", value))
 
 
-def _shows_percent(number_format: str) -> bool:
-    """Whether a format multiplies by 100; a quoted percent sign does not."""
-    return "%" in re.sub(r'"[^"]*"|\\.', "", number_format)
+def _read_format(cell: Any) -> dict[str, Any]:
+    """What the format of a number shows beside it, for the fields of a `Cell`."""
+    if cell.data_type != "n" or not isinstance(cell.value, int | float):
+        return {}
+    text = str(cell.number_format)
+    return {
+        "is_percent": show_percent(text),
+        "is_thousandth": show_thousands(text),
+        "shown_unit": find_format_unit(text, cell.value),
+    }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,9 +4,16 @@ import math
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from netdesign.checks import RowGeometry, check_geometry, load_standard
-from netdesign.checks.geometry import compute_largest_row_spacing
+from netdesign.checks import (
+    RowGeometry,
+    check_geometry,
+    list_standards,
+    load_standard,
+)
+from netdesign.checks.geometry import check_slope, compute_largest_row_spacing
 from netdesign.outcome import Verdict
 
 SWISS = load_standard("swiss-guideline-2007")
@@ -75,8 +82,46 @@ def test_flat_slope_needs_no_rows():
 def test_limits_that_a_profile_lacks_are_not_checked():
     bare = replace(SWISS, values=())
     assert [(c.mode, c.verdict) for c in check_geometry(ROW, bare)] == [
-        ("inclination", Verdict.NOT_PROVEN)
+        ("inclination", Verdict.NOT_PROVEN),
+        ("slope", Verdict.NOT_PROVEN),
     ]
+
+
+PROFILES = [load_standard(name) for name in list_standards()]
+
+
+@pytest.mark.parametrize("profile", PROFILES, ids=lambda one: one.id)
+@given(st.floats(0.0, 89.0))
+@settings(max_examples=60, derandomize=True, deadline=None)
+def test_no_profile_passes_a_slope_that_cannot_be_believed(profile, degrees):
+    check = check_slope(math.radians(degrees), profile)
+    is_inside = 25.0 <= degrees <= 60.0
+    assert is_inside or check.verdict is not Verdict.PASS
+    has_limits = profile.find("geometry.slope.min") is not None
+    if not has_limits:
+        expected = Verdict.PASS if is_inside else Verdict.NOT_PROVEN
+        assert check.verdict is expected
+
+
+@given(st.floats(60.01, 75.0))
+@settings(max_examples=30, derandomize=True, deadline=None)
+def test_a_percentage_is_guessed_where_degrees_are_too_many(degrees):
+    """The row of the verdict page: 65, meant in percent."""
+    check = check_slope(math.radians(degrees), load_standard("eurocode"))
+    meant = math.degrees(math.atan(degrees / 100))
+    assert f"% are {meant:.4g} degrees." in check.reason
+    assert check.assumed == (
+        "geometry.slope.plausible.min",
+        "geometry.slope.plausible.max",
+    )
+
+
+def test_too_flat_a_slope_is_no_percentage():
+    check = check_slope(math.radians(22.7), load_standard("onr-24805-style"))
+    assert check.reason == (
+        "Not proven: the slope angle 22.7 degrees lies outside the plausible 25 to 60 "
+        "degrees."
+    )
 
 
 INSIDE = "lies inside 25 to 35 degrees."
@@ -144,5 +189,5 @@ def test_each_check_names_its_clause_and_what_is_only_assumed(mode, ids):
 def test_one_end_of_a_range_alone_is_no_limit():
     for left_out in ("geometry.slope.min", "geometry.slope.max"):
         values = tuple(v for v in SWISS.values if v.id != left_out)
-        checks = check_geometry(ROW, replace(SWISS, values=values))
-        assert "slope" not in {check.mode for check in checks}
+        check = check_slope(ROW.slope_angle, replace(SWISS, values=values))
+        assert check.reason.endswith("lies inside 25 to 60 degrees.")

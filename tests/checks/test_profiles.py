@@ -81,11 +81,10 @@ def test_geometry_is_checked_as_far_as_a_profile_has_limits(tmp_path):
         checks = judge_row(tmp_path, name, **ROW)
         return {key: c.verdict for key, c in checks.items() if key.startswith("geom")}
 
-    few = {"geometry.inclination", "geometry.height"}
+    few = {"geometry.inclination", "geometry.slope", "geometry.height"}
     assert set(geometry("nf-p-95-304-style")) == few
     swiss = geometry("swiss-guideline-2007")
     assert set(swiss) == few | {
-        "geometry.slope",
         "geometry.spacing",
         "geometry.gap",
     }

@@ -3,26 +3,91 @@ import json
 import pytest
 
 from netdesign.commands import dry_run
+from netdesign.envelope import workers
+from tests.short_example import write_short_example
+
+SEARCH, BESIDE = 7 * 55, 7 * 40
 
 
+@pytest.fixture
+def _timed(monkeypatch):
+    monkeypatch.setattr(dry_run, "_measure_case", lambda *_: 0.5)
+
+
+def announce(call, *options):
+    ended = call("check", "--example", "--dry-run", "--json", *options)
+    assert ended.code == 0
+    return json.loads(ended.out)
+
+
+@pytest.mark.usefixtures("_timed")
 @pytest.mark.parametrize("jobs", [1, 3])
-def test_the_time_is_that_of_one_case_times_their_number(call, monkeypatch, jobs):
-    monkeypatch.setattr(dry_run, "_measure_case", lambda _site, _run: 0.5)
-    ended = call("check", "--example", "--dry-run", "--json", "--jobs", jobs)
-    plan = json.loads(ended.out)
-    assert (ended.code, plan["net_rows"], plan["cases"]) == (0, 7, 7 * 55)
-    assert plan["predicted_s"] == pytest.approx(0.5 * 7 * 55 / jobs)
+def test_the_time_is_that_of_one_case_times_the_solves_of_all_phases(call, jobs):
+    """What is solved beside the envelope is solved one by one; reports take time."""
+    plan = announce(call, "--jobs", jobs)
+    assert (plan["net_rows"], plan["cases"]) == (7, SEARCH)
+    assert plan["further_solves"] == BESIDE
+    assert plan["predicted_s"] == pytest.approx(0.5 * (SEARCH / jobs + BESIDE) + 1.5)
 
 
-def test_a_search_is_told_as_about_so_many_cases(call, monkeypatch):
-    monkeypatch.setattr(dry_run, "_measure_case", lambda _site, _run: 0.5)
+@pytest.mark.usefixtures("_timed")
+def test_histories_and_profiles_are_promised_too(call):
+    plan = announce(call, "--jobs", 1, "--method", "transient")
+    cases = {one["phase"]: one["cases"] for one in plan["phases"]}
+    assert cases == {
+        "envelope": SEARCH, "histories": 21, "checks": BESIDE, "reports": 0,
+    }  # fmt: skip
+    assert plan["predicted_s"] > 0.5 * 21 * 100.0
+    two = announce(call, *("--standard", "eurocode", "--standard", "nf-p-95-304-style"))
+    assert two["further_solves"] == 2 * BESIDE  # each turns elsewhere
+
+
+@pytest.mark.usefixtures("_timed")
+def test_a_search_is_told_as_about_so_many_cases(call):
     ended = call("check", "--example", "--dry-run", "--jobs", 1)
-    assert "7 net rows, about 385 cases, about 192 s" in ended.out
-    ended = call("check", "--example", "--dry-run", "--json")
-    assert json.loads(ended.out)["is_searched"]
+    assert (
+        "7 net rows, about 385 cases and about 280 further solves, about 334 s"
+    ) in ended.out
+    assert "385 (up to 1855) largest forces" in ended.out
+    assert "280 (up to 1120) other creep laws" in ended.out
+    assert announce(call)["is_searched"]
 
 
 def test_a_case_is_solved_to_know_its_time(call, tmp_path):
-    ended = call("check", "--example", "--dry-run", "--json", "--accuracy", "0.1")
-    assert json.loads(ended.out)["predicted_s"] > 0
+    plan = announce(call, "--accuracy", "0.1")
+    assert plan["predicted_s"] > 0
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_fault_of_the_program_ends_a_dry_run_with_5(call, monkeypatch):
+    def fail(*_):
+        message = "spoilt"
+        raise IndexError(message)
+
+    monkeypatch.setattr(workers, "solve_scene", fail)
+    ended = call("check", "--example", "--dry-run", "--json")
+    assert ended.code == 5
+    assert json.loads(ended.out)["net_rows"] == 7
+    assert "internal error, please report it: IndexError: spoilt" in ended.err
+
+
+@pytest.mark.parametrize("rows", [["R4"], ["R7"]])
+@pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
+def test_no_more_is_solved_of_the_example_than_was_promised(
+    call, tmp_path, monkeypatch, rows, is_grid
+):
+    """One that passes narrowly, and one that fails."""
+    path, calls = tmp_path / "site.xlsx", []
+    write_short_example(path, rows, is_grid=is_grid)
+    quick = ("check", path, "--accuracy", "0.05", "--jobs", "1", "--json")
+    plan = json.loads(call(*quick, "--dry-run").out)
+
+    def solve(*args):
+        calls.append(args)
+        return solve_scene(*args)
+
+    solve_scene = workers.solve_scene
+    monkeypatch.setattr(workers, "solve_scene", solve)
+    assert call(*quick, "--no-cache", "--quiet").code in (0, 1)
+    assert 0 < len(calls) <= plan["cases"] + plan["further_solves"]
+    assert len(calls) > plan["cases"] / 2

@@ -173,8 +173,11 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
     result = run("envelope", scene, *RANGES, store=tmp_path / "cases.sqlite")
     lines = result.stderr.splitlines()
     assert re.fullmatch(
-        r"\d+ cases, gap [\d.e+-]+ %, [01] rows open, about \d+ s left", lines[-1]
+        r"search: \d+ solved, about \d+ to go; "
+        r"gap [\d.e+-]+ %, 1 rows open; about \d+ s left",
+        lines[-2],
     )
+    assert re.fullmatch(r"outputs: \d+ solved; about 0 s left", lines[-1])
 
 
 @pytest.mark.parametrize(
@@ -271,7 +274,7 @@ def test_a_killed_run_continues_to_the_same_bytes(scene, tmp_path):
 def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_path):
     store = tmp_path / "cases.sqlite"
     process = start(scene, store, tmp_path / "o")
-    while "cases" not in process.stderr.readline():  # the first wave is over
+    while "open" not in process.stderr.readline():  # the first wave is over
         assert process.poll() is None
     asked = time.monotonic()
     os.killpg(process.pid, signal.SIGINT)

@@ -5,9 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from netdesign.cable.funicular import Funicular
-from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.balance import (
+    check_balance,
+    measure_balance,
+    negative_share,
+)
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance
 from netdesign.errors import SolveError
@@ -143,7 +149,16 @@ def test_shares_of_suction_and_of_pulling_ground(state):
 
 def test_ground_that_only_pulls(state):
     balance = measure(state, ground_normal=np.array([-1.0]))
-    assert balance.ground_tension_share == math.inf
+    assert balance.ground_tension_share == 1.0
+
+
+@given(st.lists(st.integers(-1000, 1000), max_size=6))
+def test_share_that_pulls_is_a_number_from_0_to_1(forces):
+    share = negative_share(np.array(forces, dtype=float) / 7.0)
+    pulling = -sum(force for force in forces if force < 0)
+    assert 0.0 <= share <= 1.0
+    assert (share == 0.0) == (pulling == 0)
+    assert (share == 1.0) == (pulling > 0 and sum(forces) <= 0)
 
 
 def test_wall_has_no_tension(state):

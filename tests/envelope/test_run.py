@@ -10,6 +10,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.envelope import workers
 from netdesign.envelope.run import run_cases, solve_case
 from netdesign.envelope.runner import Runner
+from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
@@ -149,8 +150,9 @@ def test_a_bug_in_one_case_spares_the_others(task):
     results = run_cases(tasks)
     assert densities(results) == [250.0, 300.0, 350.0]
     assert [result.is_converged for result in results] == [True, False, True]
-    assert results[1].outcome is Outcome.WORKER_FAILED
-    assert results[1].reason == "ZeroDivisionError: spoilt"
+    assert results[1].outcome is Outcome.PROGRAM_FAULT
+    assert results[1].reason == SENTENCE
+    assert results[1].fault.kind == "ZeroDivisionError"
 
 
 def test_an_interrupt_is_no_failed_case(task, monkeypatch):

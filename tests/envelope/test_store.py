@@ -77,9 +77,10 @@ def test_many_names_are_looked_up_at_once(opened):
         assert len(one.find([str(k) for k in range(2000)])) == 1203
 
 
-def test_a_case_lost_with_its_worker_is_not_kept(opened):
+@pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
+def test_a_case_lost_with_its_worker_or_by_a_fault_is_not_kept(opened, lost):
     with opened() as one:
-        one.keep("a", CaseEnd(outcome=Outcome.WORKER_FAILED, reason="died"))
+        one.keep("a", CaseEnd(outcome=lost, reason="died"))
         assert one.find(["a"]) == {}
 
 

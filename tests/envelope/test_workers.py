@@ -24,6 +24,7 @@ from netdesign.envelope.workers import (
     build_workers,
     solve_job,
 )
+from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
 from tests.envelope.small_scene import COARSE, build_scene
 
@@ -34,6 +35,15 @@ class DyingScene(Scene):
     @property
     def flow_law(self):
         os._exit(9)
+
+
+class LongScene(Scene):
+    """Takes longer than any test waits."""
+
+    @property
+    def flow_law(self):
+        time.sleep(60.0)
+        raise TimeoutError
 
 
 class FaultyScene(Scene):
@@ -117,9 +127,33 @@ def test_a_worker_that_dies_costs_one_case_by_name(alone):
 
 def test_a_bug_in_one_case_is_its_outcome():
     end = solve_job(job(300.0, FaultyScene))
-    assert (end.outcome, end.reason) == (
-        Outcome.WORKER_FAILED, "ZeroDivisionError: spoilt",
-    )  # fmt: skip
+    assert (end.outcome, end.reason) == (Outcome.PROGRAM_FAULT, SENTENCE)
+    assert (end.fault.kind, end.fault.message) == ("ZeroDivisionError", "spoilt")
+    assert "density 300 kg/m3, friction 30 deg" in end.fault.case
+
+
+def spoil_within(batches):
+    """The batches with one more case in the midst of the last, which has a bug."""
+    *rest, (low, *others) = batches
+    return [*rest, (job(350.0, FaultyScene, friction_deg=20.0), low, *others)]
+
+
+def require_fault(workers, alone):
+    """The fault comes whole from wherever it was; the other ends are as ever."""
+    arrived = dict(workers.solve(spoil_within(BATCHES)))
+    fault = arrived[2].pop(0).fault
+    assert [[encode_end(e) for e in arrived[k]] for k in range(3)] == alone
+    assert (fault.kind, fault.message) == ("ZeroDivisionError", "spoilt")
+    assert fault.place.startswith("coupling/")
+    assert "test_workers.py" in fault.trace
+
+
+@pytest.mark.parametrize("workers", [OwnProcess(), ProcessPool(2, worth=1)])
+def test_a_fault_comes_whole_from_any_process(workers, alone):
+    try:
+        require_fault(workers, alone)
+    finally:
+        workers.close()
 
 
 def test_small_waves_start_no_processes(alone):
@@ -139,7 +173,9 @@ def test_an_interrupt_leaves_no_process_behind():
 
 
 PARENT = """
+import subprocess
 import sys
+import time
 sys.path[:0] = {path!r}
 from tests.envelope.test_workers import BATCHES, ProcessPool
 
@@ -228,6 +264,50 @@ def test_a_cluster_worker_that_dies_costs_one_case_by_name(cluster, alone):
         workers.close()
     assert found[1].pop(1) == LOST
     assert found == alone
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_fault_comes_whole_from_a_cluster(cluster, alone):
+    workers = DaskCluster(cluster)
+    try:
+        require_fault(workers, alone)
+    finally:
+        workers.close()
+
+
+SCHEDULER = """
+import time, dask, distributed
+if __name__ == "__main__":
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, host="127.0.0.1",
+        protocol="tcp://", dashboard_address="127.0.0.1:0", silence_logs=50,
+    )
+    print(cluster.scheduler_address.removeprefix("tcp://"), flush=True)
+    time.sleep(300)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills a process")
+@pytest.mark.filterwarnings("ignore")
+def test_a_scheduler_that_is_killed_is_named_with_its_address(alone, capfd):
+    """All that was asked of it is cancelled: no fault of the program, and no case's."""
+    root = Path(__file__).parents[2]
+    with subprocess.Popen(
+        [sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, text=True, cwd=root
+    ) as process:
+        address = process.stdout.readline().strip()
+        workers = DaskCluster(address)
+        arriving = workers.solve([BATCHES[0], (job(300.0, LongScene),)])
+        place, ends = next(arriving)
+        assert (place, [encode_end(end) for end in ends]) == (0, alone[0])
+        process.kill()
+        with pytest.raises(ClusterError) as caught:
+            next(arriving)
+        workers.close()
+    message = str(caught.value)
+    assert f"--executor dask://{address}: the connection" in message
+    assert "finished cases are kept" in message
+    assert "Traceback" not in capfd.readouterr().err
 
 
 def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):

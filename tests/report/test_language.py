@@ -115,6 +115,7 @@ NOTES = [
     'a.xlsx › Nets › A4: "R3" is in a hidden row; it was read all the same',
     'a.xlsx › Nets › C1: "slack" is in a hidden column; it was read all the same',
     'a.xlsx › Nets › Z3: "7" stands below no heading: the column is not read',
+    'a.xlsx › Nets › A1: "Survey" stands above the headings: the line is not read',
     "net row W2: layer densities of 221.7 to 525.5 kg/m3 reach outside the 367 to 917 "
     "kg/m3 for which the creep law boutillier-2004 is given",
     "net row W2: its 2 layers of mean density 304.4 kg/m3 keep their proportions; "

@@ -1,3 +1,4 @@
+import random
 import zipfile
 
 import openpyxl
@@ -46,7 +47,7 @@ def test_a_comment_of_the_engineer_stays(sheets, save, tmp_path):
 
 
 def test_findings_without_a_cell_are_in_the_list(sheets, save, tmp_path):
-    del sheets["Ropes"]
+    sheets["Nets"][1][12] = "G7"
     sheets["Ranges"][1:2] = []
     copy = annotate(save(sheets), tmp_path / "copy.xlsx")
     listed = [[cell.value for cell in row] for row in copy[FINDINGS_SHEET].iter_rows()]
@@ -105,3 +106,36 @@ def test_a_part_that_only_the_copy_needs_may_be_damaged(sheets, save):
     assert len(read_site(path).rows) == 2
     with pytest.raises(SiteDataError, match="cannot be copied"):
         annotate_workbook(path, [])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_merged_cells_are_marked_at_the_one_that_is_shown(save, sheets, tmp_path, seed):
+    """Findings fall into hidden cells of any merged range, empty ones too."""
+    rng = random.Random(seed)
+
+    def merge(workbook):
+        sheet = workbook["Nets"]
+        row, column = rng.randint(1, 3), rng.randint(1, 12)
+        sheet.merge_cells(
+            start_row=row,
+            start_column=column,
+            end_row=row + rng.randint(1, 2),
+            end_column=column + rng.randint(0, 2),
+        )
+        sheet.merge_cells("A6:B7")
+
+    copy = annotate(save(sheets, merge), tmp_path / "copy.xlsx")
+    listed = [[cell.value for cell in row] for row in copy[FINDINGS_SHEET].iter_rows()]
+    marked = {cell.coordinate for row in copy["Nets"] for cell in row if cell.comment}
+    for _, sheet, address, *_ in listed[1:]:
+        if sheet == "Nets" and address:
+            (shown,) = {
+                merged.start_cell.coordinate
+                for merged in copy["Nets"].merged_cells.ranges
+                if address in merged
+            } or {address}
+            assert shown in marked
+    again = annotate(tmp_path / "copy.xlsx", tmp_path / "again.xlsx")
+    assert {
+        cell.coordinate for row in again["Nets"] for cell in row if cell.comment
+    } == marked

@@ -236,12 +236,6 @@ def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
     assert missing.rule == 'lacks the heading "slope angle [deg]"'
 
 
-def test_an_unknown_project_item_is_noted(sheets, save):
-    sheets["Project"] = [["name", "value"], ["colour", "red"]]
-    (note,) = read_site(save(sheets)).notes
-    assert 'Project › A2: "colour" is no known item' in note
-
-
 # What is refused: one fault, one finding
 
 
@@ -302,7 +296,10 @@ def test_a_percent_format_counts_as_shown_and_against_degrees_is_refused(
 
     assert read_site(save(sheets, show_slack_as_percent)).rows[0].slack == 0.05
     (finding,) = refused(save(sheets, show_slope_as_percent))
-    assert finding.rule == ("is ambiguous: its format shows 4000 %, the file holds 40")
+    assert finding.rule == (
+        "is ambiguous: its format shows 4000 %, the file holds 40, the unit of the "
+        "column is deg"
+    )
     sheets["Nets"][HEADINGS][1] = "slope angle [%]"
     sheets["Nets"][FIRST][1], sheets["Nets"][SECOND][1] = 0.7, 70
     rows = read_site(save(sheets, show_slope_as_percent)).rows
@@ -415,14 +412,6 @@ def test_missing_sheets_are_refused(sheets, save, refused):
     nets, ranges = refused(save(sheets))
     assert nets.rule == 'lacks the sheet "Nets"'
     assert ranges.rule == 'lacks the sheet "Ranges"'
-
-
-def test_types_without_their_sheet_are_refused_where_they_are_named(
-    sheets, save, refused
-):
-    del sheets["Posts"]
-    (finding,) = refused(save(sheets))
-    assert (finding.cell, finding.rule) == ("N2", "is no id of sheet Posts")
 
 
 def test_sheets_without_headings_or_lines_are_refused(sheets, save, refused):

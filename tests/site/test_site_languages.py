@@ -3,8 +3,8 @@ import re
 import pytest
 
 from netdesign.site.columns import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
-from netdesign.site.fields import split_heading
-from netdesign.site.languages import LANGUAGES, load_words
+from netdesign.site.fields import LANGUAGES, split_heading
+from netdesign.site.languages import load_words
 from netdesign.site.notes_sheet import describe_accepted, describe_field
 
 TABLES = {

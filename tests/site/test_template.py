@@ -10,7 +10,7 @@ from netdesign.errors import OutputError, SiteDataError
 from netdesign.site import template
 from netdesign.site.columns import NETS, SHEETS
 from netdesign.site.drawing import SYMBOLS, draw_geometry
-from netdesign.site.languages import LANGUAGES
+from netdesign.site.fields import LANGUAGES
 from netdesign.site.reader import read_site
 from netdesign.site.template import load_example, write_site_workbook
 

@@ -1,0 +1,201 @@
+"""Tables of items and values: what names no item is refused, and never a default."""
+
+import random
+import string
+
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.columns import PROJECT, PROJECT_ITEMS, RANGE_QUANTITIES
+from netdesign.site.fields import LANGUAGES, find_item
+from netdesign.site.reader import read_site
+from tests.site import ods_files
+from tests.site.conftest import SOUND
+
+PROFILE = "eurocode"
+
+
+def write_csv(path, project, sheets=SOUND, delimiter=";"):
+    """All sheets in one file, Project first; ``project`` is its lines as typed."""
+    parts = ["[Project]", *project]
+    for name, rows in sheets.items():
+        parts += ["", f"[{name}]"]
+        parts += [
+            delimiter.join("" if cell is None else str(cell) for cell in row)
+            for row in rows
+        ]
+    path.write_text("\n".join(parts) + "\n", encoding="utf-8")
+    return path
+
+
+def findings_of(path):
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    return [one for one in caught.value.findings if one.severity == "error"]
+
+
+@pytest.mark.parametrize(
+    ("line", "near"),
+    [
+        ("standard,eurocode", '"standard" alone'),
+        ("standard, my own profile of limits", '"standard" alone'),
+        ("standard: my own profile of limits", '"standard" alone'),
+        ("standard\teurocode", '"standard" alone'),
+        ("Standrad;eurocode", 'did you mean "standard"?'),
+        ("Standrad;", 'did you mean "standard"?'),
+        ("Standrad,eurocode", 'did you mean "standard"?'),
+        ("nrme;eurocode", 'did you mean "standard"?'),
+        ("client;Commune", "name, number, author, checker, revision, standard"),
+        ("what follows is by the office of forests;x", "name, number"),
+    ],
+)
+def test_a_line_that_names_no_item_is_one_finding(tmp_path, line, near):
+    path = write_csv(tmp_path / "site.csv", ["item;value", "name;Combe", line])
+    (finding,) = findings_of(path)
+    assert (finding.sheet, finding.cell) == ("Project", "A4")
+    assert finding.text == line.split(";")[0]
+    assert near in finding.accepted
+
+
+@pytest.mark.parametrize(
+    ("headings", "sheet", "expected"),
+    [
+        ("rubrique;valeur", "Projet", "projet, numéro, auteur"),
+        (";".join(PROJECT.fields[k].wording("de").label for k in (0, 1)), "Projekt",
+         ", ".join(field.wording("de").label for field in PROJECT_ITEMS)),
+    ],
+)  # fmt: skip
+def test_items_are_listed_in_the_language_of_the_headings(
+    tmp_path, headings, sheet, expected
+):
+    path = write_csv(tmp_path / "site.csv", [headings, "colour;red"])
+    path.write_text(path.read_text("utf-8").replace("[Project]", f"[{sheet}]"), "utf-8")
+    (finding,) = findings_of(path)
+    assert finding.accepted.startswith(expected)
+
+
+def misspell(word, rng):
+    """Word with one letter gone, doubled, exchanged, or two that changed places."""
+    k = rng.randrange(len(word) - 1)
+    return rng.choice(
+        [
+            word[:k] + word[k + 1 :],
+            word[:k] + word[k] + word[k:],
+            word[:k] + rng.choice(string.ascii_lowercase) + word[k + 1 :],
+            word[:k] + word[k + 1] + word[k] + word[k + 2 :],
+        ]
+    )
+
+
+@pytest.mark.parametrize("kind", ["xlsx", "ods", "csv"])
+def test_no_misspelt_item_of_any_language_is_lost(kind, save, sheets, tmp_path):
+    rng = random.Random(7)
+    for _ in range(12):
+        field = rng.choice(PROJECT_ITEMS)
+        word = misspell(field.wording(rng.choice(LANGUAGES)).label, rng)
+        if find_item(word, PROJECT_ITEMS):
+            continue
+        lines = [["item", "value"], ["standard", PROFILE], [word, "something"]]
+        if kind == "csv":
+            path = write_csv(tmp_path / "site.csv", [";".join(line) for line in lines])
+        elif kind == "xlsx":
+            path = save({"Project": lines, **sheets})
+        else:
+            path = tmp_path / "site.ods"
+            ods_files.write_ods(path, {"Project": lines, **sheets})
+        (finding,) = findings_of(path)
+        assert (finding.sheet, finding.text) == ("Project", word)
+        assert find_item(word, PROJECT_ITEMS) is None
+
+
+def read_or_refuse(path):
+    """Sheets that a site was refused for, and its profile if it was not."""
+    try:
+        return set(), read_site(path).project.standard.strip()
+    except SiteDataError as error:
+        faults = [one for one in error.findings if one.severity == "error"]
+        return {one.sheet for one in faults}, ""
+
+
+def test_a_line_of_items_is_read_or_refused_wherever_its_marks_stand(tmp_path):
+    """Any line with the item and the profile: its profile is used, or it is refused."""
+    rng = random.Random(11)
+    marks = [";", ",", "\t", "|", ":", "=", " ", ";;", " ;", "; ", '";"']
+    used = 0
+    for _ in range(40):
+        line = rng.choice(["", " ", ";"]) + "standard" + rng.choice(marks) + PROFILE
+        line += rng.choice(["", ";", " ", ";;;", ";x"])
+        path = write_csv(tmp_path / "site.csv", ["item;value", line])
+        refused_in, profile = read_or_refuse(path)
+        assert refused_in <= {"Project", ""}, line  # "": no csv at all
+        assert profile == PROFILE or refused_in, line
+        used += not refused_in
+    assert 0 < used < 40
+
+
+@pytest.mark.parametrize("title", ["[Porject]", "Porject", "[Projct]"])
+def test_a_misspelt_name_of_a_sheet_is_refused(tmp_path, title):
+    path = write_csv(tmp_path / "site.csv", ["item;value", "standard;eurocode"])
+    path.write_text(path.read_text("utf-8").replace("[Project]", title), "utf-8")
+    (finding,) = findings_of(path)
+    assert finding.sheet == title.strip("[]")
+    assert '"Project", which is missing' in finding.rule
+
+
+@pytest.mark.parametrize("name", ["Porject", "Projects"])
+def test_so_is_that_of_a_workbook(sheets, save, refused, name):
+    sheets[name] = [["item", "value"], ["standard", PROFILE]]
+    (finding,) = refused(save(sheets))
+    assert (finding.sheet, finding.cell) == (name, "")
+
+
+def test_a_second_sheet_of_a_like_name_is_only_noted(sheets, save):
+    sheets["Anchors old"] = [["id"], ["A9"]]
+    (note,) = read_site(save(sheets)).notes
+    assert "Anchors old: the sheet has no part in the check" in note
+
+
+def test_items_above_their_headings_are_refused(tmp_path):
+    lines = ["standard;eurocode", "item;value", "name;Combe"]
+    (finding,) = findings_of(write_csv(tmp_path / "site.csv", lines))
+    assert (finding.cell, finding.text) == ("A2", "standard")
+    assert finding.rule == "stands above the headings: the line is not read"
+
+
+def test_a_title_block_is_noted(sheets, save):
+    sheets["Nets"][:0] = [["Survey", "2023"], ["alone"]]
+    (note,) = read_site(save(sheets)).notes
+    assert 'Nets › A1: "Survey" stands above the headings' in note
+
+
+@pytest.mark.parametrize("mark", [",", "\t", "|"])
+def test_a_net_row_with_another_delimiter_is_no_note(tmp_path, mark):
+    """A long name makes it read like prose: a row would be lost, and the rest pass."""
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    cells = ["" if cell is None else str(cell) for cell in SOUND["Nets"][1]]
+    sheets["Nets"].append([mark.join(["R3 above the old hut", *cells[1:]])])
+    (first, *_) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    assert first.sheet == "Nets"
+
+
+def test_a_range_with_another_delimiter_is_no_note(tmp_path):
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    sheets["Ranges"].append(["net inclination [deg], 27.5, 31.5, 3"])
+    (finding,) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    assert "holds the quantity and what belongs to it" in finding.rule
+
+
+def test_a_cell_beyond_the_headings_of_a_csv_is_refused(tmp_path):
+    """One delimiter too many shifts an optional cell out of its column."""
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    sheets["Nets"][0] = [*sheets["Nets"][0], "slack [-]"]
+    sheets["Nets"][1] = [*sheets["Nets"][1], None, 0.087]
+    (finding,) = findings_of(write_csv(tmp_path / "site.csv", ["item;value"], sheets))
+    assert (finding.rule, finding.text) == ("stands below no heading", "0.087")
+
+
+def test_every_spelling_of_an_item_names_it():
+    for items in (PROJECT_ITEMS, RANGE_QUANTITIES):
+        for field in items:
+            for language in LANGUAGES:
+                assert find_item(field.heading_for(language), items) is field
