@@ -17,7 +17,6 @@ from typing import Literal
 from netdesign import __version__
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.search import RowEnvelope
 from netdesign.envelope_record import record_envelope
@@ -121,14 +120,10 @@ def judge_site(
         schema=SCHEMA,
         verdict=merge_verdicts(row.verdict for row in rows),
         project=site.project,
-        profile=_record_profile(standard),
+        profile=record_profile(standard),
         rows=rows,
         range_inputs=list(site.range_inputs),
-        notes=[
-            *site.notes,
-            *_validity_notes(site, run.creep_law),
-            *_layer_notes(site),
-        ],
+        notes=list_notes(site, run.creep_law),
         provenance=_record_provenance(site, run),
     )
 
@@ -170,7 +165,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        notes=_list_row_notes(row, effects),
+        notes=list_row_notes(row, effects),
         envelope=(
             None
             if envelope is None
@@ -194,7 +189,7 @@ def _list_levels(
     return levels
 
 
-def _list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
+def list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
     """What was taken for granted about this row."""
     notes = []
     if not math.isfinite(row.gap):
@@ -250,18 +245,15 @@ def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
         reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
-        is_calibrated=all(
-            law.is_calibrated(density / ICE_DENSITY)
-            for density in _list_densities(row, result.case)
-        ),
+        is_calibrated=is_calibrated(law, row, result.case.density),
         **forces,
     )
 
 
-def _list_densities(row: NetRow, case: Case) -> tuple[float, ...]:
-    """Density of each layer of a case [kg/m3]; of uniform snow the case's own."""
-    layers = row.layers_at(case.density)
-    return tuple(layer.density for layer in layers) or (case.density,)
+def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
+    """Whether a law is given for the density of a case [kg/m3], and of each layer."""
+    layers = tuple(layer.density for layer in row.layers_at(density))
+    return all(law.is_calibrated(one / ICE_DENSITY) for one in layers or (density,))
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:
@@ -326,7 +318,8 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
     )
 
 
-def _record_profile(standard: Standard) -> ProfileRecord:
+def record_profile(standard: Standard) -> ProfileRecord:
+    """Every value of a limit profile, as a study states it."""
     return ProfileRecord(
         id=standard.id,
         title=standard.title,
@@ -375,6 +368,11 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
 def name_law(law: CreepLaw) -> str:
     """Name and source of a creep law, as a study states it."""
     return f"{law.name} ({law.source})"
+
+
+def list_notes(site: Site, law: CreepLaw) -> list[str]:
+    """What the reader noted, and what the model does with the site's snow."""
+    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[str]:

@@ -6,8 +6,10 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -434,11 +436,27 @@ class Study:
     range_inputs: list[InputEcho]
     notes: list[str]
     provenance: Provenance
+    digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
+
+
+def compute_digest(study: Study) -> str:
+    """SHA-256 of a study without its own digest.
+
+    It shows that a document is the one whose digest is printed in a report, or that it
+    was altered by somebody who did not think of it. Who alters a document on purpose
+    can compute it again: only a new solve shows that the numbers are true.
+    """
+    # 2 and 2.0 are one number, and become one when a document is read
+    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
 
 
 def write_document(study: Study) -> str:
-    """JSON text of a study; numbers in full, keys in the order of the fields."""
-    return write_json(study)
+    """JSON text of a study, with its digest.
+
+    Numbers stand in full, keys in the order of the fields.
+    """
+    return write_json(replace(study, digest=compute_digest(study)))
 
 
 def read_document(text: str) -> Study:

@@ -5,8 +5,11 @@ import pytest
 from netdesign.site import template
 
 
-def write_short_example(path, rows, *, is_grid=True):
-    """Write these net rows; as a grid at both ends of density and friction alone."""
+def write_short_example(path, rows, *, is_grid=True, leans=True):
+    """Write these net rows; as a grid at both ends of density and friction alone.
+
+    A net that does not lean over a range keeps to its least inclination.
+    """
     lines = template.load_example()
     lines["Nets"] = [line for line in lines["Nets"] if line["id"] in rows]
     if is_grid:
@@ -14,6 +17,8 @@ def write_short_example(path, rows, *, is_grid=True):
             line["samples"] = samples
             if samples == 1:
                 line["high"] = line["low"]
+    if not leans:
+        lines["Ranges"][2]["high"] = lines["Ranges"][2]["low"]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(template, "load_example", lambda: lines)
         template.write_site_workbook(path, example=True)

@@ -31,7 +31,7 @@ ROWS = (
     {"site"},
     {
         *("study", "check_site", "monitoring", "rowcheck", "site_cases"),
-        *("envelope_record", "envelope_file", "study_repeat"),
+        *("envelope_record", "envelope_file", "study_repeat", "study_values", "audit"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
     {"benchmark"},
@@ -64,6 +64,11 @@ NEIGHBOURS = {
     ("study_repeat", "check_site"),  # what a study says of its settings
     ("study_repeat", "site_cases"),
     ("study_repeat", "study"),
+    ("audit", "study"),
+    ("audit", "check_site"),  # how a study states a profile
+    ("audit", "rowcheck"),  # judges checks again
+    ("audit", "study_values"),
+    ("study_repeat", "study_values"),
 }
 
 # Third-party packages, and the modules that may import them.

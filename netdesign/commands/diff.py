@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import json
+import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from netdesign.commands.options import json_option
+
+if TYPE_CHECKING:
+    from netdesign.report.difference import Change
+
+_TURNED = 1
 
 
 @click.command()
@@ -15,7 +23,10 @@ from netdesign.commands.options import json_option
 @click.argument("new", type=click.Path(path_type=Path))
 @json_option("changes")
 def diff(old: Path, new: Path, *, as_json: bool) -> None:
-    """Show what changed from one study to another: verdicts, cases, inputs.
+    """Show what changed from one study to another: verdicts, checks, inputs.
+
+    Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
+    of a net row or of any check in it.
 
     \b
     netdesign diff rev-a/study.json rev-b/study.json
@@ -27,7 +38,12 @@ def diff(old: Path, new: Path, *, as_json: bool) -> None:
     changes = compare_studies(load_study(old), load_study(new))
     if as_json:
         click.echo(json.dumps(write_difference(changes), indent=1, allow_nan=False))
-        return
+    else:
+        _show(changes)
+    sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)
+
+
+def _show(changes: Sequence[Change]) -> None:
     area = ""
     for change in changes:
         if change.area != area:

@@ -4,23 +4,47 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from netdesign.commands.options import force_option, out_option
 from netdesign.commands.report_options import list_wanted, report_options
+from netdesign.commands.stored_study import (
+    contradict_command,
+    origin_options,
+    read_own_site,
+)
+from netdesign.errors import NetDesignError, StudyError
+
+if TYPE_CHECKING:
+    from netdesign.checks import Standard
+    from netdesign.site.model import Site
+    from netdesign.study import Study
 
 DEFAULT_FOLDER = "netdesign-out"
+_SHOWN = 10  # contradictions; more help nobody
 
 
 @click.command()
 @click.argument("study_file", type=click.Path(path_type=Path))
 @out_option("Folder of the outputs.", default=DEFAULT_FOLDER, show_default=True)
+@origin_options
 @report_options
 @force_option
-def report(study_file: Path, *, out: Path, force: bool, **options: Any) -> None:
+def report(
+    study_file: Path,
+    *,
+    out: Path,
+    site_file: Path | None,
+    standard: str | None,
+    force: bool,
+    **options: Any,
+) -> None:
     """Render the reports of a stored study again, without solving.
+
+    A study that contradicts itself, its site file or its limit profile is refused. Only
+    `netdesign verify --study` shows that its forces are those of the site.
 
     \b
     netdesign report netdesign-out/study.json --out again
@@ -35,8 +59,77 @@ def report(study_file: Path, *, out: Path, force: bool, **options: Any) -> None:
     study = load_study(study_file)
     names = name_files(out, [study.profile.id], list_wanted(options))
     require_free(names[0], overwrite=force)
+    _require_sound(study, study_file, site_file, standard)
     files = render_files([study], names, ReportStyle(**options))
     write_files(files, overwrite=force)
     for path in names[0]:
         click.echo(f"wrote {path}", err=True)
     sys.exit(VERDICTS[study.verdict].exit_code)
+
+
+def _require_sound(
+    study: Study, study_file: Path, site_file: Path | None, standard: str | None
+) -> None:
+    """Refuse a study that cannot be true; say what it was not compared with.
+
+    Raises
+    ------
+    StudyError
+        With the contradictions, or if a file that was given is not the study's.
+    """
+    from netdesign.audit import audit_study
+    from netdesign.study import compute_digest
+
+    site = _find_site(study, study_file, site_file)
+    profile = _find_profile(study, standard)
+    found = [f"its command: {one}" for one in contradict_command(study)]
+    found += audit_study(study, profile, site)
+    if study.digest and study.digest != compute_digest(study):
+        found.insert(0, "it was altered after it was written: its SHA-256 is another")
+    if found:
+        more = [f"and {len(found) - _SHOWN} more"] if found[_SHOWN:] else []
+        lines = "\n".join((*found[:_SHOWN], *more))
+        raise StudyError(f"{study_file}: contradicts itself:\n{lines}")
+
+
+def _find_site(study: Study, study_file: Path, site_file: Path | None) -> Site | None:
+    """Site of the study, where its file is at hand; one that is given has to be it."""
+    try:
+        site = read_own_site(study, study_file, site_file)
+    except NetDesignError as error:
+        if site_file is not None:
+            raise
+        _tell_uncompared("site file", str(error).partition("\n")[0])
+        return None
+    if site.sha256 == study.provenance.site_sha256:
+        return site
+    if site_file is not None:
+        raise StudyError(f"{site_file}: not the site file of this study: other SHA-256")
+    _tell_uncompared("site file", "the one of its name has another SHA-256")
+    return None
+
+
+def _find_profile(study: Study, standard: str | None) -> Standard | None:
+    """Profile of the study, where it is at hand; one that is given has to be it."""
+    from netdesign.checks import load_standard
+
+    try:
+        profile = load_standard(standard or study.profile.id)
+    except NetDesignError as error:
+        if standard is not None:
+            raise
+        _tell_uncompared("limit profile", str(error))
+        return None
+    if profile.sha256 == study.profile.sha256:
+        return profile
+    if standard is not None:
+        raise StudyError(f"{standard}: not the profile of this study: other SHA-256")
+    _tell_uncompared("limit profile", "the one of its id has another SHA-256")
+    return None
+
+
+def _tell_uncompared(what: str, reason: str) -> None:
+    from netdesign.given_files import make_printable
+
+    text = f"not compared with its {what}: {reason}"
+    click.echo(make_printable(text), err=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -92,6 +92,17 @@ def open_site(
         raise
     _write_copy(path, annotate, text_format, site, overwrite=overwrite)
     return site
+
+
+def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
+    """Read a site again, with the words of an earlier command that say how."""
+    delimiter = str(typed.get("delimiter") or "")
+    mark = str(typed.get("decimal_mark") or "")
+    return open_site(
+        path,
+        delimiter=_DELIMITERS.get(delimiter, delimiter),
+        decimal_mark=mark if mark in _MARKS else None,
+    )
 
 
 @contextmanager

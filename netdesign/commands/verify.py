@@ -5,20 +5,26 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from netdesign.commands.options import jobs_option, json_option
-from netdesign.commands.site_input import temporary_example
 from netdesign.commands.solving import judge_rows, open_rows
+from netdesign.commands.stored_study import (
+    NO_COMMAND,
+    contradict_command,
+    origin_options,
+    read_own_site,
+)
 
 if TYPE_CHECKING:
-    from netdesign.site.model import Site
     from netdesign.study import Study
 
-_FAIL = 1
+_FAIL, _NOT_PROVEN = 1, 4
 _SHOWN = 20  # differences; more help nobody
 
 
@@ -30,17 +36,7 @@ _SHOWN = 20  # differences; more help nobody
     metavar="STUDY.json",
     help="Hash and solve this study again instead.",
 )
-@click.option(
-    "--site",
-    "site_file",
-    type=click.Path(path_type=Path),
-    help="Its site file [by its name, beside the study or one folder up].",
-)
-@click.option(
-    "--standard",
-    metavar="ID",
-    help="Its limit profile, or a folder with it [by its id].",
-)
+@origin_options
 @jobs_option("Processes of --study [all cores].")
 @json_option("cases")
 def verify(
@@ -53,9 +49,10 @@ def verify(
 ) -> None:
     """Run the verification pack, or verify a stored study.
 
-    The pack: closed forms, invariants, other codes. Of a study: its hashes, its own
-    arithmetic, and every value of it against a new solve that uses no stored case;
-    exit code 1 if anything differs.
+    The pack: closed forms, invariants, other codes. Of a study: its hashes, its
+    command, its own arithmetic, and every value of it, with their order, against a new
+    solve that uses no stored case. Exit code 1 if anything differs; 4 if nothing does,
+    but something could not be verified, which is then named.
 
     \b
     netdesign verify
@@ -92,13 +89,14 @@ def _verify_study(
     path: Path, site_file: Path | None, standard: str | None, jobs: int | None
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
+    from netdesign.audit import audit_study
     from netdesign.checks import load_standard
     from netdesign.study import load_study
     from netdesign.study_repeat import build_run
 
     study = load_study(path)
     run = build_run(study, jobs or os.cpu_count() or 1)
-    site = _read_site(study, path, site_file)
+    site = read_own_site(study, path, site_file)
     profile = load_standard(standard or study.profile.id)
     hashes = [
         _show_hash("site file", study.provenance.site_sha256, site.sha256),
@@ -107,40 +105,19 @@ def _verify_study(
     if not all(hashes):
         click.echo("not solved again: these are not the inputs of the study")
         return _FAIL
-    is_sound = _show_arithmetic(study)
+    told = [
+        _show_digest(study),
+        _show_contradictions("its command", list(contradict_command(study))),
+        _show_contradictions("its time", list(_contradict_time(study))),
+        _show_contradictions("its own arithmetic", audit_study(study, profile, site)),
+    ]
     with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
         (again,) = judge_rows(site, run, solved, [profile])
     is_same = _show_comparison(study, again)
-    return 0 if is_sound and is_same else _FAIL
-
-
-def _read_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
-    """Site of a study: as given, by its name, or the built-in example.
-
-    Raises
-    ------
-    StudyError
-        If there is none.
-    """
-    from netdesign.errors import StudyError
-    from netdesign.given_files import is_there
-    from netdesign.site.reader import read_site
-
-    name = Path(study.provenance.site_file).name  # never a path out of these folders
-    folder = study_file.absolute().parent
-    near = [one / name for one in (folder, folder.parent)]
-    if site_file is not None:
-        return read_site(site_file)
-    found = next((one for one in near if name and is_there(one)), None)
-    if found is not None:
-        return read_site(found)
-    if " --example" not in study.provenance.command:
-        raise StudyError(
-            f"{study_file}: no site file {name!r:.60} beside it or one folder up: "
-            "give it with --site"
-        )
-    with temporary_example() as path:
-        return read_site(path)
+    left = _show_unverified(study, again)
+    if not (all(told) and is_same):
+        return _FAIL
+    return _NOT_PROVEN if left else 0
 
 
 def _show_hash(what: str, stored: str, again: str) -> bool:
@@ -152,33 +129,51 @@ def _show_hash(what: str, stored: str, again: str) -> bool:
     return is_equal
 
 
-def _show_arithmetic(study: Study) -> bool:
-    """Whether verdicts and ratios of the study follow from its own numbers."""
-    from netdesign.errors import NetDesignError
-    from netdesign.given_files import make_printable
-    from netdesign.report.gate import require_consistent
+def _show_digest(study: Study) -> bool:
+    """Whether the document is as it was written; one without a digest may be."""
+    from netdesign.study import compute_digest
 
-    try:
-        require_consistent(study)
-    except NetDesignError as error:
-        click.echo(f"its own arithmetic: DIFFERS: {make_printable(str(error))}")
-        return False
-    click.echo("its own arithmetic: holds")
-    return True
+    if not study.digest:
+        return True
+    return _show_hash("document", study.digest, compute_digest(study))
+
+
+def _show_contradictions(what: str, found: Sequence[str]) -> bool:
+    from netdesign.given_files import make_printable
+
+    for one in found[:_SHOWN]:
+        click.echo(f"{what}: DIFFERS: {make_printable(one)}")
+    if not found:
+        click.echo(f"{what}: holds")
+    return not found
+
+
+def _contradict_time(study: Study) -> Iterator[str]:
+    """The time of the run lies in no future and has a zone; more nobody can know."""
+    started = study.provenance.started
+    if not started:
+        return
+    time = datetime.fromisoformat(started)
+    if time.tzinfo is None:
+        yield f"{started} has no time zone"
+    elif time > datetime.now(UTC):
+        yield f"{started} lies in the future"
 
 
 def _show_comparison(study: Study, again: Study) -> bool:
+    """Whether all values come out again; the hash may differ in last digits."""
     from netdesign.given_files import make_printable
     from netdesign.report.tables import hash_results
     from netdesign.study import write_document
-    from netdesign.study_repeat import SAME, list_differences, list_versions
+    from netdesign.study_repeat import list_differences
+    from netdesign.study_values import SAME
 
-    old, new = list_versions(study), list_versions(again)
-    for name in [name for name in old | new if old.get(name) != new.get(name)]:
-        then = make_printable(str(old.get(name)))
-        click.echo(f"other version: {name} {then} then, {new.get(name)} now")
     count, differences = list_differences(study, again)
-    _show_hash("results", hash_results(study), hash_results(again))
+    stored, now = hash_results(study), hash_results(again)
+    if stored == now or differences:
+        _show_hash("results", stored, now)
+    else:
+        click.echo("results, SHA-256: not equal, by last digits of numbers only")
     cases = sum(len(row.cases) for row in again.rows)
     click.echo(f"{cases} cases solved again, {count} values compared")
     for one in differences[:_SHOWN]:
@@ -190,3 +185,27 @@ def _show_comparison(study: Study, again: Study) -> bool:
     is_equal = write_document(study) == write_document(again)
     click.echo("same bytes" if is_equal else f"same numbers, within {SAME:g} of each")
     return True
+
+
+def _show_unverified(study: Study, again: Study) -> bool:
+    """Tell what no new solve can show; whether any of it might have been shown."""
+    from netdesign.given_files import make_printable
+    from netdesign.study_repeat import list_versions
+
+    made = study.provenance
+    old, new = list_versions(study), list_versions(again)
+    others = [name for name in old | new if old.get(name) != new.get(name)]
+    for name in others:
+        then = make_printable(str(old.get(name)))
+        click.echo(f"not verified: {name} {then} then, {new.get(name)} now")
+    if not study.digest:
+        click.echo("not verified: whether it was altered, since it has no SHA-256")
+    if made.command == NO_COMMAND:
+        click.echo("not verified: its command, which is not stated")
+    time = make_printable(made.started) or "not stated"
+    click.echo(
+        f"as stated, known to nobody else: time of the run ({time}), the words of its "
+        "command that decide no value; the document's SHA-256 shows only that nobody "
+        "altered them without computing it again"
+    )
+    return bool(others) or not study.digest or made.command == NO_COMMAND

@@ -11,6 +11,18 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
+from netdesign.report.check_formulas import (
+    ROUNDING,
+    compute_rank,
+    write_given_verdict,
+    write_product,
+    write_quotient,
+    write_rank,
+    write_ratio,
+    write_slack,
+    write_unchanged,
+    write_verdict,
+)
 from netdesign.report.check_view import (
     CheckView,
     find_utilisation_band,
@@ -35,6 +47,9 @@ _NOTES = (
     "PASS: μ high is at most 1. FAIL: μ low exceeds 1. Otherwise NOT PROVEN. "
     '"Set by the study": the verdict has another reason than the ratio, see Reason.',
 )
+# Stands in the place of a sentence of the study that no longer holds.
+CHANGED = "Changed after the study: the formulas of this workbook alone decide."
+_WANTED = {True: "A number above zero.", False: "A number of at least zero."}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +60,12 @@ class _Field:
     quantity: str
     heading: str
     width: float
+
+    @property
+    def index(self) -> int:
+        """Place of the column, from zero."""
+        *tens, ones = (ord(sign) - ord("A") for sign in self.letter)
+        return ones + 26 * sum(ten + 1 for ten in tens)
 
     @property
     def column(self) -> Column:
@@ -96,7 +117,20 @@ _CASES = tuple(
     _Field(letter, column.quantity, column.heading, 8.5)
     for letter, column in zip("TUV", CASE_COLUMNS, strict=True)
 )
-_FIELDS = (
+# Hidden: what the live cells are compared with, and what is sorted by.
+_RANK = _Field("Y", "", "Rank", 8)
+_UNCHANGED = _Field("Z", "", "As in the study", 8)
+_STUDY_TEXTS = (
+    _Field("AA", "", "Study: Resistance from", 8),
+    _Field("AB", "", "Study: Reason", 8),
+)
+_STUDY_VERDICT = _Field("AC", "", "Study: Verdict", 8)
+_STUDY_NUMBERS = (
+    _Field("AD", "utilisation", "Study: μ low", 8),
+    _Field("AE", "utilisation", "Study: μ high", 8),
+    _Field("AF", "resistance_characteristic_kN", "Study: characteristic resistance", 8),
+)
+_SHOWN = (
     *_LEAD,
     *_ACTIONS,
     _ACTION_FACTOR,
@@ -110,6 +144,8 @@ _FIELDS = (
     *_CASES,
     *_TAIL,
 )
+_HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
+_FIELDS = (*_SHOWN, *_HIDDEN)
 
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -121,7 +157,9 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     columns = [translate_view(field.column, book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
-        sheet.set_column(f"{field.letter}:{field.letter}", field.width)
+        options = {"hidden": field in _HIDDEN}
+        area = f"{field.letter}:{field.letter}"
+        sheet.set_column(area, field.width, None, options)
     line = HEAD_ROW + 1
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
         for check, words in zip(row.checks, shown.checks, strict=True):
@@ -136,21 +174,43 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
 
 def _finish(book: Book, sheet: Any, last: int) -> None:
     first = HEAD_ROW + 2
-    for name, field in (
-        ("check_net_row_number", _LEAD[0]),
-        ("check_utilisation", _RATIOS[1]),
-        ("check_utilisation_high", _RATIOS[2]),
-        ("check_verdict", _VERDICT),
-    ):
+    named = {
+        "check_net_row_number": _LEAD[0],
+        "check_name": _LEAD[2],
+        "check_utilisation": _RATIOS[1],
+        "check_utilisation_high": _RATIOS[2],
+        "check_verdict": _VERDICT,
+        "check_rank": _RANK,
+        "check_unchanged": _UNCHANGED,
+        **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
+    }
+    for name, field in named.items():
         area = f"${field.letter}${first}:${field.letter}${last}"
         book.workbook.define_name(name, f"={book.refer('Checks', area)}")
-    column = ord(_VERDICT.letter) - ord("A")
-    book.colour_verdicts(sheet, (first - 1, column, last - 1, column))
-    column = ord(_RATIOS[1].letter) - ord("A")
-    book.add_ratio_bars(sheet, (first - 1, column, last - 1, column))
-    sheet.autofilter(HEAD_ROW, 0, last - 1, len(_FIELDS) - 1)
+    _validate(book, sheet, (first - 1, last - 1))
+    for field, decorate in (
+        (_VERDICT, book.colour_verdicts),
+        (_RATIOS[1], book.add_ratio_bars),
+    ):
+        decorate(sheet, (first - 1, field.index, last - 1, field.index))
+    sheet.autofilter(HEAD_ROW, 0, last - 1, len(_SHOWN) - 1)
     sheet.freeze_panes(HEAD_ROW + 1, 3)
     sheet.repeat_rows(HEAD_ROW)
+
+
+def _validate(book: Book, sheet: Any, lines: tuple[int, int]) -> None:
+    """Let a spreadsheet program refuse factors and resistances that cannot be."""
+    first, last = lines
+    given = (_ACTION_FACTOR, _RESISTANCE_K, _RESISTANCE_FACTOR)
+    for field in (*given, *_ACTIONS):
+        rule = {
+            "validate": "decimal",
+            "criteria": ">" if field in given else ">=",
+            "value": 0,
+            "ignore_blank": False,
+            "error_message": book.words(_WANTED[field in given]),
+        }
+        sheet.data_validation(first, field.index, last, field.index, rule)
 
 
 class _CheckLine:
@@ -167,70 +227,89 @@ class _CheckLine:
         number, name = row
         self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
         self._write_numbers(check)
-        self._write_verdict(check)
+        self._write_verdict(number, check)
         case = check.case
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
-        fields = (*_LEAD[1:], *_TAIL)
-        texts = (
-            show_text(name),
-            view.title,
-            view.clause,
-            view.resistance_from,
-            view.reason,
-        )
-        for field, text in zip(fields, texts, strict=True):
+        texts = (show_text(name), view.title, view.clause)
+        for field, text in zip(_LEAD[1:], texts, strict=True):
             self._put(field, Cell(text=text))
-        lines = count_lines(texts, [field.width for field in fields])
+        self._write_study(check, view)
+        self._write_sentences((view.resistance_from, view.reason))
+        fields = (*_LEAD[1:], *_TAIL)
+        shown = (*texts, view.resistance_from, view.reason)
+        lines = count_lines(shown, [field.width for field in fields])
         self._book.set_height(self._sheet, self._line, lines)
 
     def _write_numbers(self, check: CheckRecord) -> None:
         actions, demands = _list_actions(check), _list_demands(check)
-        factor = self._at(_ACTION_FACTOR)
+        factor, at = self._at(_ACTION_FACTOR), self._at
         self._put_number(_ACTION_FACTOR, check.action_factor)
         for source, target, action, demand in zip(
             _ACTIONS, _DEMANDS, actions, demands, strict=True
         ):
             self._put_number(source, action)
-            product = f"{self._at(source)}*{factor}" if action is not None else ""
-            self._put_number(target, demand, product)
+            self._put_number(target, demand, write_product(at(source), factor))
+        parts = (at(_RESISTANCE_K), at(_RESISTANCE_FACTOR))
         self._put_number(_RESISTANCE_K, check.resistance_characteristic_kN)
         self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
-        given, factor = self._at(_RESISTANCE_K), self._at(_RESISTANCE_FACTOR)
-        quotient = f'IF({given}>0,{given}/{factor},"{MISSING}")'
-        is_live = _divide_resistance(check) is not None or check.resistance_kN is None
-        self._put_number(_RESISTANCE, check.resistance_kN, quotient if is_live else "")
+        self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
         low, high = find_utilisation_band(check)
+        is_slack = write_slack([at(field) for field in _DEMANDS], at(_SET))
         for field, demand_field, ratio in zip(
             _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
         ):
-            quotient = f"{self._at(demand_field)}/{self._at(_RESISTANCE)}"
-            # a slack member needs no resistance, unless the study holds it back
-            is_slack = f'AND({self._at(_DEMANDS[2])}=0,{self._at(_SET)}="{MISSING}")'
-            is_live = check.demand_kN is not None or ratio is None
-            formula = f"IF({is_slack},0,{quotient})" if is_live else ""
-            self._put_number(field, ratio, formula)
+            live = write_ratio(at(demand_field), at(_RESISTANCE), is_slack, parts)
+            self._put_number(field, ratio, live)
 
-    def _write_verdict(self, check: CheckRecord) -> None:
+    def _write_verdict(self, number: int, check: CheckRecord) -> None:
         is_set = decide_by_ratio(*_recalculate_band(check)) is not check.verdict
-        word = self._book.word(check.verdict)
-        passes, fails, open_ = map(
-            self._book.word, (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
-        )
-        self._put(_SET, Cell(text=word if is_set else MISSING))
-        low, high, given = (self._at(f) for f in (_RATIOS[0], _RATIOS[2], _SET))
+        words = {verdict: self._book.word(verdict) for verdict in Verdict}
+        shown, given = words[check.verdict], self._at(_SET)
+        self._put(_SET, Cell(text=shown if is_set else MISSING))
+        ends = [self._at(field) for field in _RATIOS]
         formula = (
-            f'=IF({given}<>"{MISSING}",{given},IF(ISNUMBER({high}),'
-            f'IF({high}<=1,"{passes}",IF({low}>1,"{fails}","{open_}")),"{open_}"))'
+            write_verdict(ends, given, words)
+            if _is_of_forces(check)
+            else write_given_verdict(given, words)
         )
         form = self._book.text(bold=True)
-        self._sheet.write_formula(self._at(_VERDICT), formula, form, word)
+        self._sheet.write_formula(self._at(_VERDICT), formula, form, shown)
+        rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
+        value = compute_rank(number, check.verdict, check.utilisation)
+        self._sheet.write_formula(self._at(_RANK), rank, None, value)
+
+    def _write_study(self, check: CheckRecord, view: CheckView) -> None:
+        """What the study has, and whether the live cells still show it."""
+        at = self._at
+        for field, text in zip(
+            (*_STUDY_TEXTS, _STUDY_VERDICT),
+            (view.resistance_from, view.reason, self._book.word(check.verdict)),
+            strict=True,
+        ):
+            self._put(field, Cell(text=text))
+        numbers = (*find_utilisation_band(check), check.resistance_characteristic_kN)
+        for field, number in zip(_STUDY_NUMBERS, numbers, strict=True):
+            self._put_number(field, number)
+        live = (_RATIOS[0], _RATIOS[2], _RESISTANCE_K)
+        formula = write_unchanged(
+            [(at(a), at(b)) for a, b in zip(live, _STUDY_NUMBERS, strict=True)],
+            [(at(_VERDICT), at(_STUDY_VERDICT))],
+        )
+        self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
+
+    def _write_sentences(self, texts: tuple[str, str]) -> None:
+        """Sentences of the study, as long as they hold."""
+        form, changed = self._book.text(text_wrap=True), self._book.words(CHANGED)
+        for field, stored, text in zip(_TAIL, _STUDY_TEXTS, texts, strict=True):
+            formula = f'=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},"{changed}")'
+            self._sheet.write_formula(self._at(field), formula, form, text)
 
     def _at(self, field: _Field) -> str:
         return f"{field.letter}{self._line + 1}"
 
     def _put(self, field: _Field, cell: Cell) -> None:
-        place = (self._line, ord(field.letter) - ord("A"))
+        place = (self._line, field.index)
         self._book.write_cell(self._sheet, place, field.column, cell)
 
     def _put_number(
@@ -254,29 +333,34 @@ def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
     """Verdict of the formula in the sheet: by the band of the utilisation alone."""
     if low is None or high is None:
         return Verdict.NOT_PROVEN
-    if high <= 1:
+    if high <= 1.0 + ROUNDING:
         return Verdict.PASS
     return Verdict.FAIL if low > 1 else Verdict.NOT_PROVEN
 
 
+def _is_of_forces(check: CheckRecord) -> bool:
+    """Whether the verdict follows from a ratio; one that passes without does not."""
+    return check.verdict is not Verdict.PASS or check.utilisation is not None
+
+
 def _recalculate_band(check: CheckRecord) -> tuple[float | None, float | None]:
     """Band as the sheet calculates it; may differ in the last bit, at exactly 1."""
-    resistance = _divide_resistance(check) or check.resistance_kN
-    if check.demand_high_kN == 0.0 or check.utilisation == 0.0:
-        return 0.0, 0.0
-    ends = []
-    for action, demand in zip(
-        _list_actions(check)[::2], _list_demands(check)[::2], strict=True
-    ):
-        if action is not None and check.action_factor is not None:
-            demand = action * check.action_factor
-        ends.append(demand / resistance if demand is not None and resistance else None)
-    return ends[0], ends[1]
+    resistance = _divide_resistance(check)
+    if check.demand_high_kN == 0.0:
+        is_named = check.resistance_characteristic_kN and check.resistance_factor
+        return (0.0, 0.0) if resistance or not is_named else (None, None)
+    if resistance is None or check.action_factor is None:
+        return None, None
+    low, _, high = (
+        None if action is None else action * check.action_factor / resistance
+        for action in _list_actions(check)
+    )
+    return low, high
 
 
 def _divide_resistance(check: CheckRecord) -> float | None:
     above, below = check.resistance_characteristic_kN, check.resistance_factor
-    return above / below if above is not None and below else None
+    return above / below if above and below else None
 
 
 def _list_demands(check: CheckRecord) -> tuple[float | None, ...]:

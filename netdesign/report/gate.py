@@ -32,7 +32,9 @@ def require_consistent(study: Study) -> None:
     _require_earned("the study", study.verdict, (row.verdict for row in study.rows))
     for row in study.rows:
         place = f"net row {row.id!r}"
-        _require_earned(place, row.verdict, (check.verdict for check in row.checks))
+        held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
+        parts = [*(check.verdict for check in row.checks), *held]
+        _require_earned(place, row.verdict, parts)
         for check in row.checks:
             _require_sound(f"{place}, check {check.id!r}", check)
 
@@ -45,6 +47,7 @@ def _require_earned(place: str, whole: Verdict, parts: Iterable[Verdict]) -> Non
 
 
 def _require_sound(place: str, check: CheckRecord) -> None:
+    _require_parts(place, check)
     for name, whole, parts in (
         ("demand", check.demand_kN, _product(check.action_kN, check.action_factor)),
         (
@@ -81,12 +84,21 @@ def _require_sizes(place: str, check: CheckRecord) -> None:
     """Refuse forces below zero, and a demand outside its own band."""
     ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
     known = [0.0, *(end for end in ends if end is not None)]
-    sizes = (check.action_kN, check.action_factor, check.resistance_factor)
-    strengths = (check.resistance_kN, check.resistance_characteristic_kN)
+    sizes = (check.action_kN, check.resistance_characteristic_kN)
     is_sound = known == sorted(known)
-    is_sound &= all(size is None or size >= 0.0 for size in (*sizes, *strengths))
+    is_sound &= all(size is None or size >= 0.0 for size in sizes)
     if not is_sound:
         raise NetDesignError(f"{place}: a force lies below zero or outside its band")
+
+
+def _require_parts(place: str, check: CheckRecord) -> None:
+    """Refuse factors that are none, and a resistance that follows from nothing."""
+    divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
+    if not all(one is None or one > 0.0 for one in divisors):
+        raise NetDesignError(f"{place}: a factor or a resistance is not above zero")
+    has_parts = check.resistance_characteristic_kN and check.resistance_factor
+    if check.resistance_kN is not None and not has_parts:
+        raise NetDesignError(f"{place}: a design resistance without its parts")
 
 
 def _is_of_geometry(check: CheckRecord) -> bool:

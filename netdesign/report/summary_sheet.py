@@ -6,8 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.check_formulas import write_merged
+from netdesign.report.check_sheet import CHANGED
 from netdesign.report.check_sheet import HEAD_ROW as FIRST_CHECK
-from netdesign.report.check_view import find_highest, find_utilisation_band
+from netdesign.report.check_view import (
+    find_governing,
+    find_highest,
+    find_utilisation_band,
+)
 from netdesign.report.table import Cell, Column
 from netdesign.report.view import ReportView, RowView
 from netdesign.report.words import (
@@ -17,12 +23,15 @@ from netdesign.report.words import (
 )
 from netdesign.report.workbook import Book, count_lines
 from netdesign.report.workbook_charts import add_utilisation_chart
-from netdesign.study import RowStudy, Study
+from netdesign.study import CasePoint, RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
 _WIDTHS = (4, 14, 18, 10, 12, 9, 13, 11, 8, 21, 23, 12, 32)
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # columns D, E, F
-_RATIO, _LIMIT, _FIRST_TEXT, _HELD = 6, 8, 9, "L"
+_RATIO, _LIMIT, _GOVERNING, _CASE = 6, 8, 9, 10
+_HELD, _REASONS = 11, 12
+_STUDY_REASONS, _STUDY_VERDICT = 13, 14  # hidden: what the live cells stand for
+_CASE_DECIMALS = 2
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -38,6 +47,7 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     book.write_head(sheet, _HEAD_ROW, columns, _WIDTHS)
     for index, width in enumerate(_WIDTHS):
         sheet.set_column(index, index, width)
+    sheet.set_column(_STUDY_REASONS, _STUDY_VERDICT, None, None, {"hidden": True})
     if not study.rows:
         text = book.words("none: the site has no net rows")
         sheet.write_string(last, 1, text, book.text())
@@ -74,7 +84,7 @@ def _list_columns(book: Book) -> tuple[Column, ...]:
         Column(heading=f"Largest {ratio.lower()}", is_number=True),
         Column(heading="Largest high end", is_number=True),
         Column(heading="Limit", is_number=True),
-        Column(heading="Governing check, as studied"),
+        Column(heading="Governing check"),
         Column(heading="Its case"),
         Column(heading="Held back by study"),
         Column(heading="Reasons"),
@@ -82,16 +92,26 @@ def _list_columns(book: Book) -> tuple[Column, ...]:
 
 
 def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
-    parts = [row.verdict for row in study.rows]
-    held = study.verdict is not merge_verdicts(parts)
+    held = study.verdict is not merge_verdicts(row.verdict for row in study.rows)
     rows = f"C{_HEAD_ROW + 2}:C{last + 1}"
     form = book.text(bold=True, font_size=12)
     word = book.word(study.verdict)
     sheet.write_string(2, 0, book.words("Verdict"), form)
-    counts = [f'COUNTIF({rows},"{book.word(verdict)}")' for verdict in _COUNTED]
-    formula = _merge_formula(book, counts, f'"{word if held else MISSING}"')
+    counts = {v: f'COUNTIF({rows},"{book.word(v)}")' for v in _COUNTED}
+    formula = write_merged(
+        counts,
+        total=len(study.rows),
+        held=f'"{word if held else MISSING}"',
+        words=_list_words(book),
+    )
     sheet.write_formula(2, 2, formula, form, word)
-    sheet.write_string(2, 3, book.verdicts[study.verdict].meaning, book.text())
+    meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
+    passes, fails, open_ = (book.word(v) for v in Verdict)
+    meaning = (
+        f'=IF(C3="{passes}","{meanings[passes]}",IF(C3="{fails}",'
+        f'"{meanings[fails]}","{meanings[open_]}"))'
+    )
+    sheet.write_formula(2, 3, meaning, book.text(), meanings[word])
     names = {
         "overall_verdict": "$C$3",
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
@@ -100,14 +120,8 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
         book.workbook.define_name(name, f"={book.refer('Summary', area)}")
 
 
-def _merge_formula(book: Book, counts: Sequence[str], held: str) -> str:
-    """Write ``outcome.merge_verdicts`` as a formula; ``held`` keeps a pass back."""
-    fails, gaps, passes = counts
-    fail, unproven, met = map(book.word, _COUNTED)
-    return (
-        f'=IF({fails}>0,"{fail}",IF({held}<>"{MISSING}",{held},'
-        f'IF(OR({gaps}>0,{passes}=0),"{unproven}","{met}")))'
-    )
+def _list_words(book: Book) -> dict[Verdict, str]:
+    return {verdict: book.word(verdict) for verdict in Verdict}
 
 
 def _write_row(
@@ -118,8 +132,12 @@ def _write_row(
     verdicts = [check.verdict for check in row.checks]
     held = row.verdict is not merge_verdicts(verdicts)
     sheet.write_number(index, 0, number, book.format(align="right"))
-    counts = [f"{column}{line}" for column in "DEF"]
-    formula = _merge_formula(book, counts, f"{_HELD}{line}")
+    formula = write_merged(
+        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEF", strict=True)},
+        total=len(row.checks),
+        held=f"{chr(ord('A') + _HELD)}{line}",
+        words=_list_words(book),
+    )
     sheet.write_formula(index, 2, formula, book.text(bold=True), shown.verdict.word)
     for column, verdict in enumerate(_COUNTED, 3):
         count = (
@@ -130,17 +148,73 @@ def _write_row(
         sheet.write_formula(index, column, count, form, verdicts.count(verdict))
     _write_largest(book, sheet, index, row)
     sheet.write_number(index, _LIMIT, 1, book.format(align="right"))
+    _write_governing(book, sheet, index, row, shown)
+    _write_reasons(book, sheet, index, shown, is_held=held)
+
+
+def _write_governing(
+    book: Book, sheet: Any, index: int, row: RowStudy, shown: RowView
+) -> None:
+    """Name and case of the check that decides now."""
+    mine = f"check_net_row_number,A{index + 1}"
+    line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
     none = book.words("none: no check was made")
-    texts = (
-        shown.governing.title if shown.governing else none,
-        shown.governing.case if shown.governing else MISSING,
-        shown.verdict.word if held else MISSING,
-        _explain(shown),
+    first, second, third = (
+        f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
-    for column, text in enumerate(texts, _FIRST_TEXT):
+    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
+    governing = find_governing(row.checks)
+    form = book.text(text_wrap=True)
+    title = shown.governing.title if shown.governing else none
+    is_there = f"COUNTIFS({mine})>0"
+    sheet.write_formula(
+        index,
+        _GOVERNING,
+        f'=IF({is_there},INDEX(check_name,{line}),"{none}")',
+        form,
+        title,
+    )
+    sheet.write_formula(
+        index,
+        _CASE,
+        f'=IFERROR(IF({is_there},{case},"{MISSING}"),"{MISSING}")',
+        form,
+        _show_case(governing.case if governing else None),
+    )
+
+
+def _show_case(case: CasePoint | None) -> str:
+    """Case as the formula shows it."""
+    if case is None:
+        return MISSING
+    values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
+    first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
+    return f"{first} kg/m³, φ {second}°, θ {third}°"
+
+
+def _write_reasons(
+    book: Book, sheet: Any, index: int, shown: RowView, *, is_held: bool
+) -> None:
+    """Reasons of the study, as long as every check of the row is as it was."""
+    line, reasons = index + 1, _explain(shown)
+    texts = {
+        _HELD: shown.verdict.word if is_held else MISSING,
+        _STUDY_REASONS: reasons,
+        _STUDY_VERDICT: shown.verdict.word,
+    }
+    for column, text in texts.items():
         cell = Cell(text=text)
         book.write_cell(sheet, (index, column), Column(heading=""), cell)
-    lines = count_lines((shown.id, *texts), (_WIDTHS[1], *_WIDTHS[_FIRST_TEXT:]))
+    of_row = f"check_net_row_number,A{line}"
+    formula = (
+        f"=IF(AND(C{line}=O{line},COUNTIFS({of_row},check_unchanged,1)="
+        f'COUNTIFS({of_row})),N{line},"{book.words(CHANGED)}")'
+    )
+    form = book.text(text_wrap=True)
+    sheet.write_formula(index, _REASONS, formula, form, reasons)
+    governing = shown.governing.title if shown.governing else ""
+    fields = ((1, shown.id), (_GOVERNING, governing), (_REASONS, reasons))
+    lines = count_lines([text for _, text in fields], [_WIDTHS[k] for k, _ in fields])
     book.set_height(sheet, index, lines)
 
 
@@ -177,6 +251,7 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
     signed = (("Prepared", view.prepared), ("Checked", view.checked), ("Approved", ""))
     blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
+        ("To verify this report", view.verification),
         ("Identification and sign-off", view.identification),
         ("Signatures", [(book.words(label), name) for label, name in signed]),
         ("Assumed: confirm in your copy of the standard", _list_assumed(book, view)),

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from netdesign.report.check_view import CheckView, Step, Worked
 from netdesign.report.language import Words
 from netdesign.report.table import Cell, Column, Table
-from netdesign.report.view import ReportView, RowView, build_view
+from netdesign.report.view import EXPLANATION, ReportView, RowView, build_view
 from netdesign.report.words import VerdictWords
 from netdesign.study import Study
 
@@ -81,6 +81,10 @@ def translate_view(view: View, words: Translate) -> View:
         changed["identification"] = tuple(
             (words(label), words(text) if label == "Limit profile" else text)
             for label, text in view.identification
+        )
+        changed["verification"] = tuple(
+            (words(label), words(text) if text == EXPLANATION else text)
+            for label, text in view.verification
         )
     translated: View = replace(shown, **changed)
     return translated

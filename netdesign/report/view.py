@@ -6,6 +6,7 @@ tables with the numbers behind them.
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -33,7 +34,14 @@ from netdesign.report.words import (
     show_quantity,
     show_text,
 )
-from netdesign.study import ProfileRecord, RowStudy, Study
+from netdesign.study import ProfileRecord, RowStudy, Study, compute_digest
+
+VERIFY = "netdesign verify"
+EXPLANATION = (
+    "It solves every case again and compares every value with the study; that ends "
+    "with exit code 0 only where nothing differs. Another SHA-256 than this one: the "
+    "study is not that of this report, or was altered."
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,6 +87,7 @@ class ReportView:
     date: str
     running_title: str
     verdict: VerdictWords
+    verification: tuple[tuple[str, str], ...]  # how a reader finds whether it is true
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
     assumed: Table
@@ -120,6 +129,7 @@ def build_view(study: Study) -> ReportView:
             if text
         ),
         verdict=VERDICTS[study.verdict],
+        verification=_tell_verification(study),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study),
         assumed=assumed,
@@ -215,6 +225,17 @@ def _identify(study: Study) -> tuple[tuple[str, str], ...]:
         ("Date", study.provenance.started[:10]),
     )
     return tuple((label, show_text(text)) for label, text in pairs)
+
+
+def _tell_verification(study: Study) -> tuple[tuple[str, str], ...]:
+    """Command that shows whether a report is true, and what ties it to its study."""
+    site = study.provenance.site_file
+    named = f" --site {shlex.quote(site)}" if site else ""
+    return (
+        ("To verify this report", show_text(f"{VERIFY} --study study.json{named}")),
+        ("What that does", EXPLANATION),
+        ("SHA-256 of its study", compute_digest(study)),
+    )
 
 
 def _count_verdicts(verdicts: Iterable[Verdict]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,
@@ -36,6 +37,27 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     solution = result.solution
     if solution is None or not result.is_converged:
         return None
+    load = solution.foot.x + solution.head.x
+    foot = result.member_forces["foot_anchor"].value
+    return compare_case(row, result.case, load=load, foot=foot)
+
+
+def compare_case(
+    row: NetRow, case: Case, *, load: float, foot: float
+) -> GuidelineRecord:
+    """Record the guideline's load cases against the forces of one case.
+
+    Parameters
+    ----------
+    row : NetRow
+        Net row.
+    case : Case
+        Solved case.
+    load : float
+        Along the slope on the net [N/m].
+    foot : float
+        Of the foot anchor [N].
+    """
     standard = load_guideline()
     cases = compare_with_guideline(
         read_load_model(standard),
@@ -43,24 +65,22 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
             slope_angle=row.slope_angle,
             snow_thickness=row.snow_thickness,
             net_height=row.net_height,
-            inclination=result.case.inclination,
+            inclination=case.inclination,
             stiffness=row.net_stiffness_per_m,
             slack=row.slack,
             layout=row.layout,
         ),
-        density=result.case.density,
+        density=case.density,
         altitude=row.altitude,
         glide_factor=find_row_glide_factor(row),
     )
-    load = solution.foot.x + solution.head.x
-    foot = result.member_forces["foot_anchor"].value
     return GuidelineRecord(
         profile=standard.id,
         sha256=standard.sha256,
-        case=record_point(result.case),
+        case=record_point(case),
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
-        cases=[_record_case(case, load, foot) for case in cases],
+        cases=[_record_case(one, load, foot) for one in cases],
         sentence=_SENTENCES[row.ground.kind],
     )
 

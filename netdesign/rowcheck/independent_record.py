@@ -13,13 +13,15 @@ from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_turning_angles,
 )
+from netdesign.checks.laws import (
+    DIRECTION,
+    DIRECTION_ERRORS,
+    LIMITS,
+    is_law_met,
+)
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.state import SolvedState
 from netdesign.study import HeadForce, IndependentRecord
-
-_BALANCE = 1e-3  # of a largest force or of the weight: tight enough for print
-_DIRECTION = 2e-2  # pulls are those of two meshes, the shape that of the finer one
-_RATIO = 1e-2  # of the ratio of tensions, as the allowed error of forces
 
 
 def record_independent(
@@ -38,8 +40,8 @@ def record_independent(
     if state is None:
         return []
     checks = [
-        _at_most("global_balance", state.balance.relative_residual, _BALANCE),
-        _at_most("friction_excess", state.balance.friction_excess, _BALANCE),
+        _judge("global_balance", state.balance.relative_residual),
+        _judge("friction_excess", state.balance.friction_excess),
         _check_ends(state),
     ]
     if state.method == "steady":  # forces of a history are its largest, not its last
@@ -56,8 +58,10 @@ def _check_ends(state: SolvedState) -> IndependentRecord:
     leaving = compute_end_directions(state.net_curve, is_curved=is_curved)
     ends = zip((state.foot, state.head), leaving, strict=True)
     sines = [abs(pull.x * y - pull.y * x) / pull.size for pull, (x, y) in ends]
-    errors = [3.0 * pull.error / pull.size for pull in (state.foot, state.head)]
-    return _at_most("end_direction", max(sines), max(_DIRECTION, *errors))
+    errors = [
+        DIRECTION_ERRORS * pull.error / pull.size for pull in (state.foot, state.head)
+    ]
+    return _judge("end_direction", max(sines), max(DIRECTION, *errors))
 
 
 def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentRecord:
@@ -67,21 +71,13 @@ def _check_capstan(state: SolvedState, friction_angle: float) -> IndependentReco
     limit = math.exp(bound) if bound < 100.0 else None
     smallest = state.balance.smallest_tension or 0.0
     ratio = float(state.tension_max / smallest) if smallest > 0.0 else None
-    is_held = limit is None or (ratio is not None and ratio <= limit * (1.0 + _RATIO))
-    return IndependentRecord(
-        name="capstan_ratio",
-        value=ratio,
-        limit=limit,
-        is_met=ratio is not None and is_held,
-    )
+    return _judge("capstan_ratio", ratio, limit)
 
 
 def _check_tension(state: SolvedState) -> IndependentRecord:
     """Smallest over largest tension: a net does not push."""
     share = float((state.balance.smallest_tension or 0.0) / state.tension_max)
-    return IndependentRecord(
-        name="tension_share", value=share, limit=0.0, is_met=share > 0.0
-    )
+    return _judge("tension_share", share)
 
 
 def _check_head(head: list[HeadForce]) -> IndependentRecord:
@@ -89,11 +85,14 @@ def _check_head(head: list[HeadForce]) -> IndependentRecord:
         sum(force.x_kN for force in head), sum(force.y_kN for force in head)
     )
     largest = max(math.hypot(force.x_kN, force.y_kN) for force in head)
-    return _at_most("head_balance", missing / largest, _BALANCE)
+    return _judge("head_balance", missing / largest)
 
 
-def _at_most(name: str, value: float, limit: float) -> IndependentRecord:
-    value = float(value)
+def _judge(
+    name: str, value: float | None, limit: float | None = None
+) -> IndependentRecord:
+    value = None if value is None else float(value)
+    limit = LIMITS.get(name, limit)
     return IndependentRecord(
-        name=name, value=value, limit=limit, is_met=abs(value) <= limit
+        name=name, value=value, limit=limit, is_met=is_law_met(name, value, limit)
     )

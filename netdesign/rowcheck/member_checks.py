@@ -99,11 +99,16 @@ def check_row(task: RowTask) -> list[CheckRecord]:
     for given in task.row.resistances:
         checks.append(_check_one(task, given, extremes, effects))
         task.on_check()
-    geometry = [*check_geometry(_read_geometry(task), task.standard)]
-    ends = check_ends(effects)
-    if ends is not None:
-        geometry.append(ends)
-    return [*checks, *(_record(result) for result in geometry)]
+    return [*checks, *record_geometry(task.row, task.ranges, task.standard)]
+
+
+def record_geometry(
+    row: NetRow, ranges: Ranges, standard: Standard
+) -> list[CheckRecord]:
+    """Checks of a row that no force enters."""
+    geometry = [*check_geometry(read_geometry(row, ranges), standard)]
+    ends = check_ends(find_effects(row, standard))
+    return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
 
 
 def record_point(case: Case) -> CasePoint:
@@ -115,11 +120,11 @@ def record_point(case: Case) -> CasePoint:
     )
 
 
-def _read_geometry(task: RowTask) -> RowGeometry:
-    row, inclination = task.row, task.ranges.inclination
+def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
+    """What a row's checks of geometry need."""
     return RowGeometry(
-        inclination_low=inclination.low,
-        inclination_high=inclination.high,
+        inclination_low=ranges.inclination.low,
+        inclination_high=ranges.inclination.high,
         slope_angle=row.slope_angle,
         snow_thickness=row.snow_thickness,
         net_height=row.net_height,
@@ -137,7 +142,7 @@ def _check_one(
     extreme = extremes.get(given.member)
     gap = task.gap
     if extreme is None:
-        return _record(check_member(None, given, task.standard, gap=gap), given)
+        return record_result(check_member(None, given, task.standard, gap=gap), given)
     between = task.estimate_between(extreme)
     factor = effects.factor(given.member)
     action = _widen(extreme.force, between).times(factor)
@@ -148,7 +153,7 @@ def _check_one(
     if task.probe and task.probe.faults > before and not gap:
         result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
     return replace(
-        _record(result, given),
+        record_result(result, given),
         case=record_point(extreme.governing.case),
         action=effects.record(given.member, extreme.force),
         spreads=spreads,
@@ -160,7 +165,8 @@ def _widen(force: Band, between: EnvelopeGap) -> Band:
     return Band(low=force.low, value=force.value, high=force.high + between.size)
 
 
-def _record(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
+def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
+    """Check in engineer's units, without what stands behind its action."""
     demand, utilisation = result.demand, result.utilisation
     return CheckRecord(
         id=result.id,

@@ -59,3 +59,14 @@ def test_what_is_no_study_ends_with_3(call, files, content):
     if content is not None:
         path.write_text(content)
     assert call("diff", files / "old.json", path).code == 3
+
+
+def test_a_turned_verdict_ends_with_1_in_text_and_document(call, files):
+    turned = replace(STUDY, verdict=Verdict.FAIL)
+    path = files / "turned.json"
+    path.write_text(write_document(turned), encoding="utf-8")
+    for options in ((), ("--json",)):
+        assert call("diff", files / "old.json", path, *options).code == 1
+        assert call("diff", path, files / "old.json", *options).code == 1
+    shown = call("diff", files / "old.json", path).out.splitlines()
+    assert shown == ["verdict", "  verdict: not_proven -> fail"]

@@ -8,9 +8,10 @@ import sys
 import pytest
 
 from netdesign import cli
+from netdesign.study import read_document, write_document
 from tests.short_example import write_short_example
 
-DIFFERS, REFUSED = 1, 3
+DIFFERS, REFUSED, UNPROVEN = 1, 3, 4
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 
 
@@ -38,7 +39,8 @@ def verify(home, call, tmp_path):
     def run(change=lambda _: None, *options):
         study = json.loads(text)
         change(study)
-        (tmp_path / "study.json").write_text(json.dumps(study), encoding="utf-8")
+        sealed = write_document(read_document(json.dumps(study)))  # as a forger would
+        (tmp_path / "study.json").write_text(sealed, encoding="utf-8")
         given = options or ("--site", home / "site.xlsx")
         return call("verify", "--study", "study.json", "--jobs", 1, *given)
 
@@ -56,7 +58,8 @@ def test_a_study_comes_out_again_from_its_site_file(home):
     assert "limit profile, SHA-256: equal" in ended.stdout
     assert "results, SHA-256: equal" in ended.stdout
     assert "4 cases solved again" in ended.stdout
-    assert ended.stdout.endswith("same bytes\n")
+    assert "\nsame bytes\n" in ended.stdout
+    assert ended.stdout.splitlines()[-1].startswith("as stated, known to nobody else")
     assert not (home / "none.sqlite").exists()  # no stored case was believed
 
 
@@ -80,7 +83,7 @@ def weaker_demand(study):
 
 
 def last_digits(study):
-    study["rows"][0]["cases"][0]["post_kN"] *= 1.0 + 1e-9
+    study["rows"][0]["cases"][0]["error_percent"] *= 1.0 + 1e-9
 
 
 @pytest.mark.parametrize(
@@ -121,24 +124,28 @@ def test_a_changed_study_ends_with_1_and_the_place(verify, change, place):
 
 def test_contradictions_are_told_before_anything_is_solved(verify):
     assert "its own arithmetic: DIFFERS: net row 'R7' says pass" in verify(to_pass).out
-    assert "its own arithmetic: holds" in verify(weaker_demand).out
+    told = verify(weaker_demand).out
+    assert "its own arithmetic: DIFFERS: net row 'R7', check 'post.compression'" in told
+    assert "its own arithmetic: holds" in verify().out
 
 
 def test_the_last_digits_of_another_machine_are_no_difference(verify):
     ended = verify(last_digits)
     assert ended.code == 0
-    assert ended.out.endswith("same numbers, within 1e-06 of each\n")
+    assert "\nsame numbers, within 1e-06 of each\n" in ended.out
+    assert "results, SHA-256: not equal, by last digits of numbers only" in ended.out
 
 
-def test_other_versions_are_told_and_decide_nothing(verify):
+def test_other_versions_are_told_and_leave_the_study_unproven(verify):
     def age(study):
         study["provenance"]["version"] = "0.0.9"
         study["provenance"]["libraries"]["numpy"] = "1.0.0"
 
     ended = verify(age)
-    assert ended.code == 0
-    assert "other version: netdesign 0.0.9 then, " in ended.out
-    assert "other version: numpy 1.0.0 then, " in ended.out
+    assert ended.code == UNPROVEN
+    assert "not verified: netdesign 0.0.9 then, " in ended.out
+    assert "not verified: numpy 1.0.0 then, " in ended.out
+    assert "same numbers" in ended.out
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from netdesign.study import (
     GuidelineCase,
     GuidelineRecord,
     HeadForce,
+    IndependentRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
@@ -198,6 +199,21 @@ def build_head() -> list[HeadForce]:
         HeadForce(member="net", x_kN=17.5, y_kN=-77.0),
         HeadForce(member="post", x_kN=28.4, y_kN=106.1),
         HeadForce(member="uphill_guy", x_kN=-45.9, y_kN=-29.1),
+    ]
+
+
+def build_independent() -> list[IndependentRecord]:
+    """Laws that the drawn case obeys."""
+    laws = [
+        ("global_balance", 3.1e-12, 1e-3),
+        ("friction_excess", 0.0, 1e-3),
+        ("end_direction", 0.004, 0.02),
+        ("capstan_ratio", 1.2, 1.9),
+        ("tension_share", 0.7, 0.0),
+    ]
+    return [
+        IndependentRecord(name=name, value=value, limit=limit, is_met=True)
+        for name, value, limit in laws
     ]
 
 

@@ -1,8 +1,16 @@
+import json
+import random
 from dataclasses import replace
+
+import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, write_difference
-from tests.report.build_study import build_study
+from netdesign.study import read_document, write_document
+from tests.alter_study import alter_leaf, list_leaves
+from tests.report.build_study import build_independent, build_study
+
+UNTOLD = (("provenance", "started"), ("provenance", "command"), ("digest",))
 
 
 def changes_of(old, new):
@@ -73,3 +81,98 @@ def test_the_document_and_the_lines_show_the_same_values():
             {"area": "project", "row": "", "what": "revision", "old": "B", "new": ""}
         ],
     }
+
+
+def obey_laws(study):
+    """The same study with independent checks."""
+    rows = [replace(row, independent=build_independent()) for row in study.rows]
+    return replace(study, rows=rows)
+
+
+def turn(study, *, row, check, verdict, **changes):
+    """The same study with another verdict, and more, of one check."""
+    rows = list(study.rows)
+    checks = list(rows[row].checks)
+    checks[check] = replace(checks[check], verdict=verdict, **changes)
+    rows[row] = replace(rows[row], checks=checks)
+    return replace(study, rows=rows)
+
+
+def test_a_check_that_does_not_govern_turns_first_and_by_name():
+    """Its type lost resistance; verdict of the row and governing check stand."""
+    old = build_study()
+    assert old.rows[1].verdict is Verdict.FAIL
+    place = next(i for i, c in enumerate(old.rows[1].checks) if c.utilisation == 0.0)
+    lost = {"resistance_kN": 3.7, "utilisation": 1.37, "reason": "Exceeded."}
+    new = turn(old, row=1, check=place, verdict=Verdict.FAIL, **lost)
+    new = replace(new, project=replace(new.project, revision="C"))
+    first, *others = compare_studies(old, new)
+    name = old.rows[1].checks[place].id
+    assert (first.what, first.old, first.new) == (f"check {name}", "pass", "fail")
+    assert first.is_turned
+    assert not any(change.is_turned for change in others)
+    told = [change.what for change in others]
+    assert f"{name}: resistance [kN]" in told
+    assert f"{name}: utilisation" in told
+
+
+def test_lost_passes_stand_before_all_other_turns():
+    old = build_study()
+    fails = next(i for i, c in enumerate(old.rows[1].checks) if c.verdict == "fail")
+    new = turn(old, row=1, check=fails, verdict=Verdict.NOT_PROVEN)
+    new = turn(new, row=2, check=0, verdict=Verdict.NOT_PROVEN)
+    new = turn(new, row=2, check=3, verdict=Verdict.FAIL)
+    turns = [(c.old, c.new) for c in compare_studies(old, new) if c.is_turned]
+    assert turns == [("pass", "not_proven"), ("not_proven", "fail"),
+                     ("fail", "not_proven")]  # fmt: skip
+
+
+@pytest.mark.parametrize("gone", ["checks", "independent"])
+def test_what_is_gone_counts_as_turned_and_what_comes_and_passes_does_not(gone):
+    old = obey_laws(build_study())
+    row = replace(old.rows[0], **{gone: getattr(old.rows[0], gone)[1:]})
+    new = replace(old, rows=[row, *old.rows[1:]])
+    assert any(change.is_turned for change in compare_studies(old, new))
+    assert not any(change.is_turned for change in compare_studies(new, old))
+    whole = replace(old, rows=old.rows[1:])
+    assert compare_studies(old, whole)[0].is_turned
+    assert not compare_studies(whole, old)[0].is_turned
+
+
+def test_reordered_rows_are_told():
+    old = build_study()
+    (change,) = compare_studies(old, replace(old, rows=old.rows[::-1]))
+    assert (change.area, change.what) == ("other", "rows.order")
+
+
+def test_values_are_told_apart_however_close():
+    old = build_study()
+    extreme = replace(old.rows[0].extremes[0], max_kN=100.0 + 1e-11)
+    row = replace(old.rows[0], extremes=[replace(extreme, max_kN=100.0)])
+    close = replace(old.rows[0], extremes=[extreme])
+    before, after = (replace(old, rows=[one]) for one in (row, close))
+    (change,) = compare_studies(before, after)
+    assert str(change).endswith("100 -> 100.00000000001")
+
+
+def test_every_value_of_a_study_is_compared():
+    """Whatever one leaf of the document is altered to: it is told, save two."""
+    small = obey_laws(build_study(samples=2, rows=2))
+    drawn = [replace(row, drawing=replace(row.drawing, mesh_edges_m=[(0.0, 0.0, 1.0,
+             1.0)])) for row in small.rows]  # fmt: skip
+    text = write_document(replace(small, rows=drawn))
+    old = read_document(text)
+    leaves = list_leaves(json.loads(text))
+    draw = random.Random(17)
+    some = {tuple(str(part) for part in path if not isinstance(part, int)): path
+            for path in draw.sample(leaves, len(leaves))}  # fmt: skip
+    assert len(some) > 100
+    for name, path in some.items():
+        document = json.loads(text)
+        alter_leaf(document, path, draw)
+        if name == ("schema",):
+            continue
+        changes = compare_studies(old, read_document(json.dumps(document)))
+        assert bool(changes) is (name not in UNTOLD), path
+        is_verdict = name[-1] in ("verdict", "is_met")
+        assert any(c.is_turned for c in changes) >= is_verdict, path

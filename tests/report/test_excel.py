@@ -5,10 +5,13 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.check_sheet import CHANGED
 from netdesign.report.check_view import find_utilisation_band
 from netdesign.report.excel import SHEETS, render_workbook
-from netdesign.report.language import load_words
+from netdesign.report.language import LANGUAGES, load_words
+from netdesign.report.view import EXPLANATION
 from netdesign.report.words import VERDICTS
+from netdesign.study import compute_digest
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_rows, read_workbook, recalculate
 
@@ -33,6 +36,50 @@ def content():
     return render_workbook(STUDY)
 
 
+# What a factor, a resistance or an action is not, as cells can hold it.
+NO_NUMBERS = (
+    *(None, "", "abc", "1.5", " 2", "-", True, False, "=TRUE()", "#DIV/0!"),
+    *("#N/A", "=1/0", '="1.5"', "=NA()", -1.5, -1e-9),
+)
+FACTORS, ACTIONS = ("H", "L", "M"), ("E", "F", "G")
+
+
+def build_many(lines):
+    """Net rows of checks that all pass, at least so many of them loaded."""
+    (row,) = build_study(rows=1).rows
+    assert {check.verdict for check in row.checks} == {Verdict.PASS}
+    count = -(-lines // sum(check.action_kN is not None for check in row.checks))
+    study = build_study(rows=1)
+    rows = [replace(row, id=f"R{number}") for number in range(count)]
+    return replace(study, rows=rows)
+
+
+SPOILS = [
+    *((letter, value) for letter in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
+    *((letter, value) for letter in ACTIONS for value in NO_NUMBERS),
+    *(("F", 1e4), ("E", 1e4), ("R", None), ("R", "PASS"), ("R", "abc"), ("R", 0)),
+]
+MANY = build_many(len(SPOILS))
+LOADED = [
+    (line, check)
+    for line, check in enumerate((c for row in MANY.rows for c in row.checks), 5)
+    if check.action_kN is not None
+]
+
+
+def spoil(content):
+    """One cell of each loaded check typed over; of a slack one, its factor too."""
+    book = read_workbook(content, formulas=True)
+    sheet = list(book)[2]
+    for (line, check), (letter, value) in zip(LOADED, SPOILS, strict=False):
+        is_slack = check.action_kN == 0.0
+        cell = sheet[f"{'H' if is_slack and value == '-' else letter}{line}"]
+        cell.value = "abc" if is_slack and value == "-" else value
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
 @pytest.fixture(scope="module")
 def fresh(content, tmp_path_factory):
     """Recalculated workbooks: of each language, and an edited English one."""
@@ -40,6 +87,10 @@ def fresh(content, tmp_path_factory):
         "en": content,
         "edited": edit(content),
         **{name: render_workbook(STUDY, load_words(name)) for name in ("fr", "de")},
+        **{
+            f"spoilt-{name}": spoil(render_workbook(MANY, load_words(name)))
+            for name in LANGUAGES
+        },
     }
     return recalculate(books, tmp_path_factory.mktemp("books"))
 
@@ -118,6 +169,71 @@ def test_verdicts_follow_an_edited_cell(fresh):
     assert verdicts == ["FAIL", "FAIL", "PASS"]
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_no_number_never_passes(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
+    passes, open_ = (words(VERDICTS[v].word) for v in ("pass", "not_proven"))
+    sheet = book[words("Checks")]
+    spoilt = dict(zip((line for line, _ in LOADED), SPOILS, strict=False))
+    for line, check in LOADED:
+        expected = open_ if line in spoilt else passes
+        assert sheet[f"S{line}"].value == expected, (check.id, spoilt.get(line))
+    summary = book[words("Summary")]
+    assert summary["C3"].value == open_
+    assert {summary[f"C{line}"].value for line in range(6, 6 + 12)} == {open_}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
+    sheet, changed = book[words("Checks")], words(CHANGED)
+    spoilt = [line for (line, _), _ in zip(LOADED, SPOILS, strict=False)]
+    for line, check in LOADED:
+        texts = {sheet[f"{letter}{line}"].value for letter in "WX"}
+        assert (texts == {changed}) is (line in spoilt), check.id
+    summary = book[words("Summary")]
+    assert summary["D3"].value == words(VERDICTS["not_proven"].meaning)
+    assert summary["M6"].value == changed
+    assert summary["J6"].value == sheet["C5"].value  # the first of those not proven
+
+
+def test_what_governs_and_why_follows_an_edited_cell(fresh):
+    book = read_workbook(fresh["edited"])
+    checks, summary = book["Checks"], book["Summary"]
+    assert [summary[f"J{line}"].value for line in (6, 7, 8)] == [
+        "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
+    ]  # fmt: skip
+    assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
+    assert [checks[f"X{line}"].value == CHANGED for line in (5, 6, 18, 22)] == [
+        False, True, True, True
+    ]  # fmt: skip
+    assert summary["D3"].value == VERDICTS["fail"].meaning
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_sheet_says_how_the_report_is_verified(language):
+    words = load_words(language)
+    book = read_workbook(render_workbook(STUDY, words))
+    shown = [cell.value for line in next(iter(book)).iter_rows() for cell in line]
+    assert "netdesign verify --study study.json --site combe.xlsx" in shown
+    assert compute_digest(STUDY) in shown
+    assert words(EXPLANATION) in shown
+
+
+def test_a_spreadsheet_program_refuses_what_no_factor_can_be(content):
+    rules = read_workbook(content)["Checks"].data_validations.dataValidation
+    found = {str(rule.sqref): (rule.type, rule.operator, rule.formula1)
+             for rule in rules}  # fmt: skip
+    above, least = (
+        ("decimal", "greaterThan", "0"),
+        ("decimal", "greaterThanOrEqual", "0"),
+    )
+    for letter in FACTORS:
+        assert found[f"{letter}5:{letter}25"] == above
+    for letter in ACTIONS:
+        assert found[f"{letter}5:{letter}25"] == least
+
+
 def test_derived_numbers_and_verdicts_are_formulas(content):
     sheet = read_workbook(content, formulas=True)["Checks"]
     lines = read_rows(sheet, "No.")
@@ -128,8 +244,8 @@ def test_derived_numbers_and_verdicts_are_formulas(content):
         for heading in derived:
             assert str(line[heading]).startswith("="), heading
     summary = read_workbook(content, formulas=True)["Summary"]
-    assert str(summary["C3"].value).startswith("=IF(COUNTIF(")
-    assert str(summary["C6"].value).startswith("=IF(D6>0")
+    assert str(summary["C3"].value).startswith("=IFERROR(IF(COUNTIF(")
+    assert str(summary["C6"].value).startswith("=IFERROR(IF(D6>0")
 
 
 def test_only_our_formulas_exist(content):

@@ -5,6 +5,7 @@ import pytest
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report.gate import require_consistent, require_sections
+from netdesign.study import IndependentRecord
 from tests.report.build_study import build_study
 
 
@@ -38,7 +39,16 @@ def test_the_sound_study_passes():
         (spoil(0, 0, resistance_factor=None, resistance_kN=None), "is None"),
         (
             spoil(0, 0, resistance_characteristic_kN=None, resistance_kN=-9.0),
-            "its parts give",
+            "not above zero",
+        ),
+        (spoil(0, 0, resistance_factor=-1.35, resistance_kN=-1.0), "not above zero"),
+        (spoil(0, 0, action_factor=-1.5), "not above zero"),
+        (spoil(0, 0, action_factor=0.0), "not above zero"),
+        (spoil(0, 0, resistance_factor=0.0), "not above zero"),
+        (spoil(0, 0, resistance_factor=None), "a design resistance without its parts"),
+        (
+            spoil(0, 0, resistance_characteristic_kN=None),
+            "a design resistance without its parts",
         ),
         (spoil(0, 0, verdict=Verdict.FAIL), "says pass, but its parts give fail"),
         (replace(build_study(), verdict=Verdict.PASS), "says pass, but its parts"),
@@ -48,6 +58,14 @@ def test_the_sound_study_passes():
 def test_a_contradiction_is_refused(study, message):
     with pytest.raises(NetDesignError, match=message):
         require_consistent(study)
+
+
+def test_a_law_that_is_not_met_holds_a_pass_back():
+    study = build_study(rows=1)
+    law = IndependentRecord(name="end_direction", value=0.3, limit=0.02, is_met=False)
+    row = replace(study.rows[0], independent=[law])
+    with pytest.raises(NetDesignError, match="but its parts give not_proven"):
+        require_consistent(replace(study, rows=[row]))
 
 
 def test_a_pass_may_be_held_back():

@@ -5,7 +5,9 @@ import pytest
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report import html
-from netdesign.report.view import build_view
+from netdesign.report.language import LANGUAGES, load_words
+from netdesign.report.view import EXPLANATION, build_view
+from netdesign.study import compute_digest, read_document, write_document
 from tests.report.build_study import MENTION, SCRIPT, build_study
 from tests.report.reading import PageReader
 
@@ -143,3 +145,25 @@ def test_tables_have_captions_and_scopes(page):
 
 def test_page_repeats_byte_for_byte(page):
     assert page == html.render_html(build_study())
+
+
+@pytest.mark.parametrize("detail", ["summary", "full"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_page_says_how_the_report_is_verified(language, detail):
+    study, words = build_study(), load_words(language)
+    page = html.render_html(study, words, detail)
+    verdict = page[page.index('<section id="verdict"') : page.index("</section>")]
+    shown = " ".join(PageReader(verdict).text)
+    assert "netdesign verify --study study.json --site combe.xlsx" in shown
+    assert compute_digest(study) in shown
+    for text in ("To verify this report", "What that does", EXPLANATION):
+        assert words(text) in shown
+        assert (words(text) == text) is (language == "en")
+
+
+def test_the_digest_shown_is_that_of_the_document_written():
+    study = build_study()
+    shown = dict(build_view(study).verification)["SHA-256 of its study"]
+    assert f'"digest": "{shown}"' in write_document(study)
+    again = read_document(write_document(study))
+    assert dict(build_view(again).verification)["SHA-256 of its study"] == shown

@@ -52,4 +52,5 @@ def test_page_has_the_drawing_only_where_something_was_measured():
 def test_document_keeps_the_series():
     study = build_study(rows=1)
     measured = replace(study, rows=[replace(study.rows[0], monitoring=[RECORD])])
-    assert read_document(write_document(measured)) == measured
+    back = read_document(write_document(measured))
+    assert replace(back, digest="") == measured

@@ -1,0 +1,121 @@
+"""What a stored study was made from: its command, its site file, its limit profile."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from netdesign.commands.site_input import reopen_site, temporary_example
+from netdesign.errors import StudyError
+
+if TYPE_CHECKING:
+    from netdesign.site.model import Site
+    from netdesign.study import Study
+
+NO_COMMAND = "netdesign check"  # of a study that no command line made
+
+
+def origin_options(command: Any) -> Any:
+    """Add ``--site`` and ``--standard``, which say where a study's files are."""
+    for option in (
+        click.option(
+            "--standard",
+            metavar="ID",
+            help="Its limit profile, or a folder with it [by its id].",
+        ),
+        click.option(
+            "--site",
+            "site_file",
+            type=click.Path(path_type=Path),
+            help="Its site file [by its name, beside the study or one folder up].",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Site:
+    """Site of a study: as given, by its name, or the built-in example.
+
+    Raises
+    ------
+    StudyError
+        If there is none.
+    """
+    from netdesign.given_files import is_there
+
+    values = _parse_command(study.provenance.command) or {}
+    name = Path(study.provenance.site_file).name  # never a path out of these folders
+    folder = study_file.absolute().parent
+    near = [one / name for one in (folder, folder.parent)]
+    if site_file is not None:
+        return reopen_site(site_file, values)
+    found = next((one for one in near if name and is_there(one)), None)
+    if found is not None:
+        return reopen_site(found, values)
+    if not values.get("example"):
+        raise StudyError(
+            f"{study_file}: no site file {name!r:.60} beside it or one folder up: "
+            "give it with --site"
+        )
+    with temporary_example() as path:
+        return reopen_site(path, {})
+
+
+def contradict_command(study: Study) -> Iterator[str]:
+    """Sentences on where the command of a study is not one that could make it."""
+    made = study.provenance
+    if made.command == NO_COMMAND:
+        return
+    values = _parse_command(made.command)
+    if values is None:
+        yield f"{made.command!r:.120} is no command that makes a study"
+        return
+    named = "example.xlsx" if values.get("example") else values["site_file"]
+    if Path(named or "").name != Path(made.site_file).name:
+        yield f"it reads {named!r:.60}, the study {made.site_file!r:.60}"
+    accuracy, method = values.get("accuracy"), values.get("method")
+    if accuracy is not None and not _is_number(accuracy, made.settings.get("accuracy")):
+        yield f"it asks for an accuracy of {accuracy!r:.20}"
+    used = made.settings.get("method", "").partition(";")[0]
+    is_transient = used != made.settings.get("method", "")
+    if method is not None and (method == "transient") is not is_transient:
+        yield f"it asks for the method {method!r:.20}"
+    standards = values.get("standards") or ()
+    if standards and not any(_may_be(one, study.profile.id) for one in standards):
+        yield f"it asks for the limit profile {standards[0]!r:.60}"
+
+
+def _parse_command(command: str) -> dict[str, Any] | None:
+    """Options of a ``netdesign check`` as they were typed; None if it is none."""
+    group = click.get_current_context().find_root().command
+    check = group.commands.get("check") if isinstance(group, click.Group) else None
+    try:
+        program, *words = shlex.split(command)
+        place = words.index("check")
+        if program != "netdesign" or check is None:
+            return None
+        with click.Context(check) as context:
+            parser = check.make_parser(context)
+            values, left, _ = parser.parse_args(words[place + 1 :])
+    except (ValueError, click.UsageError):
+        return None
+    return values if not left else None
+
+
+def _is_number(text: str, setting: str | None) -> bool:
+    try:
+        return float(text) == float(setting or "")
+    except ValueError:
+        return False
+
+
+def _may_be(standard: str, profile: str) -> bool:
+    """Whether a word names a profile; the id of a folder's stands inside it."""
+    from netdesign.checks import list_standards
+
+    return standard == profile or standard not in list_standards()

@@ -1,0 +1,143 @@
+"""Formulas of the sheet of checks: text of cells in, text of a formula out.
+
+A number counts only where it is one and has its sign: a cell that is blank, text, an
+error or TRUE never becomes a factor, and what lacks a number is never a pass. Each
+formula says so itself; nothing relies on another cell having been left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from netdesign.outcome import Verdict
+from netdesign.report.words import MISSING
+
+ROUNDING = 1e-12  # a product of stored numbers may lie so far above the study's
+_ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
+_RANKS = {Verdict.FAIL: 2e6, Verdict.NOT_PROVEN: 1e6, Verdict.PASS: 0.0}
+_ROW_RANK = 1e8
+_LARGEST = 1e5  # utilisation that counts in the rank
+
+
+def write_product(action: str, factor: str) -> str:
+    """Demand: an action of at least zero times a factor."""
+    is_known = f"AND({_is_given(action, '>=0')},{_is_given(factor, '>0')})"
+    return f'IF({is_known},{action}*{factor},"{MISSING}")'
+
+
+def write_quotient(above: str, below: str) -> str:
+    """Design resistance: both of its parts above zero."""
+    is_known = f"AND({_is_given(above, '>0')},{_is_given(below, '>0')})"
+    return f'IF({is_known},{above}/{below},"{MISSING}")'
+
+
+def write_ratio(
+    demand: str, resistance: str, is_slack: str, parts: Sequence[str]
+) -> str:
+    """Utilisation; of a slack member 0, where the study names no resistance for it.
+
+    ``is_slack`` is a condition, ``parts`` are the cells of resistance and factor.
+    """
+    unnamed = [f'{part}="{MISSING}"' for part in parts]
+    sound = [
+        f"OR({no},{_is_given(part, '>0')})"
+        for part, no in zip(parts, unnamed, strict=True)
+    ]
+    alone = f"AND({is_slack},OR({','.join(unnamed)}),{','.join(sound)})"
+    without = f'IF({alone},0,"{MISSING}")'
+    known = f"AND({_is_number(demand, '>=0')},{_is_number(resistance, '>0')})"
+    return f"IF({known},{demand}/{resistance},{without})"
+
+
+def write_slack(demands: Sequence[str], given: str) -> str:
+    """Condition: no demand at all, and the study holds nothing back in ``given``."""
+    zeros = ",".join(_is_number(demand, "=0") for demand in demands)
+    return f'AND({zeros},{given}="{MISSING}")'
+
+
+def write_verdict(ends: Sequence[str], given: str, words: dict[Verdict, str]) -> str:
+    """Verdict of a check of forces, from low, value and high of its utilisation.
+
+    What the study has set in ``given`` can hold a pass back, and never makes one.
+    """
+    low, value, high = ends
+    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
+    known = ",".join(f"ISNUMBER({end})" for end in ends)
+    ordered = f"AND({low}<={value}*{_ORDER},{value}<={high}*{_ORDER})"
+    by_ratio = f"IF({high}<=1+{ROUNDING:.0E},{passes},IF({low}>1,{fails},{open_}))"
+    live = f"IF(AND({known}),IF({ordered},{by_ratio},{open_}),{open_})"
+    held = f"IF({given}={fails},{fails},{open_})"
+    return f'=IFERROR(IF({given}="{MISSING}",{live},{held}),{open_})'
+
+
+def write_given_verdict(given: str, words: dict[Verdict, str]) -> str:
+    """Verdict of a check without forces: that of the study."""
+    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
+    known = f"OR({given}={passes},{given}={fails})"
+    return f"=IFERROR(IF({known},{given},{open_}),{open_})"
+
+
+def write_merged(
+    counts: dict[Verdict, str], total: int, held: str, words: dict[Verdict, str]
+) -> str:
+    """``outcome.merge_verdicts``: a pass only where all ``total`` parts are one."""
+    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
+    is_met = f'AND({held}="{MISSING}",{total}>0,{counts[Verdict.PASS]}={total})'
+    return (
+        f"=IFERROR(IF({counts[Verdict.FAIL]}>0,{fails},"
+        f"IF({is_met},{passes},{open_})),{open_})"
+    )
+
+
+def write_rank(number: str, verdict: str, ratio: str, words: dict[Verdict, str]) -> str:
+    """Number that is largest for the governing check: the verdict, then the ratio.
+
+    That of the net row keeps the ranks of different rows apart.
+    """
+    fails, open_ = (words[one] for one in (Verdict.FAIL, Verdict.NOT_PROVEN))
+    worst = (
+        f'IF({verdict}="{fails}",{_RANKS[Verdict.FAIL]:.0f},'
+        f'IF({verdict}="{open_}",{_RANKS[Verdict.NOT_PROVEN]:.0f},0))'
+    )
+    used = f"IF(ISNUMBER({ratio}),MIN({ratio},{_LARGEST:.0f}),-1)"
+    return f"={number}*{_ROW_RANK:.0f}+{worst}+{used}"
+
+
+def compute_rank(number: int, verdict: Verdict, ratio: float | None) -> float:
+    """What `write_rank` gives."""
+    return (
+        number * _ROW_RANK
+        + _RANKS[verdict]
+        + (-1.0 if ratio is None else min(ratio, _LARGEST))
+    )
+
+
+def write_unchanged(
+    numbers: Sequence[tuple[str, str]], texts: Sequence[tuple[str, str]]
+) -> str:
+    """1 where every live cell still shows what the study has, else 0."""
+    same = [f"{live}={stored}" for live, stored in texts]
+    same += [
+        f"IF(ISNUMBER({stored}),IF(ISNUMBER({live}),"
+        f"ABS({live}-{stored})<=1E-9*ABS({stored}),FALSE),{live}={stored})"
+        for live, stored in numbers
+    ]
+    return f"=IFERROR(IF(AND({','.join(same)}),1,0),0)"
+
+
+_VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
+
+
+def _is_number(cell: str, condition: str) -> str:
+    """Whether a cell holds a number for which ``condition`` holds, such as ``>0``."""
+    return f"IF(ISNUMBER({cell}),{cell}{condition},FALSE)"
+
+
+def _is_given(cell: str, condition: str) -> str:
+    """The same for a cell that somebody types into: TRUE and FALSE are no numbers.
+
+    LibreOffice reads them from a file as formulas that give 1 and 0.
+    """
+    truth = f"AND(_xlfn.ISFORMULA({cell}),OR({cell}=1,{cell}=0))"
+    is_truth = f"OR(ISLOGICAL({cell}),{truth})"
+    return f"IF(ISNUMBER({cell}),IF({is_truth},FALSE,{cell}{condition}),FALSE)"

@@ -1,0 +1,629 @@
+"""Alterations of a stored study, as coherent as a hand with an evening makes them.
+
+Each takes the JSON document of a study whose checks all pass, and changes it in place.
+What follows from an altered number is altered with it as far as its kind says.
+"""
+
+import math
+
+MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+KINDS = {}
+
+
+def alteration(function):
+    """Register a kind of alteration under its name."""
+    KINDS[function.__name__.replace("_", " ")] = function
+    return function
+
+
+def forces(study):
+    """Checks of forces that carry something, of every row."""
+    return [c for row in study["rows"] for c in row["checks"] if c["action_kN"]]
+
+
+def scale_demand(check, factor):
+    for key in ("demand_kN", "demand_low_kN", "demand_high_kN", "action_kN"):
+        check[key] *= factor
+    check["action"]["solved_kN"] *= factor
+    scale_ratio(check, factor)
+
+
+def scale_ratio(check, factor):
+    check["utilisation"] *= factor
+    for spread in check["spreads"]:
+        for end in ("low", "high"):
+            spread[end] = spread[end] and spread[end] * factor
+
+
+def scale_extremes(row, factor):
+    for extreme in (*row["extremes"], *row["envelope"]["bounds"]):
+        for key in ("max_kN", "low_kN", "high_kN", "upper_bound_kN"):
+            if key in extreme:
+                extreme[key] *= factor
+        scale_all(extreme["coincident_kN"], extreme["coincident_kN"], factor)
+
+
+def scale_all(part, keys, factor):
+    for key in keys:
+        part[key] = part[key] and part[key] * factor
+
+
+def scale_drawn(row, factor):
+    for arrow in row["drawing"]["arrows"]:
+        scale_all(arrow, ("force_x_kN", "force_y_kN"), factor)
+    for anchor in row["anchors"]:
+        keys = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN")
+        scale_all(anchor, keys, factor)
+    for one in row["head"]:
+        scale_all(one, ("x_kN", "y_kN"), factor)
+
+
+def scale_guideline(record, factor):
+    scale_all(record, ("solved_foot_anchor_kN", "solved_load_kN_per_m"), factor)
+    for case in record["cases"]:
+        for key in ("foot_difference_percent", "load_difference_percent"):
+            case[key] = 100.0 * (factor * (1.0 + case[key] / 100.0) - 1.0)
+
+
+@alteration
+def demands_halved(study):
+    for check in forces(study):
+        scale_demand(check, 0.5)
+
+
+@alteration
+def demands_and_largest_forces_halved(study):
+    demands_halved(study)
+    for row in study["rows"]:
+        scale_extremes(row, 0.5)
+
+
+@alteration
+def every_force_a_tenth_smaller(study):
+    for check in forces(study):
+        scale_demand(check, 0.9)
+    for row in study["rows"]:
+        scale_extremes(row, 0.9)
+        scale_drawn(row, 0.9)
+        for case in row["cases"]:
+            scale_all(case, [f"{member}_kN" for member in MEMBERS], 0.9)
+        scale_guideline(row["guideline"], 0.9)
+        for bound in row["envelope"]["bounds"]:
+            again = bound["confirmation"]
+            if again:
+                scale_all(again, ("screened_kN", "confirmed_kN"), 0.9)
+
+
+@alteration
+def a_row_dropped(study):
+    study["rows"].pop()
+
+
+@alteration
+def rows_reordered(study):
+    study["rows"].reverse()
+
+
+@alteration
+def a_row_renamed(study):
+    study["rows"][0]["id"] = "R99"
+
+
+@alteration
+def the_governing_check_dropped(study):
+    checks = study["rows"][0]["checks"]
+    checks.remove(max(checks, key=lambda check: check["utilisation"] or 0.0))
+
+
+@alteration
+def a_check_of_geometry_dropped(study):
+    study["rows"][0]["checks"].pop()
+
+
+@alteration
+def checks_reordered(study):
+    study["rows"][0]["checks"].reverse()
+
+
+@alteration
+def a_check_twice(study):
+    checks = study["rows"][0]["checks"]
+    checks.append(dict(checks[0]))
+
+
+@alteration
+def a_check_between_others(study):
+    checks = study["rows"][0]["checks"]
+    checks[0], checks[1] = checks[1], checks[0]
+
+
+def law(study, name):
+    found = (one for one in study["rows"][0]["independent"] if one["name"] == name)
+    return next(found)
+
+
+@alteration
+def a_law_above_its_limit_and_met(study):
+    one = law(study, "friction_excess")
+    one["value"] = one["limit"] * 3.7
+
+
+@alteration
+def a_law_below_its_limit_and_not_met(study):
+    one = law(study, "end_direction")
+    one["is_met"] = False
+    reason = f"The independent check {one['name']} is not met."
+    study["rows"][0]["reasons"].append(reason)
+    study["verdict"] = study["rows"][0]["verdict"] = "not_proven"
+
+
+@alteration
+def a_limit_raised_over_a_large_value(study):
+    one = law(study, "global_balance")
+    one["value"], one["limit"] = 0.031, 0.05
+
+
+@alteration
+def a_ratio_of_tensions_raised(study):
+    law(study, "capstan_ratio")["value"] *= 1.4
+
+
+@alteration
+def a_law_dropped(study):
+    study["rows"][0]["independent"].pop(2)
+
+
+@alteration
+def a_resistance_doubled(study):
+    check = forces(study)[0]
+    for key in ("resistance_kN", "resistance_characteristic_kN"):
+        check[key] *= 2.0
+    scale_ratio(check, 0.5)
+
+
+@alteration
+def a_factor_of_a_resistance_lowered(study):
+    check = forces(study)[1]
+    check["resistance_factor"] /= 1.3
+    check["resistance_kN"] *= 1.3
+    scale_ratio(check, 1 / 1.3)
+
+
+@alteration
+def a_factor_lowered_in_profile_and_checks(study):
+    lower_action_factor(study)
+
+
+@alteration
+def a_factor_lowered_with_another_hash(study):
+    lower_action_factor(study)
+    study["profile"]["sha256"] = "5" * 64
+
+
+def lower_action_factor(study):
+    for value in study["profile"]["values"]:
+        if value["id"] == "action.snow":
+            value["value"] /= 1.5
+    for check in (c for row in study["rows"] for c in row["checks"]):
+        if check["action_factor"]:
+            check["action_factor"] /= 1.5
+    for check in forces(study):
+        for key in ("demand_kN", "demand_low_kN", "demand_high_kN"):
+            check[key] /= 1.5
+        scale_ratio(check, 1 / 1.5)
+
+
+@alteration
+def an_assumed_value_said_to_be_read(study):
+    values = study["profile"]["values"]
+    next(v for v in values if v["status"] == "assumed")["status"] = "read"
+
+
+@alteration
+def a_value_of_the_profile_dropped(study):
+    study["profile"]["values"].pop()
+
+
+@alteration
+def another_edition_of_the_profile(study):
+    study["profile"]["edition"] += ", second"
+
+
+@alteration
+def a_pass_held_back(study):
+    study["verdict"] = study["rows"][0]["verdict"] = "not_proven"
+
+
+@alteration
+def a_check_said_to_fail(study):
+    row = study["rows"][0]
+    check = row["checks"][0]
+    check["verdict"] = row["verdict"] = study["verdict"] = "fail"
+    check["reason"] = "The demand exceeds the resistance over its whole band."
+    row["reasons"].append(f"{check['id']}: {check['reason']}")
+
+
+@alteration
+def a_case_dropped(study):
+    row = study["rows"][0]
+    row["cases"].pop(3)
+    row["envelope"]["cases"] -= 1
+
+
+@alteration
+def a_case_added(study):
+    row = study["rows"][0]
+    case = dict(row["cases"][3])
+    case["case"] = dict(case["case"], friction_deg=15.671)
+    row["cases"].append(case)
+    row["envelope"]["cases"] += 1
+
+
+@alteration
+def the_case_of_the_largest_foot_force_dropped(study):
+    row = study["rows"][0]
+    row["cases"].remove(max(row["cases"], key=lambda case: case["foot_anchor_kN"]))
+    row["envelope"]["cases"] -= 1
+
+
+@alteration
+def a_force_of_one_case_lowered(study):
+    study["rows"][0]["cases"][5]["post_kN"] *= 0.93
+
+
+@alteration
+def an_error_of_a_case_lowered(study):
+    study["rows"][0]["cases"][5]["error_percent"] *= 0.2
+
+
+@alteration
+def a_case_without_balance(study):
+    study["rows"][0]["cases"][5]["balance_residual"] = 3e-4
+
+
+@alteration
+def a_case_without_a_result(study):
+    row = study["rows"][0]
+    case = min(row["cases"], key=lambda case: case["foot_anchor_kN"])
+    case.update({f"{member}_kN": None for member in MEMBERS})
+    case.update(outcome="diverged", reason="lost", error_percent=None)
+    row["envelope"]["failed"] += 1
+
+
+@alteration
+def a_case_moved_out_of_the_ranges(study):
+    study["rows"][0]["cases"][2]["case"]["density_kg_m3"] = 133.7
+
+
+@alteration
+def a_density_said_to_be_in_the_law_s_range(study):
+    for case in study["rows"][0]["cases"]:
+        case["is_calibrated"] = True
+
+
+@alteration
+def an_upper_bound_lowered(study):
+    row = study["rows"][0]
+    hidden = [one["upper_bound_kN"] - one["max_kN"] for one in row["extremes"]]
+    place = hidden.index(max(hidden))
+    assert hidden[place] > 0.0
+    for one in (row["extremes"][place], row["envelope"]["bounds"][place]):
+        one["upper_bound_kN"] = one["max_kN"]
+
+
+@alteration
+def the_high_end_of_a_band_lowered(study):
+    row = study["rows"][0]
+    extreme = row["extremes"][0]
+    extreme["high_kN"] = extreme["upper_bound_kN"]
+    for check in row["checks"][:2]:
+        check["demand_high_kN"] = check["demand_kN"] * (
+            extreme["high_kN"] / extreme["max_kN"]
+        )
+
+
+@alteration
+def a_largest_force_at_another_case(study):
+    row = study["rows"][0]
+    row["extremes"][0]["case"] = dict(row["cases"][1]["case"])
+
+
+@alteration
+def forces_beside_the_largest_lowered(study):
+    beside = study["rows"][0]["extremes"][0]["coincident_kN"]
+    scale_all(beside, beside, 0.8)
+
+
+@alteration
+def a_range_narrowed(study):
+    for echo in study["range_inputs"]:
+        if echo["label"] == "density, low":
+            echo["value"], echo["text"] = 255.0, "255"
+    for row in study["rows"]:
+        row["envelope"]["axes"][0]["low"] = 255.0
+
+
+@alteration
+def an_input_altered(study):
+    row = study["rows"][0]
+    for echo in row["inputs"]:
+        if echo["label"] == "slope angle":
+            echo["value"], echo["text"] = 33.5, "33.5"
+    row["drawing"]["slope_deg"] = 33.5
+
+
+@alteration
+def the_cell_of_an_input_altered(study):
+    study["rows"][0]["inputs"][1]["cell"] = "Nets!Z9"
+
+
+@alteration
+def arrows_shrunk(study):
+    for arrow in study["rows"][0]["drawing"]["arrows"]:
+        scale_all(arrow, ("force_x_kN", "force_y_kN"), 0.6)
+
+
+@alteration
+def forces_on_the_ground_shrunk(study):
+    scale_drawn(study["rows"][0], 0.6)
+
+
+@alteration
+def a_force_turned(study):
+    row = study["rows"][0]
+    for one in (row["anchors"][0], row["drawing"]["arrows"][0]):
+        x, y = one["force_x_kN"], one["force_y_kN"]
+        one["force_x_kN"], one["force_y_kN"] = y, x
+    row["anchors"][0]["direction_deg"] = math.degrees(math.atan2(x, y))
+
+
+@alteration
+def the_post_head_left_open(study):
+    study["rows"][0]["head"][0]["x_kN"] *= 1.7
+
+
+@alteration
+def no_load_along_the_row(study):
+    for anchor in study["rows"][0]["anchors"]:
+        anchor["lateral_kN"] = 0.0
+
+
+@alteration
+def an_anchor_moved(study):
+    row = study["rows"][0]
+    row["drawing"]["uphill_anchor_m"][0] -= 1.3
+    row["drawing"]["arrows"][1]["x_m"] -= 1.3
+
+
+@alteration
+def the_net_drawn_straighter(study):
+    for point in study["rows"][0]["drawing"]["net_m"][1:-1]:
+        point[0] *= 0.9
+
+
+@alteration
+def sticking_points_drawn_as_sliding(study):
+    sticks = study["rows"][0]["drawing"]["sticks"]
+    sticks[:] = [not stick for stick in sticks]
+
+
+@alteration
+def the_guideline_s_forces_raised(study):
+    case = study["rows"][0]["guideline"]["cases"][0]
+    scale_all(case, ("load_kN_per_m", "foot_anchor_kN"), 1.5)
+
+
+@alteration
+def a_difference_from_the_guideline_altered(study):
+    case = study["rows"][0]["guideline"]["cases"][0]
+    case["foot_difference_percent"] = 0.7
+
+
+@alteration
+def notes_cleared(study):
+    study["notes"] = []
+
+
+@alteration
+def a_note_of_a_row_altered(study):
+    study["rows"][0]["notes"] = ["the base plate was proven by hand"]
+
+
+@alteration
+def another_author(study):
+    study["project"]["author"] = "B. Forger"
+
+
+@alteration
+def a_checker_added(study):
+    study["project"]["checker"] = "C. Nobody"
+
+
+@alteration
+def the_command_of_another_accuracy(study):
+    made = study["provenance"]
+    made["command"] = made["command"].replace("0.0512345678", "0.001")
+
+
+@alteration
+def the_command_of_another_site(study):
+    made = study["provenance"]
+    made["command"] = made["command"].replace("site.xlsx", "other.xlsx")
+
+
+@alteration
+def a_command_that_makes_no_study(study):
+    study["provenance"]["command"] = "netdesign check site.xlsx --accurate"
+
+
+@alteration
+def the_command_of_another_profile(study):
+    study["provenance"]["command"] += " --standard eurocode"
+
+
+@alteration
+def started_in_the_future(study):
+    study["provenance"]["started"] = "9999-01-02T03:04:05+00:00"
+
+
+@alteration
+def started_without_a_digest(study):
+    study["provenance"]["started"] = "2019-01-02T03:04:05+00:00"
+    study["digest"] = ""
+
+
+@alteration
+def other_libraries(study):
+    study["provenance"]["libraries"]["numpy"] = "1.0.1"
+
+
+@alteration
+def another_version_of_the_program(study):
+    study["provenance"]["version"] = "9.9"
+
+
+@alteration
+def another_hash_of_the_site(study):
+    study["provenance"]["site_sha256"] = "a" * 64
+
+
+@alteration
+def another_name_of_the_site(study):
+    made = study["provenance"]
+    made["site_file"] = "sight.xlsx"
+    made["command"] = made["command"].replace("site.xlsx", "sight.xlsx")
+
+
+@alteration
+def looser_tolerances_hidden(study):
+    study["provenance"]["settings"]["balance tolerance"] = "1e-12"
+
+
+@alteration
+def another_method(study):
+    settings = study["provenance"]["settings"]
+    settings["method"] = (
+        "steady; governing cases confirmed by a history from a sagged net"
+    )
+
+
+@alteration
+def a_tighter_gap_asked_for(study):
+    for row in study["rows"]:
+        row["envelope"]["gap_asked_percent"] = 0.01
+
+
+@alteration
+def a_search_said_to_be_open(study):
+    study["rows"][0]["envelope"]["is_closed"] = False
+
+
+@alteration
+def a_confirmation_moved_to_its_case(study):
+    again = study["rows"][0]["envelope"]["bounds"][0]["confirmation"]
+    again["confirmed_kN"], again["difference_percent"] = again["screened_kN"], 0.0
+
+
+@alteration
+def a_confirmation_dropped(study):
+    study["rows"][0]["envelope"]["bounds"][0]["confirmation"] = None
+
+
+@alteration
+def drivers_altered(study):
+    study["rows"][0]["envelope"]["bounds"][0]["drivers"][0]["total"] = 0.11
+
+
+@alteration
+def a_line_flattened(study):
+    line = study["rows"][0]["envelope"]["bounds"][0]["lines"][0]
+    line["force_kN"] = [line["force_kN"][0]] * len(line["force_kN"])
+
+
+@alteration
+def a_map_lowered(study):
+    drawn = study["rows"][0]["envelope"]["bounds"][0]["maps"][0]
+    drawn["force_kN"] = [[0.5 * one for one in line] for line in drawn["force_kN"]]
+
+
+@alteration
+def the_log_shortened(study):
+    study["rows"][0]["envelope"]["log"].pop()
+
+
+@alteration
+def a_loaded_width_narrowed(study):
+    for check in forces(study):
+        action = check["action"]
+        ratio = action["post_spacing_m"] / action["loaded_width_m"] * 0.9
+        action["loaded_width_m"] *= ratio
+        scale_demand(check, ratio)
+        action["solved_kN"] /= ratio
+
+
+@alteration
+def a_share_along_the_row_left_out(study):
+    for check in forces(study):
+        ratio = 1.0 / check["action"]["lateral_factor"]
+        check["action"]["lateral_factor"] = 1.0
+        scale_demand(check, ratio)
+        check["action"]["solved_kN"] /= ratio
+
+
+@alteration
+def an_interval_narrowed(study):
+    for check in forces(study):
+        for spread in check["spreads"]:
+            if spread["in_verdict"]:
+                spread["low"] = spread["high"] = check["utilisation"]
+
+
+@alteration
+def another_creep_law_brought_near(study):
+    for check in forces(study):
+        for spread in check["spreads"]:
+            if not spread["in_verdict"]:
+                spread["low"] = spread["high"] = check["utilisation"]
+
+
+@alteration
+def a_change_that_flips_a_check_added(study):
+    forces(study)[0]["changes"].append({
+        "quantity": "post spacing", "unit": "m", "now": 3.5, "bound": 9.0,
+        "sense": "at most", "solves": 0, "note": "",
+    })  # fmt: skip
+
+
+@alteration
+def another_type_of_anchor(study):
+    forces(study)[0]["resistance_type"] = "A40-tested"
+
+
+@alteration
+def a_computed_resistance_said_to_be_tested(study):
+    check = forces(study)[0]
+    check["resistance_basis"] = "tested"
+
+
+@alteration
+def another_clause(study):
+    forces(study)[0]["clause"] = "6.2 (3)"
+
+
+@alteration
+def another_reason(study):
+    forces(study)[0]["reason"] = "The demand stays within by far."
+
+
+@alteration
+def a_measurement_added(study):
+    study["rows"][0]["monitoring"] = [{
+        "member": "foot_anchor", "source": "Monitoring!A2", "times_d": [0.0],
+        "tensions_kN": [3.0], "air_temperatures_C": [None], "model_times_d": [],
+        "model_kN": [], "model_start": "", "model_reason": "none",
+    }]  # fmt: skip
+
+
+@alteration
+def a_layer_of_the_drawing_thinner(study):
+    study["rows"][0]["drawing"]["snow_thickness_m"] *= 0.8
