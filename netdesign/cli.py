@@ -19,7 +19,12 @@ import click
 from netdesign import __version__
 from netdesign.commands.bench import bench
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
-from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
+from netdesign.commands.config import (
+    ENVIRONMENT_PREFIX,
+    ConfiguredCommand,
+    accept_variables,
+    require_known_variables,
+)
 from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
@@ -65,7 +70,8 @@ _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 
 @click.group(epilog=_EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__)
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context) -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -74,6 +80,8 @@ def cli() -> None:
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     netdesign diff old.json new.json   what changed between two studies
     """
+    name = context.invoked_subcommand or ""
+    require_known_variables(name, cli.commands[name])
 
 
 cli.add_command(bench)
@@ -271,6 +279,9 @@ def solve(
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(0 if proven else EXIT_CODES[Verdict.NOT_PROVEN])
+
+
+accept_variables(cli)
 
 
 def main() -> NoReturn:

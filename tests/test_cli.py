@@ -166,6 +166,34 @@ def test_a_missing_resistance_ends_with_4(tmp_path):
     assert json.loads(result.stdout)["verdict"] == "not_proven"
 
 
+def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
+    """65, meant in percent, in a column of degrees: steep snow lies light on a net."""
+
+    def steepen(sheets):
+        sheets["Nets"][1][1] = 65
+
+    write_site(tmp_path / "site.xlsx", steepen)
+    result = run("check", "site.xlsx", "--json", *QUICK, cwd=tmp_path)
+    assert result.returncode == 4, result.stderr
+    (row,) = json.loads(result.stdout)["rows"]
+    slope = next(one for one in row["checks"] if one["id"] == "geometry.slope")
+    assert slope["verdict"] == "not_proven"
+    assert slope["reason"].endswith("Is it a percentage? 65 % are 33.02 degrees.")
+
+
+@pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
+def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
+    lines = ["[Project]", "item;value", line]
+    for name, rows in SHEETS.items():
+        lines += ["", f"[{name}]", *(";".join(map(str, row)) for row in rows)]
+    (tmp_path / "site.csv").write_text("\n".join(lines), encoding="utf-8")
+    result = run("check", "site.csv", *QUICK, cwd=tmp_path)
+    assert result.returncode == 3
+    assert f'site.csv › Project › A3: "{line.split(";")[0]}"' in result.stderr
+    assert '"standard"' in result.stderr
+    assert listing(tmp_path) == {"site.csv"}
+
+
 def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     def bury(sheets):
         sheets["Nets"][1][5] = 2.4
