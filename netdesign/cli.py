@@ -19,7 +19,12 @@ import click
 from netdesign import __version__
 from netdesign.commands.bench import bench
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell, completion
-from netdesign.commands.config import ENVIRONMENT_PREFIX, ConfiguredCommand
+from netdesign.commands.config import (
+    ENVIRONMENT_PREFIX,
+    ConfiguredCommand,
+    accept_variables,
+    require_known_variables,
+)
 from netdesign.commands.diff import diff
 from netdesign.commands.doctor import doctor
 from netdesign.commands.dry_run import announce
@@ -71,7 +76,8 @@ _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 
 @click.group(epilog=_EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__)
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context) -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -80,6 +86,8 @@ def cli() -> None:
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     netdesign diff old.json new.json   what changed between two studies
     """
+    name = context.invoked_subcommand or ""
+    require_known_variables(name, cli.commands[name])
 
 
 cli.add_command(bench)
@@ -322,6 +330,9 @@ def _show_refusal(document: dict[str, Any]) -> None:
             f"{bound['foot_kN_per_m']:.1f} kN/m at its foot and "
             f"{bound['head_kN_per_m']:.1f} kN/m at its head; more slack lowers both."
         )
+
+
+accept_variables(cli)
 
 
 def main() -> NoReturn:

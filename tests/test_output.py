@@ -1,12 +1,16 @@
 import os
+import re
 import sys
 import threading
 from pathlib import Path
 
+import click
 import pytest
 
+from netdesign import cli
 from netdesign.errors import OutputError
 from netdesign.output import require_free, write_files
+from tests.test_cli import SCENE, write_site
 
 
 def listing(folder):
@@ -116,6 +120,86 @@ def test_a_place_without_leave_to_write_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(OutputError, match="cannot be written to"):
         require_free([tmp_path / "new" / "a"], overwrite=False)
+
+
+@pytest.mark.parametrize("overwrite", [True, False])
+@pytest.mark.parametrize("kind", ["folder", "pipe", "device"])
+def test_what_is_no_file_is_never_replaced(tmp_path, kind, overwrite):
+    """Put in the place of a device, a file would take it away from the system."""
+    place = tmp_path / "study.json"
+    if kind == "folder":
+        place.mkdir()
+    elif sys.platform == "win32":
+        pytest.skip("POSIX")
+    elif kind == "pipe":
+        os.mkfifo(place)
+    else:
+        place.symlink_to("/dev/null")
+    for refuse in (require_free, write_given):
+        with pytest.raises(OutputError, match=r"study\.json is there and is no file"):
+            refuse([tmp_path / "a", place], overwrite=overwrite)
+    assert place.exists()
+    assert not place.is_file()
+    assert listing(tmp_path) == []
+
+
+def write_given(paths, *, overwrite):
+    write_files(dict.fromkeys(paths, b"1"), overwrite=overwrite)
+
+
+def list_commands(group=cli.cli, prefix=()):
+    for name, command in group.commands.items():
+        if isinstance(command, click.Group):
+            yield from list_commands(command, (*prefix, name))
+        else:
+            yield (*prefix, name), command
+
+
+# What makes each command write to a place that is taken; {} is that place.
+WRITING = {
+    ("init",): "init {}/site.xlsx",
+    ("check",): "check --example --out {}",
+    ("check", "annotate"): "check {}/site.xlsx --annotate {}/copy.xlsx",
+    ("solve",): "solve {}/scene.toml --out {}",
+    ("envelope",): "envelope {}/scene.toml --density 250:300 --friction 20:30 "
+    "--inclination 25:30 --out {}",
+    ("bench",): "bench --quick --plot {}/plot.svg",
+    ("paper",): "paper --out {}",
+    ("standards", "copy"): "standards copy eurocode {}/mine",
+}
+
+
+TAKEN = (
+    *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
+    *("paper.html", "index.html", "mine/document.toml"),
+)
+
+
+@pytest.mark.parametrize("name", list(WRITING), ids="-".join)
+def test_no_option_is_advised_that_a_command_lacks(name, call, tmp_path):
+    """`init` advised --out, which it never had; `standards copy` had no --force."""
+    place = tmp_path / "taken"
+    (place / "mine").mkdir(parents=True)
+    for file in TAKEN:
+        (place / file).write_bytes(b"kept")
+    write_site(place / "site.xlsx")
+    (place / "scene.toml").write_text(SCENE)
+    ended = call(*WRITING[name].format(place, place).split())
+    assert ended.code == 2, ended.err
+    assert "exists already" in ended.err
+    command = dict(list_commands())[tuple(part for part in name if part != "annotate")]
+    options = {opt for param in command.params for opt in param.opts}
+    assert set(re.findall(r"--[a-z-]+", ended.err)) <= options
+
+
+def test_every_command_that_writes_is_asked_above():
+    places = {"out", "force", "plot", "annotate"}
+    writing = {
+        name
+        for name, command in list_commands()
+        if places & {param.name for param in command.params}
+    }
+    assert writing - set(WRITING) <= {("report",)}  # which writes as check does
 
 
 # --- two runs, and runs that were killed ---------------------------------------------

@@ -2,17 +2,22 @@
 
 Order of precedence: option > environment variable > file given by ``--config`` >
 ``netdesign.toml`` beside the site file > default of the program. The file has one
-table for each command, with the long names of its options as keys::
+table for each command that reads it, with the long names of its options as keys::
 
     [check]
     accuracy = 0.005
     standard = ["nf-p-95-304-style"]
     html = false
+
+An environment variable is named after the command and the option as it is typed:
+``NETDESIGN_CHECK_STANDARD``. One that begins so and names no option is refused, as a
+key of the file is: a profile that was meant must not end as the default.
 """
 
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -48,6 +53,44 @@ class ConfiguredCommand(click.Command):
         return super().parse_args(ctx, args)
 
 
+def accept_variables(group: click.Group) -> None:
+    """Let every option of a group's commands be given as a variable of its name."""
+    for name, command in group.commands.items():
+        for param in command.params:
+            if isinstance(param, click.Option) and param.envvar is None:
+                param.envvar = [
+                    _name_variable(name, opt)
+                    for opt in param.opts
+                    if opt.startswith("--")
+                ]
+
+
+def require_known_variables(name: str, command: click.Command) -> None:
+    """Refuse a variable that names a command and none of its options.
+
+    Raises
+    ------
+    UsageError
+        With the name that it is near to, if there is one.
+    """
+    if isinstance(command, click.Group):
+        return
+    known = [
+        variable
+        for param in command.params
+        for variable in (*(param.envvar or ()), _name_variable(name, param.name or ""))
+    ]
+    start = _name_variable(name, "")
+    for variable in sorted(os.environ):
+        if variable.startswith(start) and variable not in known:
+            raise click.UsageError(f"{variable}: {_suggest(variable, known)}")
+
+
+def _name_variable(command: str, option: str) -> str:
+    words = (ENVIRONMENT_PREFIX, command, option.removeprefix("--"))
+    return "_".join(words).replace("-", "_").upper()
+
+
 def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
     given = typed.get("config")
     if isinstance(given, str):
@@ -71,7 +114,11 @@ def _read_defaults(
     except (OSError, ValueError) as error:
         raise click.UsageError(f"{path}: cannot be read as TOML: {error}") from None
     group = ctx.find_root().command
-    commands = group.list_commands(ctx) if isinstance(group, click.Group) else []
+    commands = [
+        name
+        for name, one in getattr(group, "commands", {}).items()
+        if isinstance(one, ConfiguredCommand)  # tables of others would never be read
+    ]
     for name in tables:
         if commands and name not in commands:
             raise click.UsageError(f"{path}: [{name}]: {_suggest(name, commands)}")

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.errors import ModelError
+from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
+from netdesign.outcome import Outcome
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -366,8 +367,11 @@ def _connect(points: Floats) -> Ints:
     solid = np.abs(_twice_area(points[triangles])) > 1e-15
     triangles = triangles[solid]
     if np.unique(triangles).size != len(points):
-        raise ModelError(
-            "the mesh is too fine: its smallest triangles vanish by rounding"
+        # found while solving, on a mesh that the refinement asked for: an outcome
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            "the mesh is too fine: its smallest triangles vanish by rounding; allow a "
+            "larger error, or join thin layers",
         )
     return np.asarray(triangles, dtype=np.int64)
 

@@ -2,7 +2,10 @@
 
 import json
 
+import click
 import pytest
+
+from netdesign import cli
 
 
 @pytest.fixture
@@ -45,6 +48,7 @@ def test_a_file_elsewhere_is_not_read(jobs, tmp_path):
     [
         ("[check]\njobbs = 2\n", "[check] jobbs: is not known; did you mean 'jobs'?"),
         ("[chek]\njobs = 2\n", "[chek]: is not known; did you mean 'check'?"),
+        ("[report]\nout = 'x'\n", "[report]: is not known"),
         ("[check]\njobs = 0\n", "[check] jobs = 0: 0 is not in the range"),
         ("[check]\naccuracy = 'fine'\n", "[check] accuracy = 'fine'"),
         ("[check]\naccuracy = []\n", "[check] accuracy = []: no such value fits"),
@@ -83,3 +87,34 @@ def test_lists_and_flags_may_stand_in_the_file(call, tmp_path):
         *("--standard", "nf-p-95-304-style"),
     )
     assert json.loads(again.out)["schema"] == "netdesign.plan/1"
+
+
+def test_every_option_can_be_given_by_a_variable_of_its_name(monkeypatch):
+    """``--standard`` is ``standards`` inside: its variable was never read."""
+    for name, command in cli.cli.commands.items():
+        for param in command.params:
+            for option in param.opts if isinstance(param, click.Option) else ():
+                if option.startswith("--") and param.name not in ("config", "help"):
+                    word = option.removeprefix("--").replace("-", "_").upper()
+                    assert f"NETDESIGN_{name.upper()}_{word}" in param.envvar
+    monkeypatch.setenv("NETDESIGN_CHECK_STANDARD", "eurocode onr-24805-style")
+    context = cli.cli.commands["check"].make_context("check", ["--example"])
+    assert context.params["standards"] == ("eurocode", "onr-24805-style")
+
+
+@pytest.mark.parametrize(
+    ("variable", "near"),
+    [
+        ("NETDESIGN_CHECK_STANDRAD", "'NETDESIGN_CHECK_STANDARD'"),
+        ("NETDESIGN_CHECK_STANDARDD", "'NETDESIGN_CHECK_STANDARD'"),
+        ("NETDESIGN_CHECK_ACURACY", "'NETDESIGN_CHECK_ACCURACY'"),
+        ("NETDESIGN_CHECK_X", ""),
+    ],
+)
+def test_a_variable_that_names_no_option_is_refused(call, monkeypatch, variable, near):
+    monkeypatch.setenv(variable, "eurocode")
+    ended = call("check", "--example", "--dry-run")
+    assert ended.code == 2
+    assert f"{variable}: is not known" in ended.err
+    assert near in ended.err
+    assert call("init", "site.xlsx").code == 0  # it is none of its own

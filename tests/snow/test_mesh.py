@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.errors import ModelError
+from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
 COARSE = MESH_LEVELS[1]
@@ -119,7 +119,7 @@ def test_layers_have_two_rows_of_triangles_wherever_they_are():
 def test_a_mesh_finer_than_rounding_is_refused():
     """Qhull would leave out points, and the mesh would have nodes without triangles."""
     size = MeshSize(net_spacing=0.04, corner=1e-7, sectors=12, upslope_spacing=0.2)
-    with pytest.raises(ModelError, match="too fine"):
+    with pytest.raises(SolveError, match="too fine"):
         build_template(8.0, size)
 
 

@@ -1,0 +1,69 @@
+"""A mesh that rounding makes impossible ends a solve; it is no fault of the input."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.coupling.rigid import solve_rigid
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.staggered import StaggeredSettings, solve_staggered
+from netdesign.coupling.steady import find_end_pulls, solve_steady
+from netdesign.coupling.transient import TransientSettings, solve_transient
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.mesh import MeshSize
+from netdesign.snow.wall import Wall
+
+TOO_FINE = MeshSize(net_spacing=0.04, corner=1e-7, sectors=12, upslope_spacing=0.2)
+
+
+def build_wall(a_scene):
+    scene = a_scene(length_m=27.3, thickness_m=3.1)
+    return replace(scene, net=Wall(inclination=0.21, height_normal=3.1))
+
+
+def build_net(a_scene):
+    return a_scene(length_m=27.3, thickness_m=3.1, slack=0.03, inclination_deg=22.0)
+
+
+def solve_wall(scene, settings, *, on_failure):
+    """A wall's solve always returns; what it raises inside is what it says."""
+    failed = solve_rigid(scene, settings)
+    if on_failure == "raise":
+        raise SolveError(failed.outcome, failed.reason)
+    return failed
+
+
+SOLVES = {
+    "steady": (solve_steady, build_net, SolverSettings),
+    "rigid": (solve_wall, build_wall, SolverSettings),
+    "transient": (solve_transient, build_net, TransientSettings),
+}
+
+
+@pytest.mark.parametrize("name", list(SOLVES))
+@pytest.mark.parametrize("levels", [(TOO_FINE, TOO_FINE), (MESH_LEVELS[0], TOO_FINE)])
+def test_a_mesh_too_fine_is_an_outcome(a_scene, name, levels):
+    solve, build, settings = SOLVES[name]
+    if name == "transient" and levels[0] is not TOO_FINE:
+        pytest.skip("a whole history comes before the second mesh")
+    scene, chosen = build(a_scene), settings(levels=levels, accuracy=1e-3)
+    failed = solve(scene, chosen, on_failure="return")
+    assert isinstance(failed, FailedSolution)
+    assert failed.outcome is Outcome.OUT_OF_VALIDITY
+    assert "too fine" in failed.reason
+    assert "allow a larger error, or join thin layers" in failed.reason
+    with pytest.raises(SolveError, match="too fine"):
+        solve(scene, chosen, on_failure="raise")
+
+
+def test_so_it_is_for_the_source_paper_s_exchange(a_scene):
+    settings = StaggeredSettings(size=TOO_FINE)
+    failed = solve_staggered(a_scene(), settings)
+    assert failed.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_a_benchmark_of_one_mesh_raises_what_it_says(a_scene):
+    with pytest.raises(SolveError, match="too fine"):
+        find_end_pulls(build_net(a_scene), TOO_FINE, SolverSettings())
