@@ -46,7 +46,12 @@ from netdesign.commands.site_input import open_site, site_options, temporary_exa
 from netdesign.commands.solving import judge_rows, open_rows, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
-from netdesign.errors import NetDesignError, OutputError, SiteDataError
+from netdesign.errors import (
+    NetDesignError,
+    OutputError,
+    SiteDataError,
+    StandardError,
+)
 from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.given_files import make_printable
 from netdesign.outcome import Outcome, Verdict
@@ -71,7 +76,8 @@ _OBJECTS = 100_000
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
-5 internal error, 130 interrupted."
+5 internal error, 130 interrupted. A reader of the output who stops early changes \
+none of them; a standard output that cannot be written to ends with 2."
 
 
 @click.group(epilog=_EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
@@ -182,7 +188,7 @@ def check(
             "give a site workbook, or --example for the built-in one"
         )
     site = _read_site(site_file, overwrite=force, **reading)
-    profiles = _load_profiles(standards or (site.project.standard or DEFAULT_STANDARD,))
+    profiles = _choose_profiles(standards, site)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,
@@ -400,6 +406,18 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
         return open_site(site_file, **reading)
     with temporary_example() as path:
         return open_site(path, **reading)
+
+
+def _choose_profiles(names: Sequence[str], site: Site) -> list[Standard]:
+    """Profiles of the command line, else that of the site, else the default."""
+    named = site.project.standard
+    if names or not named:
+        return _load_profiles(names or (DEFAULT_STANDARD,))
+    try:
+        return _load_profiles((named,))
+    except StandardError as error:
+        place = site.project_cells["standard"].replace("!", " › ")
+        raise StandardError(f"{site.file_name} › {place}: {error}") from None
 
 
 def _load_profiles(names: Sequence[str]) -> list[Standard]:

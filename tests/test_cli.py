@@ -194,6 +194,16 @@ def test_a_profile_that_cannot_be_read_ends_with_3(tmp_path, line):
     assert listing(tmp_path) == {"site.csv"}
 
 
+def test_an_unknown_profile_of_a_site_is_refused_at_its_cell(call, tmp_path):
+    sheets = copy.deepcopy(SHEETS)
+    sheets["Project"] = [["item", "value"], ["name", "Combe"], ["standard", "eurocod"]]
+    write_site(tmp_path / "site.xlsx", lambda own: own.update(sheets))
+    ended = call("check", "site.xlsx", "--dry-run")
+    assert ended.code == 3
+    assert "site.xlsx › Project › B3: limit profile 'eurocod'" in ended.err
+    assert "did you mean eurocode?" in ended.err
+
+
 def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     def bury(sheets):
         sheets["Nets"][1][5] = 2.4
