@@ -96,9 +96,6 @@ def build_topology(template: MeshTemplate) -> Topology:
     turned = template.orientation < 0
     triangles[turned] = triangles[turned][:, ::-1]
     edges, left, right = _pair_edges(triangles)
-    distance, height = template.nodes[:, : template.n_vertices]
-    surface = np.flatnonzero(height == 1.0)
-    upstream = np.flatnonzero(distance == template.aspect)
     return Topology(
         template=template,
         triangles=triangles,
@@ -107,8 +104,8 @@ def build_topology(template: MeshTemplate) -> Topology:
         right=right,
         net=template.net[::2],
         ground=template.ground[::2],
-        surface=surface[np.argsort(distance[surface])],
-        upstream=upstream[np.argsort(height[upstream])],
+        surface=template.surface[::2],
+        upstream=template.upstream[::2],
     )
 
 
