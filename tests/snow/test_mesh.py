@@ -60,7 +60,7 @@ def draw_shape(seed):
 
 
 @pytest.mark.parametrize("seed", UNTIDY)
-@pytest.mark.parametrize("size", (*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]))
+@pytest.mark.parametrize("size", [*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]])
 def test_sides_hold_every_node_that_lies_on_them(seed, size):
     aspect, interfaces = draw_shape(seed)
     template = build_template(aspect, size, interfaces)
