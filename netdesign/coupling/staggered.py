@@ -27,10 +27,10 @@ from netdesign.cable.response import (
 )
 from netdesign.cable.tension import compute_turning_angles
 from netdesign.coupling.clock import Clock
-from netdesign.coupling.history import Moment, find_plateau
+from netdesign.coupling.history import Moment, find_plateau, judge_plateau
 from netdesign.coupling.instant import Instant, advance_under
 from netdesign.coupling.moving import TransientProblem, TransientState
-from netdesign.coupling.net_start import Start, build_start
+from netdesign.coupling.net_start import Start, build_start, find_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.run import Run, measure_run, record_moment
@@ -69,7 +69,7 @@ class StaggeredSettings:
     step_share : float
         Step over the longest that is about stable.
     start : str
-        ``straight`` (the paper) or ``sagged``.
+        ``straight`` (the paper), ``sagged`` or ``steady``.
     horizon : float
         Creep time to follow, over thickness by velocity scale.
     stress_tolerance : float
@@ -159,7 +159,8 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
     aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
     template = build_template(aspect, settings.size, scene.layer_tops)
-    state = build_start(problem, template, settings.start)
+    start = find_start(scene, settings.size, settings.start)
+    state = build_start(problem, template, start)
     cable = _start_cable(problem, state)
     step = settings.step_share * _longest_step(problem, aspect)
     moments: list[Moment] = []
@@ -183,13 +184,14 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     return Run(
         problem=problem,
         moments=tuple(moments),
-        plateau=find_plateau(moments),
+        plateau=judge_plateau(moments, find_plateau(moments)),
         state=state,
         instant=instant,
         fallen=1.0 - float(state.body.mass.sum()) / mass,
         ended="",
         linear_solves=solves,
         rejected=0,
+        is_guessed=settings.start != "steady",
     )
 
 
