@@ -54,6 +54,8 @@ class CaseResult:
         Force vectors on the ground.
     solution : SolvedState or None
         State of snow and net.
+    compared : Compared or None
+        The steady state and the history of a case that was followed in time.
     """
 
     case: Case
@@ -62,11 +64,25 @@ class CaseResult:
     member_forces: dict[str, Band]
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
+    compared: Compared | None = None
 
     @property
     def is_converged(self) -> bool:
         """Its numbers may be used."""
         return self.outcome is Outcome.CONVERGED
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Compared:
+    """A case at rest and followed in time, both converged."""
+
+    steady: CaseResult
+    history: CaseResult
+
+    def exceeds(self, member: str) -> bool:
+        """The history's force lies above the band of the steady state's."""
+        history = self.history.member_forces[member]
+        return history.value > self.steady.member_forces[member].high
 
 
 def run_cases(
