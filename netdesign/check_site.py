@@ -59,10 +59,10 @@ METHODS: dict[Literal["steady", "transient"], str] = {
     "transient": "steady; governing cases confirmed by a history from the steady net",
 }
 _HISTORY = (
-    "the history of its governing case reaches {:.1f} kN, the steady state {:.1f} kN "
-    "(band up to {:.1f} kN): "
+    "the history of its governing case reaches {:.1f} to {:.1f} kN, the steady state "
+    "{:.1f} to {:.1f} kN: "
 )
-_STAYS = _HISTORY + "the steady state is the demand"
+_STAYS = _HISTORY + "not surely more, so the steady state is the demand"
 _EXCEEDS = _HISTORY + (
     "the history is the demand, as snow that creeps towards the net gathers there"
 )
@@ -229,7 +229,7 @@ def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[str]:
         history, steady = (
             one.member_forces[member] for one in (compared.history, compared.steady)
         )
-        forces = (history.value, steady.value, steady.high)
+        forces = (history.low, history.high, steady.low, steady.high)
         reason = _EXCEEDS if compared.exceeds(member) else _STAYS
         sentence = reason.format(*(kilonewton_from_newton(one) for one in forces))
         notes.append(f"{member.replace('_', ' ').capitalize()}: {sentence}")

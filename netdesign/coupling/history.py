@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,6 +22,7 @@ NODE_DRIFT = 0.10
 REST_SHARE = 0.2
 REST_WAY = 2e-3
 LEAST_STRAIN = 0.004
+COUNTED_STRAIN = 0.01  # until then the snow is the scene's
 _EFOLDS = 1.0  # for so long
 CRITERION = (
     f"after a mean creep strain of {LEAST_STRAIN:.1%}, for one e-fold of time, end "
@@ -181,13 +183,16 @@ def select_counted(
 ) -> Sequence[Moment]:
     """Moments whose pulls are those of the scene's snow on its net.
 
-    Those until a plateau is proven, whatever the horizon: later the snow is not what
-    it was. A net whose first shape is guessed pulls by that guess at first: its
-    moments count from the plateau's begin on. Without a plateau all count.
+    Those until the snow has crept by 1 % on average, or until a plateau begins if that
+    is later, whatever the horizon: afterwards the snow is not what it was. A net whose
+    first shape is guessed pulls by that guess at first: its moments count from the
+    plateau's begin on. Without a plateau all count.
     """
-    if plateau.index is None or plateau.end is None:
+    if plateau.index is None:
         return moments
-    return moments[plateau.index if is_guessed else 0 : plateau.end + 1]
+    strains = [moment.strain for moment in moments]
+    end = max(plateau.index + 1, bisect_right(strains, COUNTED_STRAIN))
+    return moments[plateau.index if is_guessed else 0 : end]
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:

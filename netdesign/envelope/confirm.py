@@ -40,7 +40,7 @@ def confirm_rows(
     -------
     list of list of CaseResult
         The results with the governing ones replaced: the demand is the steady state's
-        force, or the history's where that lies above the steady state's band. A history
+        force, or the history's where that is larger by more than both errors. A history
         that fails, or comes to no plateau, leaves a failed case: its row is not proven.
     """
     places = [
@@ -107,7 +107,7 @@ def find_governing(results: Sequence[CaseResult]) -> list[int]:
 
 
 def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
-    """The steady result, or the history's forces where they lie above its bands.
+    """The steady result, or the history's forces where these are surely larger.
 
     Where one does, the drawn state is the history's too. A failed history fails the
     case.

@@ -80,9 +80,9 @@ class Compared:
     history: CaseResult
 
     def exceeds(self, member: str) -> bool:
-        """The history's force lies above the band of the steady state's."""
+        """The history's force is larger by more than both state as their errors."""
         history = self.history.member_forces[member]
-        return history.value > self.steady.member_forces[member].high
+        return history.low > self.steady.member_forces[member].high
 
 
 def run_cases(
