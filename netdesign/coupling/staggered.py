@@ -123,14 +123,17 @@ def solve_staggered(
     -----------
     tests/coupling/test_staggered.py, ``netdesign verify``
     """
-    settings = settings or StaggeredSettings()
     try:
-        half = replace(settings, step_share=settings.step_share / 2.0)
-        runs = [run_exchange(scene, settings), run_exchange(scene, half)]
+        return _solve(scene, settings or StaggeredSettings())
     except SolveError as failure:
         if on_failure == "raise":
             raise
         return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+
+
+def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    half = replace(settings, step_share=settings.step_share / 2.0)
+    runs = [run_exchange(scene, settings), run_exchange(scene, half)]
     foot, head = (
         EndPull.of_estimate(_ERROR.estimate(*pulls), scene.force_scale)
         for pulls in zip(*(measure_run(run) for run in runs), strict=True)
@@ -227,7 +230,8 @@ def _follow(
     step: float,
 ) -> tuple[TransientState, CableState]:
     net = instant.displaced[:, state.body.topology.net].copy()
-    net[:, -1] = problem.head
+    if state.top != "on-net":
+        net[:, -1] = problem.head
     body, _ = move_body(state.body, instant.displaced, net, problem.head)
     moved = replace(
         state,
