@@ -55,6 +55,7 @@ _STABLE_SHARE = 0.3
 _FRICTION_TOLERANCE = 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
+_ADVICE = "the method transient has no such limit of explicit steps"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,9 +127,10 @@ def solve_staggered(
     try:
         return _solve(scene, settings or StaggeredSettings())
     except SolveError as failure:
+        reason = f"{failure.reason.rstrip('.')}; {_ADVICE}"
         if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+            raise SolveError(failure.outcome, reason) from None
+        return FailedSolution(outcome=failure.outcome, reason=reason)
 
 
 def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
