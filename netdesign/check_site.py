@@ -55,8 +55,16 @@ from netdesign.units import (
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 METHODS: dict[Literal["steady", "transient"], str] = {
     "steady": "steady",
-    "transient": "steady; governing cases confirmed by a history from a sagged net",
+    "transient": "steady; governing cases confirmed by a history from the steady net",
 }
+_HISTORY = (
+    "the history of its governing case reaches {:.1f} to {:.1f} kN, the steady state "
+    "{:.1f} to {:.1f} kN: "
+)
+_STAYS = _HISTORY + "not surely more, so the steady state is the demand"
+_EXCEEDS = _HISTORY + (
+    "the history is the demand, as snow that creeps towards the net gathers there"
+)
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
@@ -165,7 +173,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        notes=list_row_notes(row, effects),
+        notes=[*list_row_notes(row, effects), *_list_history_notes(extremes)],
         envelope=(
             None
             if envelope is None
@@ -207,6 +215,23 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
             "the ground under the base plate is not checked: no bearing resistance is "
             "given for the post type"
         )
+    return notes
+
+
+def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[str]:
+    """Which of steady state and history is the demand, and why, by member."""
+    notes = []
+    for member in REPORTED_MEMBERS:
+        compared = extremes[member].governing.compared if member in extremes else None
+        if compared is None:
+            continue
+        history, steady = (
+            one.member_forces[member] for one in (compared.history, compared.steady)
+        )
+        forces = (history.low, history.high, steady.low, steady.high)
+        reason = _EXCEEDS if compared.exceeds(member) else _STAYS
+        sentence = reason.format(*(kilonewton_from_newton(one) for one in forces))
+        notes.append(f"{member.replace('_', ' ').capitalize()}: {sentence}")
     return notes
 
 

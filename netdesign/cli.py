@@ -485,8 +485,9 @@ def _show_plateau(document: dict[str, Any]) -> None:
         return
     click.echo(
         f"plateau after {plateau['time_d']:.3g} days: foot "
-        f"{plateau['foot_kN_per_m']:.2f}, head {plateau['head_kN_per_m']:.2f} kN/m; "
-        "above are the largest of the history"
+        f"{plateau['foot_kN_per_m']:.2f}, head {plateau['head_kN_per_m']:.2f} kN/m, "
+        f"drift {plateau['drift_per_efold']:+.1%} per e-fold of time; above are the "
+        "largest while the snow is the scene's"
     )
 
 

@@ -25,7 +25,7 @@ from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_from_newton
 
-_START: Start = "sagged"
+_START: Start = "steady"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -128,7 +128,7 @@ class SolveTable(_Table):
 
     method: Method = "steady"
     accuracy: Annotated[float, Field(ge=1e-4, le=0.1)] = 0.005
-    start: Literal["straight", "sagged"] = "sagged"
+    start: Literal["steady", "straight", "sagged"] | None = None
     horizon_days: Positive = 30.0
     densification: bool = True
 
@@ -188,13 +188,13 @@ def _settings(table: SolveTable, method: Method, scene: Scene) -> Settings:
     if method == "transient":
         return TransientSettings(
             accuracy=table.accuracy,
-            start=table.start,
+            start=table.start or "steady",
             horizon=horizon,
             densifies=table.densification,
         )
     if method == "staggered":
         creep_time = min(horizon / scene.time_scale, LONGEST_EXCHANGE)
-        return StaggeredSettings(start=table.start, horizon=creep_time)
+        return StaggeredSettings(start=table.start or "sagged", horizon=creep_time)
     return SolverSettings(accuracy=table.accuracy)
 
 

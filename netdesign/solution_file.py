@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from netdesign import __version__
 from netdesign.coupling.bound import PullBound
-from netdesign.coupling.history import History, Moment
+from netdesign.coupling.history import COUNTED_STRAIN, History, Moment
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
     Balance,
@@ -137,6 +137,7 @@ def _write_history(solution: Solution | WallSolution) -> dict[str, Any]:
             "reached": plateau.reached,
             "time_d": None if plateau.time is None else day_from_second(plateau.time),
             "criterion": plateau.criterion,
+            "drift_per_efold": plateau.drift,
             "foot_kN_per_m": None if moment is None else _size(moment.foot),
             "head_kN_per_m": None if moment is None else _size(moment.head),
         },
@@ -273,7 +274,15 @@ def _list_history_flags(history: History | None) -> list[str]:
     if history is None:
         return []
     flags = []
-    if not history.plateau.reached:
+    plateau = history.plateau
+    if plateau.was_left:
+        flags.append(
+            "no plateau: the forces came to rest, but drifted on as the snow settled "
+            f"and gathered at the net, by {plateau.drift:+.0%} per e-fold of time; the "
+            "pulls are those of the scene's own snow, until it had crept by "
+            f"{COUNTED_STRAIN:.0%}"
+        )
+    elif not plateau.reached:
         flags.append(
             "no plateau: the forces still change at the end of the history; nothing is "
             "proven by it"

@@ -1,4 +1,7 @@
-"""`check --method transient`: a history without plateau is never a pass."""
+"""`check --method transient`: what is the demand, and that its tables agree.
+
+The suite takes three rows of the built-in example; ``python -m pytest -m slow`` all.
+"""
 
 import json
 import sys
@@ -9,7 +12,12 @@ import pytest
 
 from netdesign import cli, site_cases
 from netdesign.outcome import Outcome
+from netdesign.report.language import load_words
+from tests.short_example import write_short_example
 from tests.test_cli import SHEETS
+
+MEMBERS = ["Foot anchor", "Uphill guy", "Post"]  # the downhill guy is slack
+ALLOWED = 0.05  # over the steady state on sliding ground (winter.md, section 6)
 
 
 @pytest.fixture
@@ -83,3 +91,92 @@ def test_larger_forces_of_histories_are_the_demands(monkeypatch, capsys, site_fi
         steady["rows"][0]["extremes"], doubled["rows"][0]["extremes"], strict=True
     ):
         assert after["max_kN"] == pytest.approx(2 * before["max_kN"])
+
+
+def list_history_notes(row):
+    return [note for note in row["notes"] if "the history of its governing" in note]
+
+
+def require_judged(row):
+    """No member without a demand; whose it is and why is said of each."""
+    assert not any("history of a governing case" in why for why in row["reasons"])
+    assert not any(case["outcome"] != "converged" for case in row["cases"])
+    notes = list_history_notes(row)
+    assert [note.partition(":")[0] for note in notes] == MEMBERS
+    for language in ("fr", "de"):
+        words = load_words(language)
+        assert all(words.find(note) not in (None, note) for note in notes)
+
+
+@pytest.fixture
+def example(tmp_path):
+    """Rows of the example: no slip, and two whose ground slides."""
+
+    def write(rows, **how):
+        path = tmp_path / f"{'-'.join(rows)}.xlsx"
+        write_short_example(path, rows, **how)
+        return path
+
+    return write
+
+
+def test_the_steady_state_is_the_demand_but_for_what_is_surely_more(
+    monkeypatch, capsys, example
+):
+    site = example(["R1", "R4", "R5"])
+    options = ("--accuracy", "0.01")
+    _, steady = check(monkeypatch, capsys, site, *options)
+    _, followed = check(monkeypatch, capsys, site, *options, "--method", "transient")
+    for before, after in zip(steady["rows"], followed["rows"], strict=True):
+        require_judged(after)
+        raised = [
+            note.partition(":")[0]
+            for note in list_history_notes(after)
+            if "gathers there" in note
+        ]
+        for old, new in zip(before["extremes"], after["extremes"], strict=True):
+            name = old["quantity"].replace("_", " ").capitalize()
+            if name in raised:
+                assert old["high_kN"] < new["low_kN"]
+                assert new["max_kN"] < (1.0 + ALLOWED) * old["max_kN"]
+            else:
+                assert new["max_kN"] == old["max_kN"]
+
+
+def require_tables_agree(row):
+    """Largest force and the same case solved again, by the method that is named."""
+    extremes = {one["quantity"]: one["max_kN"] for one in row["extremes"]}
+    for bound in row["envelope"]["bounds"]:
+        assert bound["max_kN"] == extremes[bound["quantity"]]
+        again = bound["confirmation"]
+        if again is None:
+            continue
+        difference = again["confirmed_kN"] / again["screened_kN"] - 1.0
+        assert again["difference_percent"] == pytest.approx(100.0 * difference)
+        if again["method"] == "transient":
+            assert bound["max_kN"] == pytest.approx(again["confirmed_kN"], rel=1e-2)
+            assert 0.0 < difference < ALLOWED
+        else:
+            assert bound["max_kN"] == pytest.approx(again["screened_kN"], rel=1e-9)
+
+
+def test_tables_of_a_searched_row_agree(monkeypatch, capsys, example):
+    site = example(["R4"], is_grid=False)
+    options = ("--accuracy", "0.03", "--method", "transient")
+    _, study = check(monkeypatch, capsys, site, *options)
+    require_judged(study["rows"][0])
+    require_tables_agree(study["rows"][0])
+
+
+@pytest.mark.slow
+def test_every_row_of_the_example_is_judged(monkeypatch, capsys, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    arguments = ["check", "--example", "--method", "transient", "--json", "--quiet"]
+    monkeypatch.setattr(sys, "argv", ["netdesign", *arguments])
+    with pytest.raises(SystemExit):
+        cli.main()
+    study = json.loads(capsys.readouterr().out)
+    assert len(study["rows"]) == 7
+    for row in study["rows"]:
+        require_judged(row)
+        require_tables_agree(row)

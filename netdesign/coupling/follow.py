@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.instant import Instant
-from netdesign.coupling.moving import Top, TransientProblem, TransientState
-from netdesign.coupling.net_start import HEAD_GAP, TOUCHES_GROUND
+from netdesign.coupling.moving import HEAD_GAP, Top, TransientProblem, TransientState
+from netdesign.coupling.net_start import TOUCHES_GROUND
 from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome

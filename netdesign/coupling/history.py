@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +15,17 @@ Floats = NDArray[np.float64]
 # their size, node forces by less than the second of the largest of them; the net goes
 # across itself less than the third share of the way it has gone, or less than the
 # fourth of the snow thickness. It begins once the snow has crept by the last figure
-# on average: earlier, nothing has had time to change.
+# on average: earlier, nothing has had time to change; much later it is other snow,
+# which has settled and gathered at the net.
 PULL_DRIFT = 0.05
 NODE_DRIFT = 0.10
 REST_SHARE = 0.2
 REST_WAY = 2e-3
-LEAST_STRAIN = 0.01
+LEAST_STRAIN = 0.004
+COUNTED_STRAIN = 0.01  # until then the snow is the scene's
 _EFOLDS = 1.0  # for so long
 CRITERION = (
-    f"after a mean creep strain of {LEAST_STRAIN:.0%}, for one e-fold of time, end "
+    f"after a mean creep strain of {LEAST_STRAIN:.1%}, for one e-fold of time, end "
     f"pulls change by less than {PULL_DRIFT:.0%} and node forces by less than "
     f"{NODE_DRIFT:.0%} of the largest per e-fold, and the net moves by less than "
     f"{REST_SHARE:.0%} of its way, or {REST_WAY:.1%} of the snow thickness, per e-fold"
@@ -75,11 +78,14 @@ class Plateau:
     Attributes
     ----------
     reached : bool
-        The criterion was met until the end of its span.
+        The criterion was met over a span, and the pulls have not left it since.
     time : float or None
-        Begin of that span; None if not reached.
-    index : int or None
-        Number of its first moment.
+        Begin of that span; None without one.
+    index, end : int or None
+        Number of its first moment, and of that which proves it.
+    drift : float or None
+        Largest change of an end pull since the begin over its size, per e-fold of
+        time, at the end of the span or later [-].
     criterion : str
         In words.
     """
@@ -87,7 +93,14 @@ class Plateau:
     reached: bool
     time: float | None
     index: int | None
+    end: int | None = None
+    drift: float | None = None
     criterion: str = CRITERION
+
+    @property
+    def was_left(self) -> bool:
+        """There was one, but the pulls drifted on."""
+        return self.index is not None and not self.reached
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -101,7 +114,7 @@ class History:
     plateau : Plateau
         [s].
     start : str
-        ``sagged`` or ``straight``.
+        ``steady``, ``sagged`` or ``straight``.
     densifies : bool
         The creep law followed the density.
     fallen_share : float
@@ -135,8 +148,51 @@ def find_plateau(moments: Sequence[Moment]) -> Plateau:
         if begin is None:
             begin = place - 1
         if np.log(moments[place].time / moments[begin].time) >= _EFOLDS:
-            return Plateau(reached=True, time=moments[begin].time, index=begin)
+            return Plateau(
+                reached=True, time=moments[begin].time, index=begin, end=place
+            )
     return Plateau(reached=False, time=None, index=None)
+
+
+def judge_plateau(moments: Sequence[Moment], plateau: Plateau) -> Plateau:
+    """The plateau with the drift since it began, not reached if that is too fast.
+
+    Snow that settles and gathers at the net is other snow in the end; a history of it
+    must not pass for one that rests.
+    """
+    if plateau.index is None or plateau.end is None:
+        return plateau
+    first = moments[plateau.index]
+    drift = max(
+        (_drift_between(first, later) for later in moments[plateau.end :]), key=abs
+    )
+    return replace(plateau, drift=drift, reached=abs(drift) <= PULL_DRIFT)
+
+
+def _drift_between(first: Moment, later: Moment) -> float:
+    """The larger change of an end pull, signed, over its size and per e-fold."""
+    changes = [
+        float(np.hypot(*new) / np.hypot(*old)) - 1.0
+        for old, new in ((first.foot, later.foot), (first.head, later.head))
+    ]
+    return max(changes, key=abs) / float(np.log(later.time / first.time))
+
+
+def select_counted(
+    moments: Sequence[Moment], plateau: Plateau, *, is_guessed: bool
+) -> Sequence[Moment]:
+    """Moments whose pulls are those of the scene's snow on its net.
+
+    Those until the snow has crept by 1 % on average, or until a plateau begins if that
+    is later, whatever the horizon: afterwards the snow is not what it was. A net whose
+    first shape is guessed pulls by that guess at first: its moments count from the
+    plateau's begin on. Without a plateau all count.
+    """
+    if plateau.index is None:
+        return moments
+    strains = [moment.strain for moment in moments]
+    end = max(plateau.index + 1, bisect_right(strains, COUNTED_STRAIN))
+    return moments[plateau.index if is_guessed else 0 : end]
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:

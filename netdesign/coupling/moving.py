@@ -23,6 +23,10 @@ Signs = NDArray[np.int8]
 # net below it.
 Top = Literal["held", "slipping", "on-net"]
 
+# Length of net that comes free above the snow's upper corner, over the chord, when
+# the corner begins to slip down.
+HEAD_GAP = 2e-3
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TransientProblem:
@@ -34,6 +38,11 @@ class TransientProblem:
     length: float  # unstressed, of the whole net
     stiffness: float
     base_drag: float = 0.0  # shear stress on the ground over its velocity
+
+    @property
+    def has_freeboard(self) -> bool:
+        """The head stands above the snow by more than the gap of a corner."""
+        return bool(self.head[1] > 1.0 + HEAD_GAP)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -9,25 +9,44 @@ from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.moving import TransientProblem, TransientState
+from netdesign.coupling.net_at_rest import NetAtRest, find_net_at_rest, hang_polygon
+from netdesign.coupling.scene import Scene
 from netdesign.coupling.start import guess_pressure
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
-from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.mesh import MeshSize, MeshTemplate
 
 Floats = NDArray[np.float64]
-Start = Literal["straight", "sagged"]
+Start = Literal["steady", "straight", "sagged"]
 
-# Length of net that comes free above the snow's upper corner, over the chord, when
-# the corner begins to slip down.
-HEAD_GAP = 2e-3
 TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord
 
 
+def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
+    """What ``build_start`` takes: of a steady start the net as it hangs at rest.
+
+    Raises
+    ------
+    SolveError
+        If there is no steady state.
+    """
+    if start != "steady":
+        return start
+    try:
+        return find_net_at_rest(scene, size)
+    except SolveError as failure:
+        raise SolveError(
+            failure.outcome,
+            f"no steady state to start from ({failure.reason.rstrip('.')}): choose "
+            "the start sagged or straight",
+        ) from None
+
+
 def build_start(
-    problem: TransientProblem, template: MeshTemplate, start: Start
+    problem: TransientProblem, template: MeshTemplate, start: Start | NetAtRest
 ) -> TransientState:
     """Snow and net at time 0.
 
@@ -37,10 +56,11 @@ def build_start(
         Scene.
     template : MeshTemplate
         Reference mesh.
-    start : str
+    start : str or NetAtRest
         ``straight``: the net has no tension, a straight line or, if it has slack, the
         parabola that takes up the slack. ``sagged``: it hangs under the snow's mean
-        pressure. The snow, undeformed, lies against it.
+        pressure. The net of a steady state: it hangs as it does there. The snow,
+        undeformed, lies against it.
 
     Returns
     -------
@@ -50,34 +70,48 @@ def build_start(
     Raises
     ------
     SolveError
-        If the sagged net would lie on the ground.
+        If the net would lie on the ground.
     """
-    head = problem.head
-    fractions = template.net_fractions / head[1]
-    has_freeboard = bool(head[1] > 1.0 + HEAD_GAP)
-    if not has_freeboard:
+    fractions = template.net_fractions
+    if isinstance(start, NetAtRest):
+        curve, lengths = hang_polygon(start, problem, fractions)
+    else:
+        curve = _hang_parabola(problem, template, start)
+        lengths = _spread_length(problem, curve)
+    if not curve[1, 1:].min() > 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
+    body = build_body(problem.law, template, curve)
+    return TransientState(
+        time=0.0,
+        body=body,
+        lengths=lengths,
+        glide=np.zeros(lengths.size - 1, dtype=np.int8),
+        top="on-net" if problem.has_freeboard else "held",
+        velocity=np.zeros((2, template.nodes.shape[1])),
+        moved=np.zeros_like(body.vertices),
+    )
+
+
+def _hang_parabola(
+    problem: TransientProblem, template: MeshTemplate, start: Start
+) -> Floats:
+    """Nodes (2, n) of a net whose shape is guessed."""
+    fractions = template.net_fractions / problem.head[1]
+    if not problem.has_freeboard:
         fractions = fractions / fractions[-1]
     pressure = 0.0
     if start == "sagged":
         pressure = guess_pressure(problem.law, template.aspect)
-    sag = _find_sag(problem, pressure)
-    curve = _parabola(head, sag, fractions)
-    if not curve[1, 1:].min() > 0.0:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
-    body = build_body(problem.law, template, curve)
+    return _parabola(problem.head, _find_sag(problem, pressure), fractions)
+
+
+def _spread_length(problem: TransientProblem, curve: Floats) -> Floats:
+    """Unstressed lengths of the segments on a curve: the same strain in all."""
     points = curve[:, ::2]
-    if has_freeboard:
-        points = np.column_stack([points, head])
+    if problem.has_freeboard:
+        points = np.column_stack([points, problem.head])
     arcs = measure_arcs(points)
-    return TransientState(
-        time=0.0,
-        body=body,
-        lengths=arcs * (problem.length / arcs.sum()),
-        glide=np.zeros(arcs.size - 1, dtype=np.int8),
-        top="on-net" if has_freeboard else "held",
-        velocity=np.zeros((2, template.nodes.shape[1])),
-        moved=np.zeros_like(body.vertices),
-    )
+    return np.asarray(arcs * (problem.length / arcs.sum()))
 
 
 def _find_sag(problem: TransientProblem, pressure: float) -> float:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.coupling.history import Moment, Plateau, largest_pull
+from netdesign.coupling.history import (
+    Moment,
+    Plateau,
+    largest_pull,
+    select_counted,
+)
 from netdesign.coupling.instant import Instant
 from netdesign.coupling.moving import TransientProblem, TransientState
 from netdesign.snow.settling import largest_density
@@ -35,6 +41,8 @@ class Run:
         Why the run ended before its horizon; empty if it did not.
     linear_solves, rejected : int
         Solves taken; steps that were repeated.
+    is_guessed : bool
+        The net's first shape was a guess.
     """
 
     problem: TransientProblem
@@ -46,6 +54,12 @@ class Run:
     ended: str
     linear_solves: int
     rejected: int
+    is_guessed: bool
+
+    @property
+    def counted(self) -> Sequence[Moment]:
+        """Moments whose pulls are those of the scene's snow on its net."""
+        return select_counted(self.moments, self.plateau, is_guessed=self.is_guessed)
 
 
 def record_moment(
@@ -83,10 +97,10 @@ def record_moment(
 
 
 def measure_run(run: Run) -> list[Floats]:
-    """Largest pulls of the history on foot and head, shape (2,) each."""
+    """Largest pulls that count on foot and head, shape (2,) each."""
     return [
-        largest_pull([moment.foot for moment in run.moments]),
-        largest_pull([moment.head for moment in run.moments]),
+        largest_pull([moment.foot for moment in run.counted]),
+        largest_pull([moment.head for moment in run.counted]),
     ]
 
 

@@ -27,10 +27,10 @@ from netdesign.cable.response import (
 )
 from netdesign.cable.tension import compute_turning_angles
 from netdesign.coupling.clock import Clock
-from netdesign.coupling.history import Moment, find_plateau
+from netdesign.coupling.history import Moment, find_plateau, judge_plateau
 from netdesign.coupling.instant import Instant, advance_under
 from netdesign.coupling.moving import TransientProblem, TransientState
-from netdesign.coupling.net_start import Start, build_start
+from netdesign.coupling.net_start import Start, build_start, find_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.run import Run, measure_run, record_moment
@@ -55,6 +55,7 @@ _STABLE_SHARE = 0.3
 _FRICTION_TOLERANCE = 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
+_ADVICE = "the method transient has no such limit of explicit steps"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +70,7 @@ class StaggeredSettings:
     step_share : float
         Step over the longest that is about stable.
     start : str
-        ``straight`` (the paper) or ``sagged``.
+        ``straight`` (the paper), ``sagged`` or ``steady``.
     horizon : float
         Creep time to follow, over thickness by velocity scale.
     stress_tolerance : float
@@ -123,14 +124,18 @@ def solve_staggered(
     -----------
     tests/coupling/test_staggered.py, ``netdesign verify``
     """
-    settings = settings or StaggeredSettings()
     try:
-        half = replace(settings, step_share=settings.step_share / 2.0)
-        runs = [run_exchange(scene, settings), run_exchange(scene, half)]
+        return _solve(scene, settings or StaggeredSettings())
     except SolveError as failure:
+        reason = f"{failure.reason.rstrip('.')}; {_ADVICE}"
         if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+            raise SolveError(failure.outcome, reason) from None
+        return FailedSolution(outcome=failure.outcome, reason=reason)
+
+
+def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    half = replace(settings, step_share=settings.step_share / 2.0)
+    runs = [run_exchange(scene, settings), run_exchange(scene, half)]
     foot, head = (
         EndPull.of_estimate(one, scene.force_scale)
         for one in _ERROR.estimate([measure_run(run) for run in runs])
@@ -159,7 +164,8 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
     aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
     template = build_template(aspect, settings.size, scene.layer_tops)
-    state = build_start(problem, template, settings.start)
+    start = find_start(scene, settings.size, settings.start)
+    state = build_start(problem, template, start)
     cable = _start_cable(problem, state)
     step = settings.step_share * _longest_step(problem, aspect)
     moments: list[Moment] = []
@@ -183,13 +189,14 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     return Run(
         problem=problem,
         moments=tuple(moments),
-        plateau=find_plateau(moments),
+        plateau=judge_plateau(moments, find_plateau(moments)),
         state=state,
         instant=instant,
         fallen=1.0 - float(state.body.mass.sum()) / mass,
         ended="",
         linear_solves=solves,
         rejected=0,
+        is_guessed=settings.start != "steady",
     )
 
 
@@ -225,7 +232,8 @@ def _follow(
     step: float,
 ) -> tuple[TransientState, CableState]:
     net = instant.displaced[:, state.body.topology.net].copy()
-    net[:, -1] = problem.head
+    if state.top != "on-net":
+        net[:, -1] = problem.head
     body, _ = move_body(state.body, instant.displaced, net, problem.head)
     moved = replace(
         state,

@@ -134,10 +134,24 @@ def find_end_pulls(
     SolveError
         If the mesh gives no converged solution.
     """
+    _, hanging = find_hanging(scene, size, settings)
+    cable = hanging.cable
+    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
+
+
+def find_hanging(
+    scene: Scene, size: MeshSize, settings: SolverSettings
+) -> tuple[SteadyProblem, Hanging]:
+    """Net at rest on one mesh, dimensionless: where a history may begin.
+
+    Raises
+    ------
+    SolveError
+        If the mesh gives no converged solution.
+    """
     problem = _build_problem(scene, _require_net(scene), size)
     end, _ = _finish(_couple(problem, settings, None, is_first=True))
-    cable = end.hanging.cable
-    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
+    return problem, end.hanging
 
 
 def _require_net(scene: Scene) -> Net:

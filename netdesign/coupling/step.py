@@ -89,6 +89,8 @@ class StepEquations:
     ----------
     problem, mesh, material
         Scene, mesh and creep law where equilibrium is assembled.
+    bottom_fluidity : ndarray, shape (n_ground_edges, 1)
+        Of the snow on the ground, over the reference.
     weight : ndarray, shape (n_dofs,)
         Nodal forces.
     free : ndarray of bool, shape (n_dofs,)
@@ -106,6 +108,7 @@ class StepEquations:
     problem: TransientProblem
     mesh: PlacedMesh
     material: Material
+    bottom_fluidity: Floats
     weight: Floats
     free: Mask
     net_dofs: Ints
@@ -178,10 +181,12 @@ def assemble_step(
     if not mesh.is_valid:
         raise SolveError(Outcome.OUT_OF_VALIDITY, "the snow's mesh folds over")
     moved = replace(body, vertices=vertices)
+    material = build_material(problem.settling, law, moved)
     return StepEquations(
         problem=problem,
         mesh=mesh,
-        material=build_material(problem.settling, law, moved),
+        material=material,
+        bottom_fluidity=material.sample_fluidity(body.topology.bottom),
         weight=_nodal_weight(problem, mesh, body),
         free=_free_places(problem, mesh, state),
         net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),
@@ -283,7 +288,7 @@ def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent |
         law = problem.law
         if shear is None:
             law, shear = replace(law, exponent=1.0), np.zeros_like(weights)
-        return linearise_sliding(law, shear)
+        return linearise_sliding(law, shear, equations.bottom_fluidity)
     if problem.base_drag > 0.0:
         drag = np.full_like(weights, problem.base_drag)
         return Tangent(modulus=drag, kept=np.zeros_like(weights))

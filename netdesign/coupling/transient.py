@@ -20,10 +20,11 @@ from netdesign.coupling.history import (
     Moment,
     Plateau,
     find_plateau,
+    judge_plateau,
 )
 from netdesign.coupling.instant import Instant, advance
 from netdesign.coupling.moving import TransientProblem, TransientState
-from netdesign.coupling.net_start import Start, build_start
+from netdesign.coupling.net_start import Start, build_start, find_start
 from netdesign.coupling.problem import build_problem
 from netdesign.coupling.refine import ErrorModel, refine
 from netdesign.coupling.run import (
@@ -86,7 +87,7 @@ class TransientSettings:
     accuracy : float
         Relative error allowed in the end pulls, in space and time [-].
     start : str
-        ``sagged`` or ``straight``.
+        ``steady``, ``sagged`` or ``straight``.
     horizon : float
         Time to follow [s].
     densifies : bool
@@ -102,7 +103,7 @@ class TransientSettings:
     """
 
     accuracy: float = 0.01
-    start: Start = "sagged"
+    start: Start = "steady"
     horizon: float = 30.0 * 86400.0
     densifies: bool = True
     stops_at_plateau: bool = False
@@ -147,9 +148,10 @@ def solve_transient(
     Returns
     -------
     Solution or FailedSolution
-        ``foot`` and ``head`` are the largest pulls of the history; the plateau's are
-        in ``history``. A history whose plateau is not reached says so and proves
-        nothing.
+        ``foot`` and ``head`` are the largest pulls until the plateau is proven,
+        whatever the horizon; from a guessed start, from the plateau's begin on. The
+        plateau's own are in ``history``. A history whose plateau is not reached, or is
+        left again, says so and proves nothing.
 
     Verified by
     -----------
@@ -208,7 +210,7 @@ def run_history(
     walk = _Walk(
         problem=problem,
         settings=settings,
-        state=build_start(problem, template, settings.start),
+        state=build_start(problem, template, find_start(scene, size, settings.start)),
         step=first,
         step_share=step_share,
         horizon=horizon,
@@ -285,13 +287,14 @@ class _Walk:
         return Run(
             problem=self.problem,
             moments=tuple(self.moments),
-            plateau=self.plateau,
+            plateau=judge_plateau(self.moments, self.plateau),
             state=self.state,
             instant=self.instant,
             fallen=self.fallen / total,
             ended="" if self.failure is None else self.failure.reason,
             linear_solves=self.solves,
             rejected=self.rejected,
+            is_guessed=self.settings.start != "steady",
         )
 
     def _advance(self, step: float) -> Instant:

@@ -1,17 +1,22 @@
-"""Confirms governing cases of the steady envelope by their histories."""
+"""Confirms governing cases of the steady envelope by their histories.
+
+Which of the two is the demand, and why: coupling/THEORY.md, section 6.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from netdesign.checks.result import Band
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope.extremes import find_extremes
-from netdesign.envelope.run import CaseResult, CaseTask, run_cases
+from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import RowEnvelope, build_point_task
+from netdesign.envelope.search import Confirmation, RowEnvelope, build_point_task
+
+# In which any snow comes to rest, or never does [s]: a thousand years.
+_LONGEST = 1e3 * 365.25 * 86400.0
 
 
 def confirm_rows(
@@ -34,9 +39,9 @@ def confirm_rows(
     Returns
     -------
     list of list of CaseResult
-        The results with the governing ones replaced: forces are the larger of steady
-        state and history. A history that fails, or comes to no plateau, leaves a
-        failed case: its row is not proven.
+        The results with the governing ones replaced: the demand is the steady state's
+        force, or the history's where that is larger by more than both errors. A history
+        that fails, or comes to no plateau, leaves a failed case: its row is not proven.
     """
     places = [
         (row, place)
@@ -72,9 +77,23 @@ def confirm_envelopes(
             one,
             results=tuple(of_row),
             members=one.members if any(r.is_converged for r in of_row) else (),
+            confirmations=tuple(
+                _confirm_again(before, of_row) for before in one.confirmations
+            ),
         )
         for one, of_row in zip(envelopes, results, strict=True)
     ]
+
+
+def _confirm_again(before: Confirmation, results: Sequence[CaseResult]) -> Confirmation:
+    """By the history where that is the demand: it is what the steady state misses."""
+    for one in results:
+        compared = one.compared
+        if compared is None or compared.steady is not before.screened:
+            continue
+        if compared.exceeds(before.member):
+            return replace(before, confirmed=compared.history)
+    return before
 
 
 def find_governing(results: Sequence[CaseResult]) -> list[int]:
@@ -88,24 +107,28 @@ def find_governing(results: Sequence[CaseResult]) -> list[int]:
 
 
 def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
-    """Steady result with the larger forces of both; a failed history fails it."""
+    """The steady result, or the history's forces where these are surely larger.
+
+    Where one does, the drawn state is the history's too. A failed history fails the
+    case.
+    """
     if not history.is_converged:
         return replace(history, reason=f"history of a governing case: {history.reason}")
-    forces = {
-        member: _take_larger(band, history.member_forces[member])
-        for member, band in steady.member_forces.items()
+    compared = Compared(steady=steady, history=history)
+    raised = [member for member in steady.member_forces if compared.exceeds(member)]
+    forces = steady.member_forces | {
+        member: history.member_forces[member] for member in raised
     }
-    return replace(steady, member_forces=forces)
+    shown = history if raised else steady
+    return replace(shown, member_forces=forces, compared=compared)
 
 
 def build_history_settings(settings: SolverSettings) -> TransientSettings:
-    """Histories from a sagged net, at the accuracy of the envelope."""
-    return TransientSettings(accuracy=settings.accuracy)
+    """Histories from the steady net to their plateau, as accurate as the envelope.
 
-
-def _take_larger(one: Band, other: Band) -> Band:
-    return Band(
-        low=max(one.low, other.low),
-        value=max(one.value, other.value),
-        high=max(one.high, other.high),
+    They end there, not after so many days: what comes later is other snow, and how
+    soon it comes is a matter of the fluidity, which decides no force.
+    """
+    return TransientSettings(
+        accuracy=settings.accuracy, horizon=_LONGEST, stops_at_plateau=True
     )

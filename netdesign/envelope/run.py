@@ -59,6 +59,8 @@ class CaseResult:
         State of snow and net.
     fault : Fault or None
         What failed in the program, where it was the program.
+    compared : Compared or None
+        The steady state and the history of a case that was followed in time.
     """
 
     case: Case
@@ -68,11 +70,25 @@ class CaseResult:
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
     fault: Fault | None = None
+    compared: Compared | None = None
 
     @property
     def is_converged(self) -> bool:
         """Its numbers may be used."""
         return self.outcome is Outcome.CONVERGED
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Compared:
+    """A case at rest and followed in time, both converged."""
+
+    steady: CaseResult
+    history: CaseResult
+
+    def exceeds(self, member: str) -> bool:
+        """The history's force is larger by more than both state as their errors."""
+        history = self.history.member_forces[member]
+        return history.low > self.steady.member_forces[member].high
 
 
 def run_cases(

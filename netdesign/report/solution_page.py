@@ -213,7 +213,9 @@ def _list_headlines(document: dict[str, Any]) -> list[Headline]:
             note = (
                 f"{note}; {show_number('foot_size_kN_per_m', at_rest)} on the plateau"
             )
-        label = f"Pull on the {end}" + (", largest of the history" if plateau else "")
+        label = f"Pull on the {end}" + (
+            ", largest while the snow is the scene's" if plateau else ""
+        )
         shown.append(_headline(label, pull["size_kN_per_m"], note))
     sag = Headline(
         label="Sag of the net",

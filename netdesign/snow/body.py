@@ -44,6 +44,8 @@ class Topology:
     net, ground, surface, upstream : ndarray of int
         Vertices along the boundary: net from foot to head, ground and surface going
         upslope, upstream end from the ground up.
+    bottom : ndarray of int, shape (n_ground - 1,)
+        Triangle above each edge of the ground.
     """
 
     template: MeshTemplate
@@ -55,6 +57,7 @@ class Topology:
     ground: Ints
     surface: Ints
     upstream: Ints
+    bottom: Ints
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -96,9 +99,8 @@ def build_topology(template: MeshTemplate) -> Topology:
     turned = template.orientation < 0
     triangles[turned] = triangles[turned][:, ::-1]
     edges, left, right = _pair_edges(triangles)
-    distance, height = template.nodes[:, : template.n_vertices]
-    surface = np.flatnonzero(height == 1.0)
-    upstream = np.flatnonzero(distance == template.aspect)
+    owner = np.empty(template.nodes.shape[1], dtype=np.int64)
+    owner[template.triangles] = np.arange(template.triangles.shape[1])
     return Topology(
         template=template,
         triangles=triangles,
@@ -107,8 +109,9 @@ def build_topology(template: MeshTemplate) -> Topology:
         right=right,
         net=template.net[::2],
         ground=template.ground[::2],
-        surface=surface[np.argsort(distance[surface])],
-        upstream=upstream[np.argsort(height[upstream])],
+        surface=template.surface[::2],
+        upstream=template.upstream[::2],
+        bottom=owner[template.ground[1::2]],  # an edge's midpoint has one owner
     )
 
 

@@ -238,10 +238,8 @@ def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
 
 def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
     """Nodal loads (n_dofs,) of a uniform traction along X on the upslope end."""
-    xi, eta = mesh.template.nodes
-    end = np.flatnonzero(xi == mesh.template.aspect)
-    chain = end[np.argsort(eta[end])]
-    start, middle, stop = _edge_triples(chain)
+    eta = mesh.template.nodes[1]
+    start, middle, stop = _edge_triples(mesh.template.upstream)
     lengths = eta[stop] - eta[start]
     load = np.zeros_like(mesh.nodes)
     np.add.at(load[0], start, force * lengths / 6.0)

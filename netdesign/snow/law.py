@@ -14,7 +14,7 @@ import numpy as np
 
 from netdesign.snow.ground import GroundKind
 from netdesign.snow.kernel import Element, point_heights
-from netdesign.snow.mesh import Floats, MeshTemplate
+from netdesign.snow.mesh import Floats, Ints, MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
 # Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).
@@ -108,6 +108,12 @@ class Material(NamedTuple):
         coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
         return np.asarray(_SHEAR + coupling[..., None, None] * _VOLUME)
 
+    def sample_fluidity(self, triangles: Ints) -> Floats:
+        """Fluidity of some triangles, shape (n, 1); points of one have the same."""
+        if np.ndim(self.fluidity) == 0:
+            return np.full((triangles.size, 1), self.fluidity)
+        return np.asarray(np.asarray(self.fluidity)[triangles, :1])
+
 
 class Tangent(NamedTuple):
     """A law linearised about a stress: stress = kept + modulus times strain rate."""
@@ -159,12 +165,16 @@ def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent
     return Tangent(modulus=moduli, kept=stress * (1.0 - share)[..., None])
 
 
-def linearise_sliding(law: FlowLaw, shear: Floats) -> Tangent:
-    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points)."""
+def linearise_sliding(
+    law: FlowLaw, shear: Floats, fluidity: float | Floats = 1.0
+) -> Tangent:
+    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points).
+
+    ``fluidity`` is that of the bottom snow, B a^((n+1)/2), over the reference.
+    """
     viscosity, _, share = _scalars(law, shear**2, shear**2)
-    return Tangent(
-        modulus=viscosity * share / law.slip_ratio, kept=shear * (1.0 - share)
-    )
+    modulus = viscosity * share / (law.slip_ratio * fluidity)
+    return Tangent(modulus=modulus, kept=shear * (1.0 - share))
 
 
 def advance_stress(

@@ -9,6 +9,7 @@ reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -102,9 +103,9 @@ class MeshTemplate:
         Nodes of each triangle in the order of scikit-fem's ``ElementTriP2``.
     edges : ndarray, shape (2, n_edges)
         Vertices of the edges, in the order of the midpoints.
-    net, ground : ndarray, shape (2 n + 1,)
-        Nodes on the net from foot to head, and on the ground going upslope from
-        the foot: vertices and midpoints alternate.
+    net, ground, surface, upstream : ndarray, shape (2 n + 1,)
+        Nodes on the four sides, vertices and midpoints in turn: net from foot to
+        head, ground and surface going upslope, upstream end from the ground up.
     orientation : ndarray, shape (n_triangles,)
         Sign of the area that the order of its nodes gives a placed triangle.
     aspect : float
@@ -117,6 +118,8 @@ class MeshTemplate:
     edges: Ints
     net: Ints
     ground: Ints
+    surface: Ints
+    upstream: Ints
     aspect: float
 
     @property
@@ -180,17 +183,59 @@ def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
     nodes = np.array(basis.doflocs)
     # placing maps xi to -X and so turns every triangle over
     orientation = -np.sign(_twice_area(mesh.p.T[mesh.t.T]))
-    net = np.flatnonzero(nodes[0] == 0.0)
-    ground = np.flatnonzero(nodes[1] == 0.0)
+    ground, upstream, surface, net = _find_sides(mesh, aspect)
+    # points were rounded; a side lies where it is said to lie
+    nodes[1, ground], nodes[0, upstream] = 0.0, aspect
+    nodes[1, surface], nodes[0, net] = 1.0, 0.0
     return MeshTemplate(
         nodes=_frozen(nodes),
         triangles=_frozen(np.array(basis.element_dofs, dtype=np.int64)),
         orientation=_frozen(orientation),
         edges=_frozen(np.array(mesh.facets, dtype=np.int64)),
-        net=_frozen(net[np.argsort(nodes[1, net])]),
-        ground=_frozen(ground[np.argsort(nodes[0, ground])]),
+        net=_frozen(net[::-1].copy()),
+        ground=_frozen(ground),
+        surface=_frozen(surface[::-1].copy()),
+        upstream=_frozen(upstream),
         aspect=aspect,
     )
+
+
+def _find_sides(mesh: Any, aspect: float) -> list[Ints]:
+    """Nodes of the four sides, anticlockwise from the foot, corners in both sides.
+
+    A walk around the boundary, so that no coordinate has to equal another.
+    """
+    facets = mesh.boundary_facets()
+    first, second = mesh.facets[:, facets]
+    around: dict[int, list[tuple[int, int]]] = defaultdict(list)
+    for facet, start, end in zip(facets, first, second, strict=True):
+        around[int(start)].append((int(facet), int(end)))
+        around[int(end)].append((int(facet), int(start)))
+    corners = [
+        int(np.hypot(mesh.p[0] - x, mesh.p[1] - y).argmin())
+        for x, y in ((0.0, 0.0), (aspect, 0.0), (aspect, 1.0), (0.0, 1.0))
+    ]
+    loop = _walk_boundary(around, corners[0], mesh)
+    places = [loop.index(corner) for corner in corners[1:]]
+    return [
+        np.array(loop[start : end + 1], dtype=np.int64)
+        for start, end in pairwise([0, *places, len(loop) - 1])
+    ]
+
+
+def _walk_boundary(
+    around: dict[int, list[tuple[int, int]]], corner: int, mesh: Any
+) -> list[int]:
+    """Nodes on the boundary from a corner along the ground and back to it."""
+    loop = [corner]
+    # of the foot's two neighbours the one on the ground
+    facet, vertex = max(around[corner], key=lambda one: float(mesh.p[0, one[1]]))
+    while True:
+        loop += [mesh.nvertices + facet, vertex]
+        if vertex == corner:
+            return loop
+        one, other = around[vertex]
+        facet, vertex = other if one[0] == facet else one
 
 
 def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:

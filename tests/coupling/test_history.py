@@ -17,7 +17,9 @@ from netdesign.coupling.history import (
     History,
     Moment,
     find_plateau,
+    judge_plateau,
     largest_pull,
+    select_counted,
 )
 
 TIMES = np.geomspace(1e-4, 1e3, 700)
@@ -49,8 +51,8 @@ def history(pull_at, times=TIMES, **given):
 
 
 def test_criterion_states_its_figures():
-    assert (PULL_DRIFT, NODE_DRIFT, REST_SHARE, LEAST_STRAIN) == (0.05, 0.1, 0.2, 0.01)
-    for figure in ("1%", "5%", "10%", "20%", "0.2%", "one e-fold"):
+    assert (PULL_DRIFT, NODE_DRIFT, REST_SHARE, LEAST_STRAIN) == (0.05, 0.1, 0.2, 4e-3)
+    for figure in ("0.4%", "5%", "10%", "20%", "0.2%", "one e-fold"):
         assert figure in CRITERION
 
 
@@ -111,6 +113,43 @@ def test_plateau_is_the_first():
     assert find_plateau(moments).index == 0
 
 
+@pytest.mark.parametrize(("drift", "reached"), [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_plateau_that_is_left_is_none(drift, reached, sign):
+    """Quiet for some e-folds, then a drift that a longer history must see."""
+
+    def pull(time):
+        return 1.0 + sign * drift * PULL_DRIFT * 2.0 * max(0.0, math.log(time))
+
+    times = np.geomspace(math.exp(-2.2), math.exp(2.2), 200)
+    moments = history(pull, times)
+    found = find_plateau(moments)
+    assert found.reached
+    judged = judge_plateau(moments, found)
+    assert judged.index == found.index
+    assert judged.reached is reached
+    assert judged.was_left is not reached
+    # twice the drift over half of the span
+    assert judged.drift == pytest.approx(sign * drift * PULL_DRIFT, rel=1e-3)
+
+
+@pytest.mark.parametrize("is_guessed", [False, True])
+def test_pulls_count_until_the_plateau_is_proven(is_guessed):
+    """However long the history; a guessed start's only from the plateau's begin on."""
+    times = np.geomspace(1e-2, 1e4, 500)
+    moments = history(lambda x: 1.0 + math.exp(-x) + 1e-3 * x, times)
+    for count in (400, 500):
+        plateau = judge_plateau(moments[:count], find_plateau(moments[:count]))
+        counted = select_counted(moments[:count], plateau, is_guessed=is_guessed)
+        first = plateau.index if is_guessed else 0
+        assert list(counted) == moments[first : plateau.end + 1]
+        span = math.log(counted[-1].time / plateau.time)
+        assert 1.0 <= span < 1.0 + 2.0 * math.log(times[1] / times[0])
+    short = moments[:30]  # less than an e-fold
+    unproven = judge_plateau(short, find_plateau(short))
+    assert select_counted(short, unproven, is_guessed=is_guessed) == short
+
+
 @pytest.mark.parametrize("end", ["foot", "head"])
 def test_one_end_alone_keeps_it_from_rest(end):
     moments = [
@@ -164,7 +203,7 @@ def test_net_that_hardly_went(share, reached):
 
 
 def test_snow_that_has_not_crept_is_on_no_plateau():
-    moments = [moment(time, 1.0, strain=1e-2 * time) for time in TIMES]
+    moments = [moment(time, 1.0, strain=LEAST_STRAIN * time) for time in TIMES]
     plateau = find_plateau(moments)
     assert plateau.reached
     assert 1.0 / STEP < plateau.time < STEP

@@ -113,3 +113,25 @@ SETTINGS_REFUSED = [
 def test_settings_are_refused(changes, name):
     with pytest.raises(ModelError, match=name):
         StaggeredSettings(**changes)
+
+
+@pytest.mark.parametrize("start", ["straight", "sagged", "steady"])
+def test_head_above_the_snow_keeps_its_free_segment(a_scene, start):
+    """Until 0.1.0 the snow's upper corner was put on the head: a segment of length 0."""
+    scene = a_scene(height_m=4.63, slack=0.03)
+    settings = replace(SETTINGS, start=start, horizon=2e-3)
+    run = run_exchange(scene, settings)
+    assert run.state.top == "on-net"
+    gap = np.hypot(*np.diff(run.instant.points[:, -2:]).T[0])
+    assert gap == pytest.approx(0.63 / 4.0, rel=0.2)
+
+
+def test_a_failure_of_the_result_is_an_outcome_too(a_scene, monkeypatch):
+    def fail(*_, **__):
+        raise SolveError(Outcome.BALANCE_VIOLATED, "the net would have to push.")
+
+    monkeypatch.setattr(staggered, "build_solution", fail)
+    result = solve_staggered(a_scene(), replace(SETTINGS, horizon=1e-3))
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.BALANCE_VIOLATED
+    assert "would have to push; the method transient" in result.reason

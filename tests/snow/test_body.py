@@ -105,6 +105,15 @@ def test_boundary_edges_are_those_of_the_four_sides(a_flow_law):
     assert outer == chains
 
 
+@pytest.mark.parametrize("level", [0, 1])
+def test_each_edge_of_the_ground_has_the_triangle_above_it(a_flow_law, level):
+    topology = a_body(a_flow_law(), size=TRANSIENT_LEVELS[level]).topology
+    assert topology.bottom.size == topology.ground.size - 1
+    for place, triangle in enumerate(topology.bottom):
+        ends = set(topology.ground[place : place + 2].tolist())
+        assert ends < set(topology.triangles[triangle].tolist())
+
+
 # --- undeformed snow ---------------------------------------------------------
 
 

@@ -14,6 +14,7 @@ from netdesign.snow.law import (
     Material,
     advance_stress,
     linearise_creep,
+    linearise_sliding,
     sample_material,
     squared_size,
     total_stress,
@@ -210,3 +211,26 @@ def test_fluidity_of_all_layers_leaves_the_stress(a_flow_law):
     np.testing.assert_allclose(
         fast.state.unknowns, 5.0 * slow.state.unknowns, atol=5e-9 * speed
     )
+
+
+@pytest.mark.parametrize("exponent", [1.0, 3.0])
+@pytest.mark.parametrize("fluidity", [0.037, 1.0, 4.3])
+def test_ground_slips_by_the_fluidity_of_the_snow_on_it(a_flow_law, exponent, fluidity):
+    """G2 at its own stress: velocity = slip length times the snow's shear rate."""
+    law = a_flow_law(ground="sliding", slip_ratio=0.73, exponent=exponent)
+    shear = np.array([[-0.61, 0.13, 0.47]])
+    tangent = linearise_sliding(law, shear, np.array([[fluidity]]))
+    size = shear**2 + law.stress_floor**2
+    velocity = 0.73 * fluidity * size ** ((exponent - 1.0) / 2.0) * shear
+    np.testing.assert_allclose(
+        tangent.kept + tangent.modulus * velocity, shear, rtol=1e-12
+    )
+
+
+def test_fluidity_of_triangles_is_a_number_or_their_own():
+    numbers = np.array([2, 0, 2])
+    plain = Material(1.8, 0.7, 1.0).sample_fluidity(numbers)
+    np.testing.assert_array_equal(plain, [[0.7]] * 3)
+    each = np.outer([1.0, 2.0, 3.0], np.ones(3))
+    found = Material(1.8, each, 1.0).sample_fluidity(numbers)
+    np.testing.assert_array_equal(found, [[3.0], [1.0], [3.0]])

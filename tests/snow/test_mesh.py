@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.coupling.transient import TRANSIENT_LEVELS
 from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
@@ -45,6 +46,36 @@ def test_net_and_ground_are_chains_from_the_foot(size):
     assert template.net[0] == template.ground[0]
     assert template.net_fractions[-1] == 1.0
     assert template.nodes[0, template.ground[-1]] == 5.0
+
+
+UNTIDY = [*range(12)]
+
+
+def draw_shape(seed):
+    """An aspect ratio that no rounding leaves as it is, and up to three interfaces."""
+    rng = np.random.default_rng(900 + seed)
+    aspect = float(np.exp(rng.uniform(math.log(0.3), math.log(60.0))))
+    parts = rng.uniform(0.2, 1.0, seed % 4 + 1)
+    return aspect, tuple((np.cumsum(parts) / parts.sum())[:-1].tolist())
+
+
+@pytest.mark.parametrize("seed", UNTIDY)
+@pytest.mark.parametrize("size", [*MESH_LEVELS[:2], *TRANSIENT_LEVELS[:2]])
+def test_sides_hold_every_node_that_lies_on_them(seed, size):
+    aspect, interfaces = draw_shape(seed)
+    template = build_template(aspect, size, interfaces)
+    sides = (
+        (template.ground, 1, 0.0),
+        (template.upstream, 0, aspect),
+        (template.surface, 1, 1.0),
+        (template.net, 0, 0.0),
+    )
+    for chain, axis, place in sides:
+        np.testing.assert_array_equal(template.nodes[axis, chain], place)
+        assert (np.diff(template.nodes[1 - axis, chain]) > 0.0).all()
+        beside = np.abs(template.nodes[axis] - place) < 1e-9
+        assert set(chain) == set(np.flatnonzero(beside))
+        assert (np.flatnonzero(chain < template.n_vertices) % 2 == 0).all()
 
 
 @pytest.mark.parametrize("size", MESH_LEVELS)

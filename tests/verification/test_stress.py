@@ -51,6 +51,8 @@ def renumber(template: MeshTemplate, seed: int) -> MeshTemplate:
         edges=new_number[template.edges][:, midpoints],
         net=new_number[template.net],
         ground=new_number[template.ground],
+        surface=new_number[template.surface],
+        upstream=new_number[template.upstream],
         aspect=template.aspect,
     )
 
