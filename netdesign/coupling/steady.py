@@ -24,6 +24,7 @@ from netdesign.coupling.hanging import (
     SteadyProblem,
     find_contact_curve,
     hang_again,
+    locate_nodes,
     start_hanging,
 )
 from netdesign.coupling.interface import (
@@ -384,9 +385,9 @@ def _start_curve(
 ) -> Floats:
     if guess is None:
         return find_contact_curve(problem, hanging)
-    known = guess.problem.template.net_fractions
     curve = find_contact_curve(guess.problem, hanging)
-    wanted = problem.template.net_fractions
+    known = locate_nodes(guess.problem.template, hanging)
+    wanted = locate_nodes(problem.template, hanging)
     # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
     return interpolate_curve(known, curve, wanted)
 

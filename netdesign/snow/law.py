@@ -160,11 +160,13 @@ def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent
 
 
 def linearise_sliding(law: FlowLaw, shear: Floats) -> Tangent:
-    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points)."""
+    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points).
+
+    Slip is the shear of the snow that lies on the ground: of the lowest layer.
+    """
     viscosity, _, share = _scalars(law, shear**2, shear**2)
-    return Tangent(
-        modulus=viscosity * share / law.slip_ratio, kept=shear * (1.0 - share)
-    )
+    slip = law.slip_ratio * law.layers[0].fluidity
+    return Tangent(modulus=viscosity * share / slip, kept=shear * (1.0 - share))
 
 
 def advance_stress(

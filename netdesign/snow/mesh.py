@@ -108,6 +108,8 @@ class MeshTemplate:
         Sign of the area that the order of its nodes gives a placed triangle.
     aspect : float
         Upslope length over thickness.
+    interfaces : tuple of float
+        Heights between layers over the thickness, ascending.
     """
 
     nodes: Floats
@@ -117,6 +119,7 @@ class MeshTemplate:
     net: Ints
     ground: Ints
     aspect: float
+    interfaces: tuple[float, ...] = ()
 
     @property
     def n_vertices(self) -> int:
@@ -152,7 +155,7 @@ def build_template(
         points = _add_rings(points, columns, size, interfaces)
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
     points = np.unique(points.round(12), axis=0)
-    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect)
+    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect, interfaces)
     for _ in range(size.subdivisions):
         mesh = _subdivide(mesh)
     return mesh
@@ -168,10 +171,12 @@ def _subdivide(mesh: MeshTemplate) -> MeshTemplate:
     a, b, c, ab, bc, ca = mesh.triangles
     quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
     triangles = np.concatenate([np.column_stack(q) for q in quarters])
-    return _build_mesh(mesh.nodes.T, triangles, mesh.aspect)
+    return _build_mesh(mesh.nodes.T, triangles, mesh.aspect, mesh.interfaces)
 
 
-def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
+def _build_mesh(
+    points: Floats, triangles: Ints, aspect: float, interfaces: tuple[float, ...] = ()
+) -> MeshTemplate:
     import skfem  # here, since runs that solve nothing new need no mesh
 
     mesh = skfem.MeshTri(points.T.copy(), triangles.T.copy())
@@ -189,6 +194,7 @@ def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
         net=_frozen(net[np.argsort(nodes[1, net])]),
         ground=_frozen(ground[np.argsort(nodes[0, ground])]),
         aspect=aspect,
+        interfaces=interfaces,
     )
 
 

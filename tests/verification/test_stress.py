@@ -52,6 +52,7 @@ def renumber(template: MeshTemplate, seed: int) -> MeshTemplate:
         net=new_number[template.net],
         ground=new_number[template.ground],
         aspect=template.aspect,
+        interfaces=template.interfaces,
     )
 
 
