@@ -21,6 +21,17 @@ Floats = NDArray[np.float64]
 LARGEST_SUCTION = 0.05
 
 
+class SuctionError(SolveError):
+    """The snow would pull on a two-sided net more than such a contact stands for."""
+
+    def __init__(self, share: float) -> None:
+        super().__init__(
+            Outcome.OUT_OF_VALIDITY,
+            f"the snow would pull on the net with {share:.0%} of what it presses; up "
+            f"to {LARGEST_SUCTION:.0%} is accepted",
+        )
+
+
 def measure_balance(
     law: FlowLaw,
     mesh: PlacedMesh,
@@ -80,11 +91,7 @@ def check_balance(
         )
 
     if tension is not None and not balance.suction_share <= LARGEST_SUCTION:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            f"the snow would pull on the net with {balance.suction_share:.0%} of what "
-            f"it presses; up to {LARGEST_SUCTION:.0%} is accepted",
-        )
+        raise SuctionError(balance.suction_share)
 
 
 def _refuse(what: str, value: float, tolerance: float) -> None:

@@ -149,16 +149,17 @@ def _hang(
     if problem.has_freeboard:
         forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
     shares, part = _share_parts(problem)
+    if parts.size > 1:
+        parts = _find_parts(problem, forces, pull, parts)
     lengths = shares * parts[part]
     cable = _solve_cable(problem, forces, lengths, pull)
-    if parts.size > 1:
-        parts = _find_parts(problem, forces, cable.pull)
-        lengths = shares * parts[part]
-        cable = _solve_cable(problem, forces, lengths, cable.pull)
     return Hanging(cable=cable, parts=parts, forces=forces, lengths=lengths)
 
 
-def _find_parts(problem: SteadyProblem, forces: Floats, pull: Floats) -> Floats:
+def _find_parts(
+    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
+) -> Floats:
+    """Lengths of the parts, from the pull of the last round or of the last lengths."""
     shares, part = _share_parts(problem)
     ends = np.append(_list_marks(problem)[:-1], problem.head[1])
     cable = PartedCable(
@@ -169,13 +170,16 @@ def _find_parts(problem: SteadyProblem, forces: Floats, pull: Floats) -> Floats:
         length=problem.length,
         stiffness=problem.stiffness,
     )
-    parts = part_cable(cable, forces, pull)
-    if parts is None:
+    found = part_cable(cable, forces, pull)
+    if found is None:
+        hung = _solve_cable(problem, forces, shares * parts[part], pull)
+        found = part_cable(cable, forces, hung.pull)
+    if found is None:
         raise SolveError(
             Outcome.NO_EQUILIBRIUM,
             "the net's contact with the snow's surface and layers was not found",
         )
-    return parts
+    return found
 
 
 def _solve_cable(
