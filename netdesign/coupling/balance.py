@@ -60,9 +60,14 @@ def measure_balance(
         smallest_tension=(
             None if tension is None else float(tension.min()) * force_scale
         ),
-        suction_share=negative_share(normal),
+        suction_share=measure_suction(mesh, forces.on_net),
         ground_tension_share=negative_share(forces.ground_normal),
     )
+
+
+def measure_suction(mesh: PlacedMesh, on_net: Floats) -> float:
+    """What forces (2, n_net) pull on the net, over what they press [-]."""
+    return negative_share(_net_components(mesh, on_net)[0])
 
 
 def check_balance(

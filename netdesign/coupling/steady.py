@@ -19,9 +19,11 @@ from numpy.typing import NDArray
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
 from netdesign.coupling.balance import (
+    LARGEST_SUCTION,
     SuctionError,
     check_balance,
     measure_balance,
+    measure_suction,
 )
 from netdesign.coupling.correction import Correction, Round, correct_round
 from netdesign.coupling.hanging import (
@@ -78,6 +80,9 @@ _SLOW = 0.2
 # Linear solves after which rounds on one mesh are given up: so many, or so many times
 # its triangles (some 1 s).
 _LEAST_WORK, _MOST_WORK = 60, 4e4
+_FAILED_FLOW = 20  # of them, for a flow that does not converge
+# Share of suction, over the largest accepted, that no finer mesh takes back.
+_HOPELESS_SUCTION = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -195,6 +200,7 @@ def _solve_levels(
             solved[size] = _couple(
                 problem, settings, coarse or start, is_first=coarse is None
             )
+            _require_pressure(solved[size])
         return solved[size]
 
     def run(levels: Sequence[MeshSize]) -> tuple[list[_Coupled], list[Estimate]]:
@@ -208,10 +214,26 @@ def _solve_levels(
 
     try:
         return run(settings.levels)
+    except SuctionError:
+        raise
     except SolveError:
         if len(solved) < 2:
             raise
         return run(settings.levels[: len(solved)])
+
+
+def _require_pressure(end: _Coupled) -> None:
+    """Leave a net that finer meshes will not press against the snow either.
+
+    Raises
+    ------
+    SuctionError
+        With some margin: the finest mesh decides.
+    """
+    on_net = share_net_forces(end.problem.law, end.mesh, end.state.reaction)
+    suction = measure_suction(end.mesh, on_net)
+    if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
+        raise SuctionError(suction)
 
 
 def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
@@ -275,7 +297,7 @@ def _couple(
             if correction is None or not correction.may_halve:
                 raise
             correction = correction.halve()
-            curve, solves = correction.target, solves + settings.max_iterations
+            curve, solves = correction.target, solves + _FAILED_FLOW
             continue
         played.append(now)
         hanging = now.hanging
