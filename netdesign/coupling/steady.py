@@ -79,7 +79,7 @@ _LAYER_CONTRAST = 1e3
 _SLOW = 0.2
 # Linear solves after which rounds on one mesh are given up: so many, or so many times
 # its triangles (some 1 s).
-_LEAST_WORK, _MOST_WORK = 60, 4e4
+_LEAST_WORK, _MOST_WORK = 100, 4e4
 _FAILED_FLOW = 20  # of them, for a flow that does not converge
 # Share of suction, over the largest accepted, that no finer mesh takes back.
 _HOPELESS_SUCTION = 2.0
