@@ -256,6 +256,11 @@ def _list_flags(solution: Solution | WallSolution) -> list[str]:
     """What a reader must know before using the numbers."""
     law = solution.scene.creep_law
     flags = _list_history_flags(getattr(solution, "history", None))
+    if getattr(solution, "is_released", False):
+        flags.append(
+            "the snow would pull on the net more than a two-sided contact stands for: "
+            "solved with a net that lets go of it (one-sided)"
+        )
     if not solution.scene.is_calibrated:
         low, high = law.calibrated
         flags.append(

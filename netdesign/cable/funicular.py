@@ -87,7 +87,7 @@ def solve_funicular(
     tests/verification/test_elastic_cable.py
     """
     bend = -0.75 * forces[:, 1::2]  # half the change of tension over an element
-    offset = _tension_offsets(forces, bend)
+    offset = tension_offsets(forces, bend)
     total = float(lengths.sum())
 
     half = lengths / (2.0 * total)
@@ -141,14 +141,14 @@ def linearise_curve(
     """
     count = forces.shape[1]
     bend = -0.75 * forces[:, 1::2]
-    vector = cable.pull[:, None, None] + _tension_offsets(forces, bend)
+    vector = cable.pull[:, None, None] + tension_offsets(forces, bend)
     size = np.hypot(*vector)
     direction = vector / size
     unit = np.eye(2)[:, :, None, None]
     across = unit - np.einsum("iqe,jqe->ijqe", direction, direction)
     give = across / size + unit / stiffness  # slope dx/dS per tension vector
     loads = np.eye(2 * count).reshape(2 * count, 2, count)
-    offsets = _tension_offsets(loads, -0.75 * loads[..., 1::2])
+    offsets = tension_offsets(loads, -0.75 * loads[..., 1::2])
     slopes = np.einsum("ijqe,kjqe->kiqe", give, offsets)
     closing = np.linalg.solve(
         np.einsum("ijqe,e->ij", give, lengths),
@@ -159,7 +159,7 @@ def linearise_curve(
     return np.asarray(moved.transpose(2, 3, 0, 1))
 
 
-def _tension_offsets(forces: Floats, bend: Floats) -> Floats:
+def tension_offsets(forces: Floats, bend: Floats) -> Floats:
     """Tension vectors at the Gauss points less the pull, shape (.., 2, 2, n); (C3)."""
     steps = 2.0 / 3.0 * (bend[..., :-1] + bend[..., 1:]) - forces[..., 2:-1:2]
     middle = _sum_from_zero(steps)

@@ -21,6 +21,18 @@ Floats = NDArray[np.float64]
 LARGEST_SUCTION = 0.05
 
 
+class SuctionError(SolveError):
+    """The snow would pull on a two-sided net more than such a contact stands for."""
+
+    def __init__(self, share: float) -> None:
+        super().__init__(
+            Outcome.OUT_OF_VALIDITY,
+            f"the snow would pull on the net with {share:.0%} of what it presses; up "
+            f"to {LARGEST_SUCTION:.0%} is accepted: more friction on the net, or less "
+            "slack, is needed",
+        )
+
+
 def measure_balance(
     law: FlowLaw,
     mesh: PlacedMesh,
@@ -49,9 +61,14 @@ def measure_balance(
         smallest_tension=(
             None if tension is None else float(tension.min()) * force_scale
         ),
-        suction_share=negative_share(normal),
+        suction_share=measure_suction(mesh, forces.on_net),
         ground_tension_share=negative_share(forces.ground_normal),
     )
+
+
+def measure_suction(mesh: PlacedMesh, on_net: Floats) -> float:
+    """What forces (2, n_net) pull on the net, over what they press [-]."""
+    return negative_share(_net_components(mesh, on_net)[0])
 
 
 def check_balance(
@@ -80,12 +97,7 @@ def check_balance(
         )
 
     if tension is not None and not balance.suction_share <= LARGEST_SUCTION:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY,
-            f"the snow would pull on the net with {balance.suction_share:.0%} of what "
-            f"it presses; up to {LARGEST_SUCTION:.0%} is accepted: more friction or "
-            "less slack is needed, or a one-sided contact with the net",
-        )
+        raise SuctionError(balance.suction_share)
 
 
 def _refuse(what: str, value: float, tolerance: float) -> None:

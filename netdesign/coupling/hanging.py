@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.cable.parted import PartedCable, part_cable
 from netdesign.coupling.start import guess_pressure
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
@@ -20,9 +21,7 @@ from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshTemplate
 
 Floats = NDArray[np.float64]
-
-_CONTACT_ROUNDS = 30
-_SURFACE_TOLERANCE = 1e-10
+Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -58,14 +57,15 @@ class SteadyProblem:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hanging:
-    """The net under given forces, and how much of it lies in the snow.
+    """The net under given forces, and how much of it lies in each layer of snow.
 
     Attributes
     ----------
     cable : Funicular
         Its equilibrium.
-    contact_length : float
-        Unstressed, of the part in the snow.
+    parts : ndarray, shape (n_parts,)
+        Unstressed lengths of the net in each layer, from the ground up, then of its
+        free top, if it has one.
     forces : ndarray, shape (2, n_nodes)
         As the cable takes them; those of a free end, 0, are the last two.
     lengths : ndarray, shape (n_elements,)
@@ -73,7 +73,7 @@ class Hanging:
     """
 
     cable: Funicular
-    contact_length: float
+    parts: Floats
     forces: Floats
     lengths: Floats
 
@@ -92,13 +92,16 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     pressure = guess_pressure(problem.law, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
-    contact = problem.length / float(problem.head[1])
-    lengths = np.diff(problem.template.net_fractions[::2]) * contact
+    marks = _list_marks(problem)
+    parts = np.diff(marks) * (problem.length / marks[-1])
+    lengths = np.diff(problem.template.net_fractions[::2]) * (
+        problem.length / marks[-1]
+    )
     shares = np.zeros(2 * lengths.size + 1)
     shares[1::2] = 4.0 / 6.0 * lengths
     shares[:-1:2] += lengths / 6.0
     shares[2::2] += lengths / 6.0
-    return _hang(problem, pressure * np.outer(outward, shares), pull, contact)
+    return _hang(problem, pressure * np.outer(outward, shares), pull, parts)
 
 
 def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hanging:
@@ -109,7 +112,7 @@ def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hang
     SolveError
         If nothing holds the net, or its contact with the snow's surface is not found.
     """
-    return _hang(problem, on_net, hanging.cable.pull, hanging.contact_length)
+    return _hang(problem, on_net, hanging.cable.pull, hanging.parts)
 
 
 def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
@@ -117,42 +120,66 @@ def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
     return hanging.cable.curve[:, : problem.template.net.size]
 
 
+def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
+    """Unstressed length below each net node, over that in the snow; shape (n_net,)."""
+    marks = np.array([0.0, *template.interfaces, 1.0])
+    below = np.append(0.0, np.cumsum(hanging.parts[: marks.size - 1]))
+    return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))
+
+
+def _list_marks(problem: SteadyProblem) -> Floats:
+    """Heights at which parts of the net begin and end, (n_parts + 1,)."""
+    top = [problem.head[1]] if problem.has_freeboard else []
+    return np.array([0.0, *problem.template.interfaces, 1.0, *top])
+
+
+def _share_parts(problem: SteadyProblem) -> tuple[Floats, Ints]:
+    """Length of each element over that of its part; part of each element."""
+    marks, heights = _list_marks(problem), problem.template.net_fractions[::2]
+    if problem.has_freeboard:
+        heights = np.append(heights, problem.head[1])
+    part = np.searchsorted(marks, (heights[1:] + heights[:-1]) / 2.0) - 1
+    return np.diff(heights) / np.diff(marks)[part], part
+
+
 def _hang(
-    problem: SteadyProblem, forces: Floats, pull: Floats, contact_length: float
+    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
 ) -> Hanging:
-    """Net under nodal forces; its contact with the snow ends at the snow's surface."""
-    if not problem.has_freeboard:
-        lengths = np.diff(problem.template.net_fractions[::2]) * problem.length
-        cable = _solve_cable(problem, forces, lengths, pull)
-        return Hanging(
-            cable=cable, contact_length=problem.length, forces=forces, lengths=lengths
-        )
-    loose = np.concatenate([forces, np.zeros((2, 2))], axis=1)
-    before: tuple[float, float] | None = None
-    for _ in range(_CONTACT_ROUNDS):
-        free_length = problem.length - contact_length
-        lengths = np.diff(problem.template.net_fractions[::2]) * contact_length
-        lengths = np.append(lengths, free_length)
-        cable = _solve_cable(problem, loose, lengths, pull)
-        pull = cable.pull
-        too_high = float(cable.curve[1, -3]) - 1.0
-        if abs(too_high) < _SURFACE_TOLERANCE:
-            return Hanging(
-                cable=cable,
-                contact_length=contact_length,
-                forces=loose,
-                lengths=lengths,
-            )
-        rise = float(cable.curve[1, -1] - cable.curve[1, -3]) / free_length
-        if before is not None and contact_length != before[0]:
-            rise = (too_high - before[1]) / (contact_length - before[0])
-        before = (contact_length, too_high)
-        contact_length -= too_high / rise
-        if not 0.0 < contact_length < problem.length:
-            break
-    raise SolveError(
-        Outcome.NO_EQUILIBRIUM, "the net's contact with the snow surface was not found"
+    """Net under nodal forces; its parts end where the layers and the snow end."""
+    if problem.has_freeboard:
+        forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
+    shares, part = _share_parts(problem)
+    if parts.size > 1:
+        parts = _find_parts(problem, forces, pull, parts)
+    lengths = shares * parts[part]
+    cable = _solve_cable(problem, forces, lengths, pull)
+    return Hanging(cable=cable, parts=parts, forces=forces, lengths=lengths)
+
+
+def _find_parts(
+    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
+) -> Floats:
+    """Lengths of the parts, from the pull of the last round or of the last lengths."""
+    shares, part = _share_parts(problem)
+    ends = np.append(_list_marks(problem)[:-1], problem.head[1])
+    cable = PartedCable(
+        shares=shares,
+        firsts=np.searchsorted(part, np.arange(ends.size - 1)),
+        rises=np.diff(ends),
+        head_x=float(problem.head[0]),
+        length=problem.length,
+        stiffness=problem.stiffness,
     )
+    found = part_cable(cable, forces, pull)
+    if found is None:
+        hung = _solve_cable(problem, forces, shares * parts[part], pull)
+        found = part_cable(cable, forces, hung.pull)
+    if found is None:
+        raise SolveError(
+            Outcome.NO_EQUILIBRIUM,
+            "the net's contact with the snow's surface and layers was not found",
+        )
+    return found
 
 
 def _solve_cable(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
+from netdesign.coupling.hanging import locate_nodes
 from netdesign.coupling.moving import TransientProblem
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady import find_hanging
@@ -50,7 +51,7 @@ def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
         If there is no steady state.
     """
     problem, hanging = find_hanging(scene, size, SolverSettings())
-    places = problem.template.net_fractions
+    places = locate_nodes(problem.template, hanging)
     strain = hanging.cable.tension.mean(axis=0) / problem.stiffness
     return NetAtRest(
         places=places,

@@ -154,6 +154,9 @@ class Solution:
         See there; of a history the worst balance of all its steps.
     history : History or None
         Of a transient or staggered solve; shapes are then those at its end.
+    is_released : bool
+        A two-sided net contact was asked for, but the snow would pull on the net too
+        much: ``scene`` has the one-sided one that was solved.
     """
 
     scene: Scene
@@ -174,6 +177,7 @@ class Solution:
     balance: Balance
     cost: Cost
     history: History | None = None
+    is_released: bool = False
 
     @property
     def head_point(self) -> tuple[float, float]:

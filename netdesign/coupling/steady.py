@@ -18,12 +18,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
-from netdesign.coupling.balance import check_balance, measure_balance
+from netdesign.coupling.balance import (
+    LARGEST_SUCTION,
+    SuctionError,
+    check_balance,
+    measure_balance,
+    measure_suction,
+)
+from netdesign.coupling.correction import Correction, Round, correct_round
 from netdesign.coupling.hanging import (
     Hanging,
     SteadyProblem,
     find_contact_curve,
     hang_again,
+    locate_nodes,
     start_hanging,
 )
 from netdesign.coupling.interface import (
@@ -33,7 +41,6 @@ from netdesign.coupling.interface import (
     share_net_forces,
 )
 from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
-from netdesign.coupling.round_tangent import linearise_round
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     Cost,
@@ -50,7 +57,6 @@ from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
-from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
 
@@ -63,6 +69,8 @@ _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
 # How far a net that was found on a coarser mesh may still move.
 _REFINED = 4e-3
+# A corrected round tells apart what its step and what the flow has left.
+_CORRECTED = 0.1
 # The first mesh is only compared with the next, whose error is far larger.
 _FIRST_MESH = 5.0
 _HALVINGS = 4
@@ -70,8 +78,12 @@ _HALVINGS = 4
 _LAYER_CONTRAST = 1e3
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
-# Corrected rounds remember little: contacts that changed make old ones mislead.
-_NEWTON_DEPTH, _NEWTON_DAMPING = 2, 0.7
+# Linear solves after which rounds on one mesh are given up: so many, or so many times
+# its triangles (some 1 s).
+_LEAST_WORK, _MOST_WORK = 100, 4e4
+_FAILED_FLOW = 20  # of them, for a flow that does not converge
+# Share of suction, over the largest accepted, that no finer mesh takes back.
+_HOPELESS_SUCTION = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -161,6 +173,18 @@ def _require_net(scene: Scene) -> Net:
 
 
 def _solve(scene: Scene, settings: SolverSettings) -> Solution:
+    """The scene; with a net that lets go if the snow would pull on it too much."""
+    try:
+        return _solve_as_given(scene, settings)
+    except SuctionError as refusal:
+        released = replace(scene, net_contact="one-sided")
+        try:
+            return replace(_solve_as_given(released, settings), is_released=True)
+        except SolveError:
+            raise refusal from None
+
+
+def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
     if start := _find_start(scene, settings):
         with suppress(SolveError):  # then it is solved as any other
             return _refine(scene, settings, start)
@@ -168,20 +192,7 @@ def _solve(scene: Scene, settings: SolverSettings) -> Solution:
 
 
 def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> Solution:
-    net = _require_net(scene)
-    states, estimates = refine(
-        settings.levels,
-        lambda size, coarse: _couple(
-            _build_problem(scene, net, size),
-            settings,
-            coarse or start,
-            is_first=coarse is None,
-        ),
-        lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
-        settings.accuracy,
-        STEADY_ERROR,
-        lambda end: measure_looseness(end.state.contact),
-    )
+    states, estimates = _solve_levels(scene, settings, start)
     solution = _build_solution(scene, states, [one.error for one in estimates])
     check_balance(
         solution.balance,
@@ -189,6 +200,56 @@ def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> S
         friction_tolerance=settings.stress_tolerance,
     )
     return solution
+
+
+def _solve_levels(
+    scene: Scene, settings: SolverSettings, start: _Coupled | None
+) -> tuple[list[_Coupled], list[Estimate]]:
+    """Meshes until two agree; those before the one that fails, if they are two."""
+    net = _require_net(scene)
+    solved: dict[MeshSize, _Coupled] = {}
+
+    def solve(size: MeshSize, coarse: _Coupled | None) -> _Coupled:
+        if size not in solved:
+            problem = _build_problem(scene, net, size)
+            solved[size] = _couple(
+                problem, settings, coarse or start, is_first=coarse is None
+            )
+            _require_pressure(solved[size])
+        return solved[size]
+
+    def run(levels: Sequence[MeshSize]) -> tuple[list[_Coupled], list[Estimate]]:
+        return refine(
+            levels,
+            solve,
+            lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
+            settings.accuracy,
+            STEADY_ERROR,
+            lambda end: measure_looseness(end.state.contact),
+        )
+
+    try:
+        return run(settings.levels)
+    except SuctionError:
+        raise
+    except SolveError:
+        if len(solved) < 2:
+            raise
+        return run(settings.levels[: len(solved)])
+
+
+def _require_pressure(end: _Coupled) -> None:
+    """Leave a net that finer meshes will not press against the snow either.
+
+    Raises
+    ------
+    SuctionError
+        With some margin: the finest mesh decides.
+    """
+    on_net = share_net_forces(end.problem.law, end.mesh, end.state.reaction)
+    suction = measure_suction(end.mesh, on_net)
+    if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
+        raise SuctionError(suction)
 
 
 def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
@@ -235,43 +296,82 @@ def _couple(
     """Rounds of flow and net until neither moves the other."""
     hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
-    state: FlowState | None = None
-    moved, solves = 1.0 if guess is None else _REFINED, 0
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    curves: list[Floats] = []
-    misses: list[Floats] = []
-    inverse: Floats | None = None
-    for round_number in range(1, settings.max_rounds + 1):
-        curve, mesh = _place_between(problem, curves[-1:], curve)
-        if state is None and guess is not None:
-            state = transfer_state(guess.state, guess.mesh, mesh)
-        wanted = max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
-        flow = _flow_along(problem, mesh, state, settings, wanted)
-        state, solves = flow.state, solves + flow.linear_solves
-        on_net = share_net_forces(problem.law, mesh, state.reaction)
-        hanging = hang_again(problem, hanging, on_net)
-        curves.append(curve)
-        misses.append(find_contact_curve(problem, hanging) - curve)
-        moved = float(np.abs(misses[-1]).max())
-        if moved < still and flow.change < tolerance:
+    allowed = max(_LEAST_WORK, _MOST_WORK / problem.template.triangles.shape[1])
+    played: list[Round] = []
+    correction: Correction | None = None
+    moved, solves, tried = 1.0 if guess is None else _REFINED, 0, 0
+    while tried < settings.max_rounds and solves <= allowed:
+        tried += 1
+        inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
+        try:
+            curve, mesh = _place_between(problem, played, curve)
+            state = _start_state(guess, played, mesh)
+            flow = _flow_along(problem, mesh, state, settings, inner)
+            now = _hang_round(problem, hanging, curve, mesh, flow)
+        except SolveError:
+            if correction is None or not correction.may_halve:
+                raise
+            correction = correction.halve()
+            curve, solves = correction.target, solves + _FAILED_FLOW
+            continue
+        played.append(now)
+        hanging = now.hanging
+        moved, solves = now.moved, solves + now.flow.linear_solves
+        if moved < still and now.flow.change < tolerance:
             return _Coupled(
                 problem=problem,
-                mesh=mesh,
-                state=state,
-                hanging=hanging,
-                was_slow=inverse is not None,
+                mesh=now.mesh,
+                state=now.flow.state,
+                hanging=now.hanging,
+                was_slow=correction is not None,
                 linear_solves=solves,
-                rounds=round_number,
+                rounds=tried,
             )
-        if (guess is not None and guess.was_slow) or _is_slow(misses, state):
-            inverse = _invert_round(problem, mesh, state, hanging)
-        curve = _mix(curves, misses, inverse)
+        if correction or (guess and guess.was_slow) or _is_slow(played):
+            correction = correct_round(problem, now, correction)
+            curve = correction.target
+        else:
+            curve = mix_anderson(
+                [one.curve for one in played], [one.image for one in played]
+            )
     raise _fail(
         problem.law,
         Outcome.MAX_ITERATIONS,
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
-        f"after {settings.max_rounds} rounds",
+        f"after {tried} rounds",
     )
+
+
+def _start_state(
+    guess: _Coupled | None, played: Sequence[Round], mesh: PlacedMesh
+) -> FlowState | None:
+    """What the flow of a round starts from; None if from nothing."""
+    if played:
+        return played[-1].flow.state
+    if guess is not None:
+        return transfer_state(guess.state, guess.mesh, mesh)
+    return None
+
+
+def _hang_round(
+    problem: SteadyProblem,
+    hanging: Hanging,
+    curve: Floats,
+    mesh: PlacedMesh,
+    flow: FlowResult,
+) -> Round:
+    """The net under the forces of a flow."""
+    on_net = share_net_forces(problem.law, mesh, flow.state.reaction)
+    found = hang_again(problem, hanging, on_net)
+    image = find_contact_curve(problem, found)
+    return Round(curve=curve, mesh=mesh, flow=flow, hanging=found, image=image)
+
+
+def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
+    """What the flow of a round may leave, for a net that still moves."""
+    tighter = _CORRECTED if is_corrected else 1.0
+    return tighter * max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
 
 
 def _choose_tolerances(
@@ -327,58 +427,22 @@ def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
     )
 
 
-def _is_slow(misses: Sequence[Floats], state: FlowState) -> bool:
+def _is_slow(played: Sequence[Round]) -> bool:
     """Snow slips along the net, and the last round gained little."""
-    if len(misses) < 2 or not state.contact.sign.any():
+    if len(played) < 2 or not played[-1].flow.state.contact.sign.any():
         return False
-    before, now = (float(np.abs(miss).max()) for miss in misses[-2:])
-    return now > _SLOW * before
-
-
-def _invert_round(
-    problem: SteadyProblem, mesh: PlacedMesh, state: FlowState, hanging: Hanging
-) -> Floats | None:
-    """Inverse of the rounds' derivative, eq. (K0); None if it has none."""
-    size = 2 * mesh.template.net.size
-    try:
-        tangent = linearise_round(
-            problem.law,
-            mesh,
-            state,
-            hanging.cable,
-            hanging.forces,
-            hanging.lengths,
-            problem.stiffness,
-        ).reshape(size, size)
-        return np.asarray(np.linalg.inv(np.eye(size) - tangent), dtype=np.float64)
-    except (SingularError, np.linalg.LinAlgError):
-        return None
-
-
-def _mix(
-    curves: Sequence[Floats], misses: Sequence[Floats], inverse: Floats | None
-) -> Floats:
-    """Next curve from all before, and what the rounds made of them."""
-    if inverse is None:
-        images = [curve + miss for curve, miss in zip(curves, misses, strict=True)]
-        return mix_anderson(curves, images)
-    recent = curves[-_NEWTON_DEPTH:]
-    images = [
-        curve + (inverse @ miss.ravel()).reshape(curve.shape)
-        for curve, miss in zip(recent, misses[-_NEWTON_DEPTH:], strict=True)
-    ]
-    return mix_anderson(recent, images, damping=_NEWTON_DAMPING)
+    return played[-1].moved > _SLOW * played[-2].moved
 
 
 def _place_between(
-    problem: SteadyProblem, placed: Sequence[Floats], wanted: Floats
+    problem: SteadyProblem, played: Sequence[Round], wanted: Floats
 ) -> tuple[Floats, PlacedMesh]:
     """Mesh on the wanted curve, or as near to it from the last one as it can be."""
-    for _ in range(_HALVINGS if placed else 0):
+    for _ in range(_HALVINGS if played else 0):
         try:
             return wanted, _place(problem, wanted)
         except SolveError:
-            wanted = (wanted + placed[-1]) / 2
+            wanted = (wanted + played[-1].curve) / 2
     return wanted, _place(problem, wanted)
 
 
@@ -407,9 +471,9 @@ def _start_curve(
 ) -> Floats:
     if guess is None:
         return find_contact_curve(problem, hanging)
-    known = guess.problem.template.net_fractions
     curve = find_contact_curve(guess.problem, hanging)
-    wanted = problem.template.net_fractions
+    known = locate_nodes(guess.problem.template, hanging)
+    wanted = locate_nodes(problem.template, hanging)
     # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
     return interpolate_curve(known, curve, wanted)
 

@@ -21,6 +21,7 @@ from netdesign.snow.mesh import NET_REACH, Floats, Ints, MeshTemplate, place_nod
 _UPSTREAM_REACH = 1.0  # the mesh follows the upstream end over this many thicknesses
 _LARGEST_SWEEP = 0.5  # share of a triangle that one part of a remap may take
 _MOST_PARTS = 64
+_LEAST_HEIGHT = 1e-15  # of a triangle's corner over another: no division by 0
 # Snow that leans over the head falls off: the angle between its surface and the net
 # may not exceed this, nor may its edge lean further upslope than the second angle.
 _OVERHANG = np.radians(135.0)
@@ -119,17 +120,36 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
     """Undeformed snow against a net's curve (2, n_net), all nodes of the template."""
     topology = build_topology(template)
     vertices = place_nodes(template, net_curve)[:, : template.n_vertices]
-    heights = template.nodes[1, topology.triangles].mean(axis=1)
-    tops = np.array([layer.top for layer in law.layers[:-1]])
-    layer = np.searchsorted(tops, heights)
-    density = np.array([layer.density for layer in law.layers])[layer]
-    warmth = np.array([layer.warmth for layer in law.layers])[layer]
     areas = compute_areas(topology, vertices)
     if not areas.min() > 0.0:
         raise SolveError(Outcome.OUT_OF_VALIDITY, "the start's mesh folds over")
+    shares = _share_layers(law, vertices[1, topology.triangles])
+    density = shares @ np.array([layer.density for layer in law.layers])
+    heat = shares @ np.array([layer.density * layer.warmth for layer in law.layers])
     return SnowBody(
-        topology=topology, vertices=vertices, mass=density * areas, warmth=warmth
+        topology=topology,
+        vertices=vertices,
+        mass=density * areas,
+        warmth=heat / density,
     )
+
+
+def _share_layers(law: FlowLaw, corners: Floats) -> Floats:
+    """What each layer takes of the areas of triangles, shape (n, n_layers).
+
+    Layers lie at their heights, wherever the net's curve has carried the triangles
+    whose corners have the heights ``corners``, shape (n, 3).
+    """
+    low, middle, high = np.sort(corners, axis=1).T
+    below = [np.zeros(low.size)]
+    for layer in law.layers[:-1]:
+        corner = np.maximum(layer.top - low, 0.0) ** 2
+        corner /= np.maximum(middle - low, _LEAST_HEIGHT) * (high - low)
+        rest = np.maximum(high - layer.top, 0.0) ** 2
+        rest /= np.maximum(high - middle, _LEAST_HEIGHT) * (high - low)
+        share = np.where(layer.top < middle, corner, 1.0 - rest)
+        below.append(np.clip(share, 0.0, 1.0))
+    return np.diff(np.column_stack([*below, np.ones(low.size)]), axis=1)
 
 
 def compute_areas(topology: Topology, vertices: Floats) -> Floats:

@@ -31,7 +31,8 @@ class GroundLaw:
     kind : str
         ``free``: no shear stress, the snow glides freely (the paper).
         ``no-slip``: rough frozen ground, the snow does not move on it.
-        ``sliding``: velocity is slip length times the creep law's shear rate.
+        ``sliding``: velocity is slip length times the creep law's shear rate, both of
+        the snow that lies on the ground.
     slip_length : float
         Slip length D* [m]; positive for ``sliding``, otherwise 0.
     """

@@ -110,6 +110,8 @@ class MeshTemplate:
         Sign of the area that the order of its nodes gives a placed triangle.
     aspect : float
         Upslope length over thickness.
+    interfaces : tuple of float
+        Heights between layers over the thickness, ascending.
     """
 
     nodes: Floats
@@ -121,6 +123,7 @@ class MeshTemplate:
     surface: Ints
     upstream: Ints
     aspect: float
+    interfaces: tuple[float, ...] = ()
 
     @property
     def n_vertices(self) -> int:
@@ -156,7 +159,7 @@ def build_template(
         points = _add_rings(points, columns, size, interfaces)
     far = _FAR_ALONG_LAYERS if interfaces else _FAR
     points = np.unique(points.round(12), axis=0)
-    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect)
+    mesh = _build_mesh(points, _connect(_squeeze(points, far)), aspect, interfaces)
     for _ in range(size.subdivisions):
         mesh = _subdivide(mesh)
     return mesh
@@ -172,10 +175,12 @@ def _subdivide(mesh: MeshTemplate) -> MeshTemplate:
     a, b, c, ab, bc, ca = mesh.triangles
     quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
     triangles = np.concatenate([np.column_stack(q) for q in quarters])
-    return _build_mesh(mesh.nodes.T, triangles, mesh.aspect)
+    return _build_mesh(mesh.nodes.T, triangles, mesh.aspect, mesh.interfaces)
 
 
-def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
+def _build_mesh(
+    points: Floats, triangles: Ints, aspect: float, interfaces: tuple[float, ...] = ()
+) -> MeshTemplate:
     import skfem  # here, since runs that solve nothing new need no mesh
 
     mesh = skfem.MeshTri(points.T.copy(), triangles.T.copy())
@@ -197,6 +202,7 @@ def _build_mesh(points: Floats, triangles: Ints, aspect: float) -> MeshTemplate:
         surface=_frozen(surface[::-1].copy()),
         upstream=_frozen(upstream),
         aspect=aspect,
+        interfaces=interfaces,
     )
 
 

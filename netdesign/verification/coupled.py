@@ -19,7 +19,7 @@ from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snow.kernel import assemble_stress, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
-from netdesign.snow.snowpack import Snowpack
+from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from netdesign.verification.case import (
     Kind,
@@ -35,6 +35,12 @@ _SETTINGS = SolverSettings(
     accuracy=0.01, stress_tolerance=1e-9, shape_tolerance=1e-8, levels=_LEVELS
 )
 _TWO_CODES = "two independent codes, 0.1 % apart (theta {:g} degrees)"
+_LAYERS = ((1.2, 400.0), (1.0, 320.0), (0.8, 240.0))  # m, kg/m3, from the ground
+# ground -> foot and head tension [kN/m] of the layered scenes
+_LAYERED: dict[GroundKind, tuple[float, float]] = {
+    "no-slip": (27.987, 28.225),
+    "free": (168.14, 107.42),
+}
 # theta -> foot and head tension [kN/m], sag [m]
 _REFERENCE = {0.0: (309.67, 303.41, 0.3016), 30.0: (345.41, 269.45, 0.3476)}
 
@@ -87,6 +93,21 @@ def list_reference() -> list[VerificationCase]:
                     2e-3,
                 )
             )
+    return cases
+
+
+def list_layered() -> list[VerificationCase]:
+    """End tensions of layered snow against another code."""
+    source = "independent code with layers at their heights, 0.03 %"
+    cases = []
+    for ground, expected in _LAYERED.items():
+        solution = _solve(_build_layered_scene(ground))
+        for name, value, pull in zip(
+            ("foot", "head"), expected, (solution.foot, solution.head), strict=True
+        ):
+            case = f"layered-{ground}-{name}"
+            got = pull.size / 1e3
+            cases.append(_case(case, "cross model", source, value, got, 1e-3))
     return cases
 
 
@@ -221,6 +242,25 @@ def list_orders() -> list[VerificationCase]:
             )
         )
     return cases
+
+
+def _build_layered_scene(ground: GroundKind) -> Scene:
+    """Scenes LA and LB: 3 m of three layers, 38 degrees."""
+    return Scene(
+        snowpack=build_layered_snowpack(
+            tuple(Layer(thickness=high, density=density) for high, density in _LAYERS),
+            slope_angle=math.radians(38.0),
+            upslope_length=20.0,
+        ),
+        ground=GroundLaw(kind=ground),
+        net=Net(
+            height_normal=3.0,
+            inclination=math.radians(30.0),
+            stiffness_per_m=2e7,
+            slack=0.03,
+            friction_angle=math.radians(30.0),
+        ),
+    )
 
 
 def _solve(scene: Scene, settings: SolverSettings = _SETTINGS) -> Solution:

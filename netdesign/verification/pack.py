@@ -9,6 +9,7 @@ from netdesign.verification.case import VerificationCase
 from netdesign.verification.closed_forms import list_cable, list_law, list_snow
 from netdesign.verification.coupled import (
     list_invariants,
+    list_layered,
     list_limits,
     list_numerics,
     list_orders,
@@ -31,6 +32,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_numerics,
     list_orders,
     list_reference,
+    list_layered,
     list_walls,
     list_depth_averaged,
     list_histories,

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import (
     MESH_LEVELS,
     MIXED_BULK_RATIO,
@@ -15,8 +16,10 @@ from netdesign.coupling.scene import (
 from netdesign.coupling.solve import solve_scene
 from netdesign.coupling.steady import solve_steady
 from netdesign.errors import ModelError
+from netdesign.snow.creep_law import compute_shear_factor
 from netdesign.snow.fluidity import compute_fluidity
 from netdesign.snow.kernel import build_placed_mesh
+from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
@@ -92,8 +95,87 @@ def test_layered_snow_hangs_its_weight_on_the_net(a_scene):
     assert straight < pulled < 1.03 * straight  # the bulge weighs up to 3 %
 
 
-def test_temperature_of_all_layers_changes_no_force(a_scene):
-    scene = a_scene(ground="no-slip")
+def draw_layers(seed):
+    """Two to four layers of untidy thickness and density, 4 m together."""
+    rng = np.random.default_rng(seed)
+    shares = rng.uniform(0.2, 1.0, rng.integers(2, 5))
+    thickness = 4.0 * shares / shares.sum()
+    density = np.sort(rng.uniform(150.0, 500.0, shares.size))[::-1]
+    return [
+        Layer(thickness=float(t), density=float(d))
+        for t, d in zip(thickness, density, strict=True)
+    ]
+
+
+@pytest.mark.parametrize("ground", ["free", "no-slip"])
+@pytest.mark.parametrize("seed", range(3))
+def test_layers_lie_at_their_heights_up_to_the_hanging_net(a_scene, ground, seed):
+    """Straight, parallel to the ground: no triangle of the placed mesh crosses one."""
+    scene = layered(
+        a_scene(inclination_deg=27.0, slack=0.05, ground=ground), *draw_layers(seed)
+    )
+    solution = sound(scene)
+    tops = np.cumsum([layer.thickness for layer in scene.layers])
+    corners = solution.mesh_nodes[1, solution.mesh_triangles]
+    for top in tops[:-1]:
+        crosses = (corners.min(axis=0) < top - 1e-5) & (
+            corners.max(axis=0) > top + 1e-5
+        )
+        assert not crosses.any()
+    layer = np.searchsorted(tops, corners.mean(axis=0))
+    densities = np.array([layer.density for layer in scene.layers])
+    np.testing.assert_array_equal(solution.mesh_density, densities[layer])
+
+
+GROUNDS = [("no-slip", 0.0), ("sliding", 1.7)]
+
+
+@pytest.mark.parametrize(("ground", "slip"), GROUNDS)
+def test_temperature_of_one_layer_changes_no_force(a_scene, ground, slip):
+    """Nor on a ground where the snow slips: slip is a shear of the same snow."""
+    scene = a_scene(ground=ground, slip_length_m=slip, inclination_deg=20.0)
+    density = scene.snowpack.density
+    plain = sound(scene)
+    warm = sound(
+        layered(scene, Layer(thickness=4.0, density=density, temperature=271.3))
+    )
+    assert warm.foot.size == pytest.approx(plain.foot.size, rel=1e-7)
+    assert warm.head.size == pytest.approx(plain.head.size, rel=1e-7)
+
+
+@pytest.mark.parametrize("temperature", [252.0, 270.7])
+def test_temperature_of_one_layer_changes_no_force_on_a_wall(a_scene, temperature):
+    scene = a_scene(ground="sliding", slip_length_m=2.3)
+    wall = replace(scene, net=Wall(height_normal=4.0, inclination=0.3))
+    part = Layer(thickness=4.0, density=scene.snowpack.density, temperature=temperature)
+    plain, warm = (solve_rigid(one, SETTINGS) for one in (wall, layered(wall, part)))
+    assert warm.force.size == pytest.approx(plain.force.size, rel=1e-7)
+
+
+@pytest.mark.parametrize("densities", [(487.3, 262.1), (213.9, 377.7)])
+def test_slip_is_that_of_the_snow_on_the_ground(a_scene, densities):
+    """A slip length over the creep rate of the lowest layer, section 2 of physics.md.
+
+    A base velocity D* B a^((n+1)/2) tau^n of the mean snow is that of the lowest layer
+    with another D*: the scene's law must say which of the two it means.
+    """
+    scene = layered(
+        a_scene(ground="sliding", slip_length_m=1.5),
+        *(Layer(thickness=2.0, density=density) for density in densities),
+    )
+    law, shear = scene.flow_law, np.array([[0.3, 0.7]])
+    tangent = linearise_sliding(law, shear)
+    velocity = (shear - tangent.kept) / tangent.modulus
+    a = [compute_shear_factor(scene.creep_law, d / 917.0) for d in densities]
+    mean = compute_shear_factor(scene.creep_law, scene.snowpack.relative_density)
+    rate = (a[0] / mean) ** 2.0  # n = 3
+    expected = 1.5 / 4.0 * rate * (shear**2 + law.stress_floor**2) * shear
+    np.testing.assert_allclose(velocity, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("ground", "slip"), GROUNDS)
+def test_temperature_of_all_layers_changes_no_force(a_scene, ground, slip):
+    scene = a_scene(ground=ground, slip_length_m=slip)
     density = scene.snowpack.density
     cold, warm = (
         sound(

@@ -145,6 +145,32 @@ def test_layers_keep_their_mass_and_warmth(a_flow_law):
     assert body.mass.sum() == pytest.approx(ASPECT, rel=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_law, seed):
+    """Weight of each from the area between two level lines, up to the net."""
+    rng = np.random.default_rng(seed)
+    top, sag = rng.uniform(0.2, 0.8), rng.uniform(0.05, 0.2)
+    densities = rng.uniform(0.5, 1.5, 2)
+    warmths = rng.uniform(0.1, 9.0, 2)
+    layers = tuple(
+        FlowLayer(top=high, bulk_ratio=1.8, density=density, warmth=warmth)
+        for high, density, warmth in zip((top, 1.0), densities, warmths, strict=True)
+    )
+    law = replace(a_flow_law(), layers=layers)
+    body = a_body(law, head_x=0.5, sag=sag, tops=(top,))
+    x, y = on_net(body)
+    heights = np.unique(np.append(y, top))
+    across = ASPECT + np.interp(heights, y, x)
+    lower = heights <= top
+    areas = [
+        np.trapezoid(across[part], heights[part])
+        for part in (lower, ~lower | (heights == top))
+    ]
+    assert body.mass.sum() == pytest.approx(densities @ areas, rel=1e-12)
+    heat = (body.mass * body.warmth).sum()
+    assert heat == pytest.approx((densities * warmths) @ areas, rel=1e-12)
+
+
 def test_start_that_folds_over_is_refused(a_flow_law):
     with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
         a_body(a_flow_law(), sag=-8.0)

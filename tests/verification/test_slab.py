@@ -7,6 +7,7 @@ whose exact field is known, a confined level snowpack and an infinite slab.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -128,7 +129,12 @@ def test_simple_shear():
 # --- flows -------------------------------------------------------------------
 
 
-def uniform_mesh(aspect: float, step: float, subdivisions: int = 0):
+def uniform_mesh(
+    aspect: float,
+    step: float,
+    subdivisions: int = 0,
+    interfaces: tuple[float, ...] = (),
+):
     """Straight net normal to the slope; all triangles about as large."""
     size = MeshSize(
         net_spacing=min(step, 0.34),
@@ -137,7 +143,7 @@ def uniform_mesh(aspect: float, step: float, subdivisions: int = 0):
         upslope_spacing=step,
         subdivisions=subdivisions,
     )
-    template = build_template(aspect, size)
+    template = build_template(aspect, size, interfaces)
     fractions = template.net_fractions
     curve = np.array([np.zeros_like(fractions), fractions])
     return build_placed_mesh(template, place_nodes(template, curve))
@@ -241,6 +247,41 @@ def test_infinite_slab_power_law_creep():
     assert errors[1] <= errors[0] / 3
     assert errors[2] <= errors[1] / 3
     assert errors[2] <= 3e-3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_layered_slab_slides_by_its_lowest_layer(seed):
+    """Statics give every layer its shear stress, the layer at the ground the slip.
+
+    v(0) = D* w_1 tau_0, v(1) = v(0) + sum of w_i times the integral of tau: linear
+    creep, far from the ends; tau(y) is the weight along the slope of what lies above.
+    """
+    rng = np.random.default_rng(seed)
+    top, slip = rng.uniform(0.2, 0.8), rng.uniform(0.1, 1.0)
+    fluidities, densities = rng.uniform(0.3, 3.0, 2), rng.uniform(0.6, 1.4, 2)
+    slope = math.radians(rng.uniform(30.0, 50.0))
+    law = replace(
+        a_law(exponent=1.0, gravity=(math.sin(slope), -math.cos(slope))),
+        layers=tuple(
+            FlowLayer(top=high, bulk_ratio=RATIO, fluidity=fluidity, density=density)
+            for high, fluidity, density in zip(
+                (top, 1.0), fluidities, densities, strict=True
+            )
+        ),
+        ground="sliding",
+        slip_ratio=slip,
+    )
+    mesh = uniform_mesh(60.0, 0.5, interfaces=(top,))
+    velocity, _ = flow_of(law, mesh)
+    light = densities[1] * (1.0 - top) * math.sin(slope)  # shear at the interface
+    whole = light + densities[0] * top * math.sin(slope)
+    base = slip * fluidities[0] * whole
+    shear = fluidities @ [top * (whole + light) / 2, (1.0 - top) * light / 2]
+    ground = mesh.template.ground
+    middle = ground[np.abs(mesh.nodes[0, ground] + 30.0).argmin()]
+    assert velocity[0, middle] == pytest.approx(base, rel=1e-4)
+    found = surface_velocity_at_half_length(mesh, velocity)
+    assert found[0] == pytest.approx(base + shear, rel=1e-4)
 
 
 def test_column_of_the_elmer_manual():

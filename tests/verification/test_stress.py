@@ -54,6 +54,7 @@ def renumber(template: MeshTemplate, seed: int) -> MeshTemplate:
         surface=new_number[template.surface],
         upstream=new_number[template.upstream],
         aspect=template.aspect,
+        interfaces=template.interfaces,
     )
 
 

@@ -1,0 +1,179 @@
+"""Layered snow drawn over the practical ranges: solved, soon, or refused soon."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.cable.net import Net
+from netdesign.coupling import steady
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.steady import solve_steady
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from netdesign.solution_file import write_solution_document
+
+GROUNDS = ("no-slip", "free", "sliding")
+# Linear solves times triangles: what a scene may take, and what a refusal may. A
+# millionth of a second each some 20: 4 s; 0.1.0 took 14 s over scenes of this kind.
+MOST_WORK = 1.5e5
+
+
+def draw_scene(seed, number, *, is_denser_below):
+    """2 to 4 layers on one of three grounds, all figures untidy."""
+    rng = np.random.default_rng([seed, number])
+    count = int(rng.integers(2, 5))
+    shares = rng.uniform(0.2, 1.0, count)
+    thickness = rng.uniform(1.5, 4.5) * shares / shares.sum()
+    density = rng.uniform(150.0, 500.0, count)
+    if is_denser_below:
+        density = np.sort(density)[::-1]
+    kind = GROUNDS[number % 3]
+    slip = float(rng.uniform(0.3, 6.0)) if kind == "sliding" else 0.0
+    pack = build_layered_snowpack(
+        tuple(
+            Layer(thickness=float(high), density=float(rho))
+            for high, rho in zip(thickness, density, strict=True)
+        ),
+        slope_angle=math.radians(rng.uniform(28.0, 55.0)),
+        upslope_length=float(rng.uniform(5.0, 40.0)),
+    )
+    net = Net(
+        height_normal=pack.thickness,
+        inclination=math.radians(rng.uniform(15.0, 35.0)),
+        stiffness_per_m=float(np.exp(rng.uniform(np.log(2e6), np.log(1e8)))),
+        slack=float(rng.uniform(0.0, 0.1)),
+        friction_angle=math.radians(rng.uniform(15.0, 45.0)),
+    )
+    return Scene(snowpack=pack, ground=GroundLaw(kind=kind, slip_length=slip), net=net)
+
+
+@pytest.fixture
+def work(monkeypatch):
+    """Linear solves times triangles, of all flows, those that fail too."""
+    spent = []
+    solve_flow = steady.solve_flow
+
+    def count(law, mesh, *given, **named):
+        flow = solve_flow(law, mesh, *given, **named)
+        spent.append(flow.linear_solves * mesh.template.triangles.shape[1])
+        return flow
+
+    monkeypatch.setattr(steady, "solve_flow", count)
+    return spent
+
+
+@pytest.mark.parametrize("is_denser_below", [True, False])
+@pytest.mark.parametrize("number", range(9))
+def test_drawn_layers_are_solved(work, number, is_denser_below):
+    scene = draw_scene(5, number, is_denser_below=is_denser_below)
+    solution = solve_steady(scene, on_failure="raise")
+    assert solution.balance.relative_residual <= 1e-8
+    assert solution.balance.suction_share <= 0.05
+    assert sum(work) <= MOST_WORK
+
+
+# Layers in an order in which the net's rounds wander: soft snow between stiff.
+WEAK = ((0.81, 190.4), (0.30, 256.1), (0.57, 172.3), (0.47, 435.2))
+
+
+def weak_scene(friction_deg):
+    pack = build_layered_snowpack(
+        tuple(Layer(thickness=high, density=rho) for high, rho in WEAK),
+        slope_angle=math.radians(42.0),
+        upslope_length=17.3,
+    )
+    net = Net(
+        height_normal=pack.thickness,
+        inclination=math.radians(18.0),
+        stiffness_per_m=2.3e7,
+        slack=0.097,
+        friction_angle=math.radians(friction_deg),
+    )
+    ground = GroundLaw(kind="sliding", slip_length=2.3)
+    return Scene(snowpack=pack, ground=ground, net=net)
+
+
+@pytest.mark.parametrize("friction_deg", [9.7, 14.2, 31.3])
+def test_what_is_not_found_is_given_up_soon(work, friction_deg):
+    """Solved or refused: no scene takes more than so much."""
+    solution = solve_steady(weak_scene(friction_deg))
+    if isinstance(solution, FailedSolution):
+        assert solution.reason
+    assert sum(work) <= MOST_WORK
+
+
+def stiff_over_soft():
+    pack = build_layered_snowpack(
+        (Layer(thickness=1.56, density=252.0), Layer(thickness=2.19, density=428.0)),
+        slope_angle=math.radians(32.0),
+        upslope_length=14.0,
+    )
+    net = Net(
+        height_normal=pack.thickness,
+        inclination=math.radians(17.0),
+        stiffness_per_m=2e7,
+        slack=0.008,
+        friction_angle=math.radians(41.0),
+    )
+    return Scene(snowpack=pack, ground=GroundLaw(kind="no-slip"), net=net)
+
+
+def test_a_net_lets_go_of_snow_that_would_pull_on_it():
+    """The same as if that had been asked for, and the document says so."""
+    scene = stiff_over_soft()
+    solution = solve_steady(scene, on_failure="raise")
+    asked = solve_steady(replace(scene, net_contact="one-sided"), on_failure="raise")
+    assert solution.is_released
+    assert not asked.is_released
+    assert solution.scene == asked.scene
+    assert (solution.foot, solution.head) == (asked.foot, asked.head)
+    assert solution.balance.suction_share <= 1e-9
+    flags = [
+        write_solution_document(one, SolverSettings(), wall_s=0.0)["flags"]
+        for one in (solution, asked)
+    ]
+    assert any("lets go of it (one-sided)" in flag for flag in flags[0])
+    assert not any("lets go" in flag for flag in flags[1])
+
+
+def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
+    couple = steady._couple
+
+    def couple_two_sided(problem, *given, **named):
+        if problem.law.net_contact == "one-sided":
+            raise SolveError(Outcome.NO_EQUILIBRIUM, "nowhere")
+        return couple(problem, *given, **named)
+
+    monkeypatch.setattr(steady, "_couple", couple_two_sided)
+    refused = solve_steady(stiff_over_soft())
+    assert refused.outcome is Outcome.OUT_OF_VALIDITY
+    assert "would pull on the net" in refused.reason
+
+
+@pytest.mark.parametrize("meshes", [1, 2, 3])
+def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes):
+    """If they are two: their difference is the error, whatever was asked for."""
+    couple, solved = steady._couple, []
+
+    def couple_some(problem, *given, **named):
+        if len(solved) == meshes:
+            raise SolveError(Outcome.MAX_ITERATIONS, "too fine")
+        solved.append(problem)
+        return couple(problem, *given, **named)
+
+    monkeypatch.setattr(steady, "_couple", couple_some)
+    settings = SolverSettings(accuracy=1e-4)
+    result = solve_steady(a_scene(ground="no-slip", inclination_deg=30.0), settings)
+    if meshes == 1:
+        assert result.outcome is Outcome.MAX_ITERATIONS
+        return
+    assert isinstance(result, Solution)
+    finest = solved[-1].template.triangles.shape[1]
+    assert result.cost.elements == finest
+    assert result.foot.error > 1e-4 * result.foot.size
+    assert len(solved) == meshes < len(MESH_LEVELS)
