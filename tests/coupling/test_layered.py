@@ -18,8 +18,8 @@ from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.solution_file import write_solution_document
 
 GROUNDS = ("no-slip", "free", "sliding")
-# Linear solves times triangles: what a scene may take, and what a refusal may. A
-# millionth of a second each some 20: 4 s; 0.1.0 took 14 s over scenes of this kind.
+# Linear solves times triangles that a scene may take, solved or refused: some 20
+# microseconds each, so 3 s; 0.1.0 took up to 14 s over a scene of this kind.
 MOST_WORK = 1.5e5
 
 
