@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from netdesign.check_site import METHODS, name_law
@@ -10,6 +11,8 @@ from netdesign.errors import StudyError
 from netdesign.site_cases import CheckRun
 from netdesign.study import Study
 from netdesign.study_values import Difference, compare_values, list_values
+
+_LOG = re.compile(r"rows\..*\.envelope\.log\.\d+\.\w+(\.\w+)?")
 
 
 def build_run(study: Study, jobs: int) -> CheckRun:
@@ -64,6 +67,15 @@ def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]
     old, new = (_leave_out_versions(study) for study in (stored, again))
     count = len(list_values(old) | list_values(new))
     return count, compare_values(old, new)
+
+
+def is_of_ties(difference: Difference) -> bool:
+    """Whether it says only why a search solved a case, where several reasons tie.
+
+    Rounding decides between them, and so do the kernels of a processor. The cases and
+    all that is found from them are compared on their own.
+    """
+    return _LOG.fullmatch(difference.place) is not None
 
 
 def list_versions(study: Study) -> dict[str, str]:

@@ -11,7 +11,9 @@ from typing import Any
 from netdesign.json_text import list_fields
 
 SAME = 1e-6  # relative; other machines differ in the last digits only
-_NOISE = 1e-8  # of residuals and shares near zero, which are rounding themselves
+# Absolute, of residuals, shares and small differences, which are rounding themselves.
+_NOISE = 1e-6
+_PERCENT = "_percent"  # end of the name of a difference or an error
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +58,7 @@ def compare_values(
         for place in places
         if place not in old
         or place not in new
-        or not _is_same(old[place], new[place], is_exact=is_exact)
+        or not _is_same(old[place], new[place], 0.0 if is_exact else _find_noise(place))
     ]
 
 
@@ -83,10 +85,13 @@ def _list_ids(members: Sequence[Any]) -> list[str]:
     return ids if all(ids) and len(set(ids)) == len(ids) else []
 
 
-def _is_same(old: Any, new: Any, *, is_exact: bool) -> bool:
+def _find_noise(place: str) -> float:
+    """Absolute difference that counts as none; two forces make a difference in %."""
+    return 100.0 * _NOISE if place.endswith(_PERCENT) else _NOISE
+
+
+def _is_same(old: Any, new: Any, noise: float) -> bool:
     if all(isinstance(one, float) or type(one) is int for one in (old, new)):
-        tolerance = 0.0 if is_exact else 1.0
-        return math.isclose(
-            old, new, rel_tol=SAME * tolerance, abs_tol=_NOISE * tolerance
-        )
+        tolerance = SAME if noise else 0.0
+        return math.isclose(old, new, rel_tol=tolerance, abs_tol=noise)
     return type(old) is type(new) and bool(old == new)

@@ -20,6 +20,7 @@ from netdesign import __version__, cli
 from netdesign.resources import find_resource
 from netdesign.site.reader import read_site
 from netdesign.site.template import load_example
+from netdesign.study import read_document, write_document
 
 PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
 PROFILE = "nf-p-95-304-style"
@@ -583,7 +584,8 @@ def test_init_never_overwrites_unasked(tmp_path):
 
 
 def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path):
-    without = "import sys\nsys.modules['netdesign.coupling.steady'] = None"
+    # judged again it may be, never solved again
+    without = "import netdesign.coupling.steady as s\ns.solve_steady = None"
     result = run(
         *("report", home / "out" / "study.json", "--out", "again"),
         cwd=tmp_path,
@@ -609,9 +611,14 @@ def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, cod
     document["verdict"] = document["rows"][0]["verdict"] = verdict
     document["rows"][0]["reasons"] = [f"{check['id']}: {check['reason']}"]
     path = tmp_path / "study.json"
-    path.write_text(json.dumps(document), encoding="utf-8")
+    sealed = write_document(read_document(json.dumps(document)))
+    path.write_text(sealed, encoding="utf-8")
     result = run("report", path, "--no-html", "--no-excel", cwd=tmp_path)
     assert result.returncode == code, result.stderr
+    path.write_text(json.dumps(document), encoding="utf-8")  # the digest of before
+    refused = run("report", path, "--no-html", "--no-excel", "--force", cwd=tmp_path)
+    assert refused.returncode == 3
+    assert "altered after it was written" in refused.stderr
 
 
 @pytest.mark.parametrize(

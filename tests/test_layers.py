@@ -21,7 +21,7 @@ PACKAGE = Path(netdesign.__file__).parent
 ROWS = (
     {
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
-        *("quantities", "output", "progress", "given_files", "json_text"),
+        *("quantities", "output", "progress", "given_files", "json_text", "streams"),
         *("fault",),
     },
     {"numerics", "resistance"},

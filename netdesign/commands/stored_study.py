@@ -68,6 +68,8 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
 
 def contradict_command(study: Study) -> Iterator[str]:
     """Sentences on where the command of a study is not one that could make it."""
+    from netdesign.given_files import make_printable
+
     made = study.provenance
     if made.command == NO_COMMAND:
         return
@@ -75,8 +77,8 @@ def contradict_command(study: Study) -> Iterator[str]:
     if values is None:
         yield f"{made.command!r:.120} is no command that makes a study"
         return
-    named = "example.xlsx" if values.get("example") else values["site_file"]
-    if Path(named or "").name != Path(made.site_file).name:
+    named = "example.xlsx" if values.get("example") else values.get("site_file")
+    if Path(named or "").name != make_printable(Path(made.site_file).name):
         yield f"it reads {named!r:.60}, the study {made.site_file!r:.60}"
     accuracy, method = values.get("accuracy"), values.get("method")
     if accuracy is not None and not _is_number(accuracy, made.settings.get("accuracy")):

@@ -133,7 +133,7 @@ def test_the_last_digits_of_another_machine_are_no_difference(verify):
     ended = verify(last_digits)
     assert ended.code == 0
     assert "\nsame numbers, within 1e-06 of each\n" in ended.out
-    assert "results, SHA-256: not equal, by last digits of numbers only" in ended.out
+    assert "results, SHA-256: not equal, by last digits only" in ended.out
 
 
 def test_other_versions_are_told_and_leave_the_study_unproven(verify):
