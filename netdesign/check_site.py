@@ -16,6 +16,7 @@ from typing import Literal
 
 from netdesign import __version__
 from netdesign.checks import Standard
+from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.search import RowEnvelope
@@ -140,6 +141,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
     row, envelope = task.row, task.envelope
     extremes = task.extremes
     checks = check_row(task)
+    cases = [_record_case(result, run.creep_law, row) for result in task.results]
     effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get("foot_anchor")
@@ -165,7 +167,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
-        cases=[_record_case(result, run.creep_law, row) for result in task.results],
+        cases=cases,
         inputs=list(row.inputs),
         drawing=_draw(row, governing),
         reasons=unproven,
@@ -173,7 +175,11 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        notes=[*list_row_notes(row, effects), *_list_history_notes(extremes)],
+        notes=[
+            *list_row_notes(row, effects),
+            *list_case_notes(cases),
+            *_list_history_notes(extremes),
+        ],
         envelope=(
             None
             if envelope is None
@@ -216,6 +222,14 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
             "given for the post type"
         )
     return notes
+
+
+def list_case_notes(cases: Sequence[CaseRecord]) -> list[str]:
+    """What was done otherwise than asked in some cases."""
+    released = sum(case.reason == RELEASED for case in cases)
+    if not released:
+        return []
+    return [f"in {released} of {len(cases)} cases {RELEASED}"]
 
 
 def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[str]:

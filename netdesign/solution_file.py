@@ -12,6 +12,7 @@ from netdesign.coupling.bound import PullBound
 from netdesign.coupling.history import COUNTED_STRAIN, History, Moment
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
+    RELEASED,
     Balance,
     Cost,
     FailedSolution,
@@ -257,10 +258,7 @@ def _list_flags(solution: Solution | WallSolution) -> list[str]:
     law = solution.scene.creep_law
     flags = _list_history_flags(getattr(solution, "history", None))
     if getattr(solution, "is_released", False):
-        flags.append(
-            "the snow would pull on the net more than a two-sided contact stands for: "
-            "solved with a net that lets go of it (one-sided)"
-        )
+        flags.append(RELEASED)
     if not solution.scene.is_calibrated:
         low, high = law.calibrated
         flags.append(

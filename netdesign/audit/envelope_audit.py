@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
 from netdesign.audit.comparing import SAME, is_same, tell_unequal
+from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import Outcome
 from netdesign.study import (
     BoundRecord,
@@ -77,7 +78,8 @@ def _audit_case(
     if math.isfinite(tolerance):
         numbers += [case.error_percent, case.balance_residual]
     if case.outcome is Outcome.CONVERGED:
-        if any(number is None or number < 0.0 for number in numbers) or case.reason:
+        is_whole = all(number is not None and number >= 0.0 for number in numbers)
+        if not is_whole or case.reason not in ("", RELEASED):
             yield f"{place} converged, but has a reason, or no numbers of at least 0"
         elif (case.balance_residual or 0.0) > tolerance:
             yield f"{place} converged, but its balance is left open"

@@ -9,7 +9,12 @@ from dataclasses import replace
 from netdesign.audit.check_audit import is_held_back
 from netdesign.audit.comparing import is_of_steady_states, is_same
 from netdesign.audit.envelope_audit import find_largest, is_complete, same_point
-from netdesign.check_site import is_calibrated, list_notes, list_row_notes
+from netdesign.check_site import (
+    is_calibrated,
+    list_case_notes,
+    list_notes,
+    list_row_notes,
+)
 from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.grid import Case, build_cases
 from netdesign.rowcheck.effects import find_effects, load_guideline
@@ -110,7 +115,7 @@ def _audit_judgement(
     place = f"net row {row.id!r}"
     for found in compare_values(stored, again)[:_MOST]:
         yield f"{place}: judged again, its checks differ: {found}"
-    notes = list_row_notes(given, effects)
+    notes = [*list_row_notes(given, effects), *list_case_notes(row.cases)]
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.coupling.interface import SupportForces
-from netdesign.coupling.solution import Balance
+from netdesign.coupling.solution import Balance, Solution
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
@@ -22,7 +22,15 @@ LARGEST_SUCTION = 0.05
 
 
 class SuctionError(SolveError):
-    """The snow would pull on a two-sided net more than such a contact stands for."""
+    """The snow would pull on a two-sided net more than such a contact stands for.
+
+    Attributes
+    ----------
+    held : Solution or None
+        The state in which it would, where meshes were refined to the end.
+    """
+
+    held: Solution | None = None
 
     def __init__(self, share: float) -> None:
         super().__init__(

@@ -16,6 +16,11 @@ from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
 
 Floats = NDArray[np.float64]
+# What a reader must know of a net that was to hold the snow on both sides.
+RELEASED = (
+    "the snow would pull on the net more than a two-sided contact stands for: solved "
+    "with a net that lets go of it (one-sided)"
+)
 Method = Literal["steady", "transient", "staggered"]
 
 

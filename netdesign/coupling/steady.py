@@ -8,6 +8,7 @@ forces per metre of width in rho g d^2.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -179,9 +180,21 @@ def _solve(scene: Scene, settings: SolverSettings) -> Solution:
     except SuctionError as refusal:
         released = replace(scene, net_contact="one-sided")
         try:
-            return replace(_solve_as_given(released, settings), is_released=True)
+            freed = _solve_as_given(released, settings)
         except SolveError:
             raise refusal from None
+        return _widen(replace(freed, is_released=True), refusal.held)
+
+
+def _widen(freed: Solution, held: Solution | None) -> Solution:
+    """Errors that reach to the net which holds on: pulls then do not jump by more."""
+    if held is None:
+        return freed
+    foot, head = (
+        replace(own, error=own.error + math.hypot(own.x - other.x, own.y - other.y))
+        for own, other in ((freed.foot, held.foot), (freed.head, held.head))
+    )
+    return replace(freed, foot=foot, head=head)
 
 
 def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
@@ -194,11 +207,15 @@ def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
 def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> Solution:
     states, estimates = _solve_levels(scene, settings, start)
     solution = _build_solution(scene, states, [one.error for one in estimates])
-    check_balance(
-        solution.balance,
-        settings.balance_tolerance,
-        friction_tolerance=settings.stress_tolerance,
-    )
+    try:
+        check_balance(
+            solution.balance,
+            settings.balance_tolerance,
+            friction_tolerance=settings.stress_tolerance,
+        )
+    except SuctionError as refusal:
+        refusal.held = solution
+        raise
     return solution
 
 

@@ -136,13 +136,13 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
     if end.state is None:
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
     if task.layout is None:
-        return _resolve_net(task, end.state)
+        return replace(_resolve_net(task, end.state), reason=end.reason)
     found = catch_fault(
         partial(_resolve_support, task, task.layout, end.state),
         describe_case(task.scene, task.settings),
     )
     if not isinstance(found, Fault):
-        return found
+        return replace(found, reason=found.reason or end.reason)
     return replace(_failed(task, Outcome.PROGRAM_FAULT, SENTENCE), fault=found)
 
 

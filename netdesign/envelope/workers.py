@@ -24,7 +24,7 @@ from typing import Any, Protocol
 
 from netdesign.coupling.describe import describe_case
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import FailedSolution, WallSolution
+from netdesign.coupling.solution import RELEASED, FailedSolution, WallSolution
 from netdesign.coupling.solve import Settings, solve_scene
 from netdesign.envelope.state import CaseEnd, keep_state
 from netdesign.envelope.store import identify_solver
@@ -106,7 +106,8 @@ def _solve(job: Job) -> CaseEnd:
     state = keep_state(solution)
     if not state.is_finite:
         return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.sentence)
-    return CaseEnd(outcome=Outcome.CONVERGED, state=state)
+    reason = RELEASED if solution.is_released else ""
+    return CaseEnd(outcome=Outcome.CONVERGED, reason=reason, state=state)
 
 
 def solve_batch(batch: Batch) -> Ends:
