@@ -166,15 +166,16 @@ def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent
 
 
 def linearise_sliding(
-    law: FlowLaw, shear: Floats, fluidity: float | Floats = 1.0
+    law: FlowLaw, shear: Floats, fluidity: Floats | None = None
 ) -> Tangent:
     """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points).
 
-    ``fluidity`` is that of the bottom snow, B a^((n+1)/2), over the reference.
+    Slip is the shear of the snow that lies on the ground: of the lowest layer, unless
+    the present fluidity of the snow on each edge is given, shape (n_edges, 1).
     """
     viscosity, _, share = _scalars(law, shear**2, shear**2)
-    modulus = viscosity * share / (law.slip_ratio * fluidity)
-    return Tangent(modulus=modulus, kept=shear * (1.0 - share))
+    slip = law.slip_ratio * (law.layers[0].fluidity if fluidity is None else fluidity)
+    return Tangent(modulus=viscosity * share / slip, kept=shear * (1.0 - share))
 
 
 def advance_stress(
