@@ -190,15 +190,16 @@ def select_counted(
     is later, whatever the horizon: afterwards the snow is not what it was. The instants
     of the start, to 0.1 %, are left out: there the snow's upper corner and the friction
     along the net find their places. A net whose first shape is guessed pulls by that
-    guess for longer: its moments count from the plateau's begin on. Without a plateau
-    all count.
+    guess for longer: its moments count from that on which proves the plateau. Without a
+    plateau all count.
     """
-    if plateau.index is None:
+    if plateau.index is None or plateau.end is None:
         return moments
     strains = [moment.strain for moment in moments]
-    begin = plateau.index if is_guessed else bisect_left(strains, START_STRAIN)
-    end = max(plateau.index + 1, bisect_right(strains, COUNTED_STRAIN))
-    return moments[begin:end]
+    begin, least = bisect_left(strains, START_STRAIN), plateau.index
+    if is_guessed:
+        begin = least = plateau.end
+    return moments[begin : max(least + 1, bisect_right(strains, COUNTED_STRAIN))]
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:

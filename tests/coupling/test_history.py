@@ -138,7 +138,7 @@ def test_a_plateau_that_is_left_is_none(drift, reached, sign):
 @pytest.mark.parametrize("is_guessed", [False, True])
 @pytest.mark.parametrize("rate", [1e-4, 2e-2])
 def test_pulls_count_while_the_snow_is_the_scenes(is_guessed, rate):
-    """However long the history; a guessed start's only from the plateau's begin on.
+    """However long the history; a guessed start's only once its plateau is proven.
 
     At the slower rate the plateau begins with the strain, at the faster one later.
     """
@@ -150,9 +150,10 @@ def test_pulls_count_while_the_snow_is_the_scenes(is_guessed, rate):
     for count in (440, 500):
         plateau = judge_plateau(moments[:count], find_plateau(moments[:count]))
         counted = select_counted(moments[:count], plateau, is_guessed=is_guessed)
-        first = plateau.time if is_guessed else START_STRAIN / rate
+        proven = moments[plateau.end].time
+        first = proven if is_guessed else START_STRAIN / rate
         assert counted[0].time / STEP < first <= counted[0].time
-        last = max(plateau.time, COUNTED_STRAIN / rate)
+        last = max(proven if is_guessed else plateau.time, COUNTED_STRAIN / rate)
         assert counted[-1].time <= last < counted[-1].time * STEP
     short = moments[:30]
     unproven = judge_plateau(short, find_plateau(short))
