@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -22,7 +22,10 @@ NODE_DRIFT = 0.10
 REST_SHARE = 0.2
 REST_WAY = 2e-3
 LEAST_STRAIN = 0.004
-COUNTED_STRAIN = 0.01  # until then the snow is the scene's
+# Pulls count from the first creep strain, when a net that hung at rest has taken up
+# the history's own corners and friction, until the second: then the snow still is the
+# scene's.
+START_STRAIN, COUNTED_STRAIN = 1e-3, 0.01
 _EFOLDS = 1.0  # for so long
 CRITERION = (
     f"after a mean creep strain of {LEAST_STRAIN:.1%}, for one e-fold of time, end "
@@ -184,15 +187,19 @@ def select_counted(
     """Moments whose pulls are those of the scene's snow on its net.
 
     Those until the snow has crept by 1 % on average, or until a plateau begins if that
-    is later, whatever the horizon: afterwards the snow is not what it was. A net whose
-    first shape is guessed pulls by that guess at first: its moments count from the
-    plateau's begin on. Without a plateau all count.
+    is later, whatever the horizon: afterwards the snow is not what it was. The instants
+    of the start, to 0.1 %, are left out: there the snow's upper corner and the friction
+    along the net find their places. A net whose first shape is guessed pulls by that
+    guess for longer: its moments count from that on which proves the plateau. Without a
+    plateau all count.
     """
-    if plateau.index is None:
+    if plateau.index is None or plateau.end is None:
         return moments
     strains = [moment.strain for moment in moments]
-    end = max(plateau.index + 1, bisect_right(strains, COUNTED_STRAIN))
-    return moments[plateau.index if is_guessed else 0 : end]
+    begin, least = bisect_left(strains, START_STRAIN), plateau.index
+    if is_guessed:
+        begin = least = plateau.end
+    return moments[begin : max(least + 1, bisect_right(strains, COUNTED_STRAIN))]
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:

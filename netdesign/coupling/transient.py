@@ -148,10 +148,10 @@ def solve_transient(
     Returns
     -------
     Solution or FailedSolution
-        ``foot`` and ``head`` are the largest pulls until the plateau is proven,
-        whatever the horizon; from a guessed start, from the plateau's begin on. The
-        plateau's own are in ``history``. A history whose plateau is not reached, or is
-        left again, says so and proves nothing.
+        ``foot`` and ``head`` are the largest pulls while the snow is the scene's
+        (``select_counted``), whatever the horizon; the plateau's own are in
+        ``history``. A history whose plateau is not reached, or is left again, says so
+        and proves nothing.
 
     Verified by
     -----------

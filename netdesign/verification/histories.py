@@ -74,7 +74,7 @@ def _run(scene: Scene, *, start: str, densifies: bool, level: int) -> Run:
 def _compare_with_steady(scene: Scene, run: Run, name: str) -> list[VerificationCase]:
     """Pulls when the net has come to rest, densification off."""
     steady = solve_steady(scene, on_failure="raise")
-    if not isinstance(steady, Solution) or run.plateau.index is None:
+    if not isinstance(steady, Solution) or run.plateau.end is None:
         return [
             VerificationCase(
                 id=f"{name}-foot",
@@ -85,7 +85,7 @@ def _compare_with_steady(scene: Scene, run: Run, name: str) -> list[Verification
                 tolerance=0.0,
             )
         ]
-    moment = run.moments[run.plateau.index]
+    moment = run.moments[run.plateau.end]
     pulls = ((steady.foot.size, moment.foot), (steady.head.size, moment.head))
     return [
         VerificationCase(

@@ -8,12 +8,14 @@ import pytest
 from scipy.optimize import brentq
 
 from netdesign.coupling.history import (
+    COUNTED_STRAIN,
     CRITERION,
     LEAST_STRAIN,
     NODE_DRIFT,
     PULL_DRIFT,
     REST_SHARE,
     REST_WAY,
+    START_STRAIN,
     History,
     Moment,
     find_plateau,
@@ -134,18 +136,26 @@ def test_a_plateau_that_is_left_is_none(drift, reached, sign):
 
 
 @pytest.mark.parametrize("is_guessed", [False, True])
-def test_pulls_count_until_the_plateau_is_proven(is_guessed):
-    """However long the history; a guessed start's only from the plateau's begin on."""
+@pytest.mark.parametrize("rate", [1e-4, 2e-2])
+def test_pulls_count_while_the_snow_is_the_scenes(is_guessed, rate):
+    """However long the history; a guessed start's only once its plateau is proven.
+
+    At the slower rate the plateau begins with the strain, at the faster one later.
+    """
     times = np.geomspace(1e-2, 1e4, 500)
-    moments = history(lambda x: 1.0 + math.exp(-x) + 1e-3 * x, times)
-    for count in (400, 500):
+    moments = [
+        moment(time, 1.0 + math.exp(-time) + 1e-5 * time, strain=rate * time)
+        for time in times
+    ]
+    for count in (440, 500):
         plateau = judge_plateau(moments[:count], find_plateau(moments[:count]))
         counted = select_counted(moments[:count], plateau, is_guessed=is_guessed)
-        first = plateau.index if is_guessed else 0
-        assert list(counted) == moments[first : plateau.end + 1]
-        span = math.log(counted[-1].time / plateau.time)
-        assert 1.0 <= span < 1.0 + 2.0 * math.log(times[1] / times[0])
-    short = moments[:30]  # less than an e-fold
+        proven = moments[plateau.end].time
+        first = proven if is_guessed else START_STRAIN / rate
+        assert counted[0].time / STEP < first <= counted[0].time
+        last = max(proven if is_guessed else plateau.time, COUNTED_STRAIN / rate)
+        assert counted[-1].time <= last < counted[-1].time * STEP
+    short = moments[:30]
     unproven = judge_plateau(short, find_plateau(short))
     assert select_counted(short, unproven, is_guessed=is_guessed) == short
 

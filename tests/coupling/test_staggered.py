@@ -117,7 +117,7 @@ def test_settings_are_refused(changes, name):
 
 @pytest.mark.parametrize("start", ["straight", "sagged", "steady"])
 def test_head_above_the_snow_keeps_its_free_segment(a_scene, start):
-    """The snow's upper corner was put on the head: a segment of no length."""
+    """Version 0.1.0 put the snow's upper corner on the head: no length was left."""
     scene = a_scene(height_m=4.63, slack=0.03)
     settings = replace(SETTINGS, start=start, horizon=2e-3)
     run = run_exchange(scene, settings)

@@ -8,6 +8,7 @@ import pytest
 
 from netdesign.coupling import transient
 from netdesign.coupling.clock import Clock
+from netdesign.coupling.history import select_counted
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.transient import (
     TRANSIENT_LEVELS,
@@ -177,9 +178,15 @@ def solve(scene, **options) -> Solution:
 
 def test_solution_keeps_the_largest_pull_and_the_plateau(a_scene):
     solution = solve(a_scene(inclination_deg=30.0))
-    foot = sizes(solution.history.moments, "foot")
+    history = solution.history
+    counted = select_counted(history.moments, history.plateau, is_guessed=False)
+    assert 0 < len(counted) < len(history.moments)
     assert solution.method == "transient"
-    assert solution.foot.size == pytest.approx(foot.max(), rel=1e-12)
+    for end in ("foot", "head"):
+        pull = getattr(solution, end)
+        assert pull.size == pytest.approx(sizes(counted, end).max(), rel=1e-12)
+    largest = max(moment.tension_max for moment in counted)
+    assert solution.tension_max == pytest.approx(largest, rel=1e-12)
     assert solution.history.plateau.reached
     assert solution.balance.relative_residual < 1e-8
 
