@@ -78,7 +78,8 @@ def test_the_study_holds_bounds_log_and_confirmations(standard, envelopes):
             assert extreme.high_kN >= bound.upper_bound_kN - 1e-9
             if bound.max_kN > 0.0:
                 assert bound.confirmation.confirmed_kN <= extreme.high_kN
-    assert read_document(write_document(study)) == study
+    again = read_document(write_document(study))
+    assert replace(again, digest="") == study
 
 
 def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):

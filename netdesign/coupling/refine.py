@@ -41,7 +41,7 @@ _FIRM = Looseness()
 
 
 class ErrorModel(NamedTuple):
-    """What the meshes so far say of the error of the last one, eq. (K8).
+    """What the meshes so far say of the error of the last one, eq. (K5).
 
     Attributes
     ----------

@@ -179,7 +179,11 @@ def assemble_step(
         top_axis = np.array([last[1], -last[0]]) / np.hypot(*last)
     mesh = build_straight_mesh(template, vertices, law.element, top_axis)
     if not mesh.is_valid:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, "the snow's mesh folds over")
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            "the snow's mesh folds over within the step: take the steady method or a "
+            "shorter horizon",
+        )
     moved = replace(body, vertices=vertices)
     material = build_material(problem.settling, law, moved)
     return StepEquations(

@@ -105,6 +105,7 @@ def test_the_clock_decides_nothing_but_the_date(begin, clean, tmp_path, before, 
     study, expected = json.loads(found["study.json"]), json.loads(clean["study.json"])
     started = study["provenance"].pop("started")
     assert started != expected["provenance"].pop("started")
+    assert study.pop("digest") != expected.pop("digest")  # it seals the date too
     assert study == expected
 
 

@@ -21,7 +21,7 @@ import tempfile
 import tomllib
 import zipfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -434,7 +434,8 @@ def try_study(document: Any) -> None:
 def try_study_text(text: str) -> None:
     found = attempt(lambda: read_document(text))
     if not isinstance(found, NetDesignError):
-        assert read_document(write_document(found)) == found
+        again = read_document(write_document(found))
+        assert replace(again, digest="") == replace(found, digest="")
 
 
 def try_study_bytes(content: bytes) -> None:
