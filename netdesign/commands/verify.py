@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from netdesign.commands.faults import tell_faults
 from netdesign.commands.options import jobs_option, json_option
 from netdesign.commands.solving import judge_rows, open_rows
 from netdesign.commands.stored_study import (
@@ -114,6 +115,8 @@ def _verify_study(
     ]
     with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
         (again,) = judge_rows(site, run, solved, [profile])
+    if failed := tell_faults(solved.runner.faults):
+        return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]
     differences = [one for one in differences if one not in ties]

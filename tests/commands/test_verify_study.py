@@ -11,7 +11,7 @@ from netdesign import cli
 from netdesign.study import read_document, write_document
 from tests.short_example import write_short_example
 
-DIFFERS, REFUSED, UNPROVEN = 1, 3, 4
+DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 
 
@@ -160,6 +160,17 @@ def test_other_inputs_are_named_and_not_solved(verify, change, what):
     assert ended.code == DIFFERS
     assert f"{what}, SHA-256: DIFFERS\n  stored {'0' * 64}\n" in ended.out
     assert "not solved again" in ended.out
+
+
+def test_a_fault_of_the_program_is_no_difference(verify, monkeypatch):
+    def fail(*_, **__):
+        raise RuntimeError("spoilt")
+
+    monkeypatch.setattr("netdesign.envelope.workers.solve_scene", fail)
+    ended = verify()
+    assert ended.code == FAULT
+    assert "RuntimeError: spoilt" in ended.err
+    assert "DIFFERS" not in ended.out
 
 
 def test_without_its_site_file_nothing_is_verified(verify, tmp_path):

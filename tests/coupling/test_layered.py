@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.benchmark.random_scenes import draw_scene as draw_any_scene
+from netdesign.benchmark.scenes import build_tables
 from netdesign.cable.net import Net
 from netdesign.coupling import steady
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
@@ -139,6 +141,24 @@ def test_a_net_lets_go_of_snow_that_would_pull_on_it():
     ]
     assert any("lets go of it (one-sided)" in flag for flag in flags[0])
     assert not any("lets go" in flag for flag in flags[1])
+
+
+@pytest.mark.parametrize("friction_deg", [0.0, 1.37])
+def test_near_the_limit_errors_reach_to_the_net_that_holds_on(friction_deg):
+    """From one contact to the other pulls would jump by more than their errors."""
+    tables = draw_any_scene(3, 203)
+    tables["net"]["friction_deg"] = friction_deg
+    scene = build_tables(tables)
+    rough = SolverSettings(accuracy=0.02)
+    solution = solve_steady(scene, rough, on_failure="raise")
+    asked = solve_steady(
+        replace(scene, net_contact="one-sided"), rough, on_failure="raise"
+    )
+    assert solution.is_released
+    for end in ("foot", "head"):
+        own, alone = getattr(solution, end), getattr(asked, end)
+        assert (own.x, own.y) == (alone.x, alone.y)
+        assert own.error > alone.error + 1e-4 * alone.size
 
 
 def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
