@@ -230,7 +230,8 @@ def _identify(study: Study) -> tuple[tuple[str, str], ...]:
 def _tell_verification(study: Study) -> tuple[tuple[str, str], ...]:
     """Command that shows whether a report is true, and what ties it to its study."""
     site = study.provenance.site_file
-    named = f" --site {shlex.quote(site)}" if site else ""
+    is_built_in = " --example" in study.provenance.command  # verify has it too
+    named = f" --site {shlex.quote(site)}" if site and not is_built_in else ""
     return (
         ("To verify this report", show_text(f"{VERIFY} --study study.json{named}")),
         ("What that does", EXPLANATION),

@@ -90,3 +90,10 @@ def test_study_without_rows_is_shown_only_if_not_proven(verdict):
     else:
         with pytest.raises(Exception, match="its parts give not_proven"):
             build_view(study)
+
+
+def test_the_built_in_example_is_verified_without_a_site_file():
+    study = build_study()
+    run = replace(study.provenance, command="netdesign check --example --language fr")
+    (_, command), *_ = build_view(replace(study, provenance=run)).verification
+    assert command == "netdesign verify --study study.json"
