@@ -113,6 +113,5 @@ def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats
 
 def measure_looseness(contact: Contact) -> Looseness:
     """How loosely net and ground hold the snow."""
-    return Looseness(
-        slip=float((contact.sign != 0).mean()), lifts=bool(contact.is_lifted.any())
-    )
+    lifts = contact.is_lifted.any() or contact.is_open.any()
+    return Looseness(slip=float((contact.sign != 0).mean()), lifts=bool(lifts))

@@ -30,7 +30,7 @@ class Looseness(NamedTuple):
     slip : float
         Share of the net along which the snow slips [-].
     lifts : bool
-        The snow lifts off the ground somewhere: where it does so moves with the mesh.
+        The snow lifts off ground or net: where it does so moves with the mesh.
     """
 
     slip: float = 0.0
@@ -53,7 +53,7 @@ class ErrorModel(NamedTuple):
         The floor of each further mesh over that before [-].
     slip_share, lift_share : float
         What is added to ``share`` where the snow slips along the whole net, and where
-        it lifts off the ground [-].
+        it lifts off ground or net [-].
     lift_floor : float
         What is added to ``floor`` where it lifts [-].
     memory : float

@@ -57,7 +57,6 @@ from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
-from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
 
@@ -77,6 +76,8 @@ _FIRST_MESH = 5.0
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
 _LAYER_CONTRAST = 1e3
+# So may nets of more slack (over the chord): they hang close to the ground.
+_MUCH_SLACK = 0.1
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
 # Linear solves after which rounds on one mesh are given up: so many, or so many times
@@ -353,7 +354,7 @@ def _couple(
                 [one.curve for one in played], [one.image for one in played]
             )
     raise _fail(
-        problem.law,
+        problem,
         Outcome.MAX_ITERATIONS,
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {tried} rounds",
@@ -420,13 +421,13 @@ def _flow_along(
         step=settings.step,
     )
     if flow.outcome is not Outcome.CONVERGED:
-        raise _fail(problem.law, flow.outcome, f"snow flow: {flow.outcome.sentence}")
+        raise _fail(problem, flow.outcome, f"snow flow: {flow.outcome.sentence}")
     return flow
 
 
-def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
+def _fail(problem: SteadyProblem, outcome: Outcome, what: str) -> SolveError:
     """The failure, with what in the scene is known to leave no steady state."""
-    causes = []
+    law, causes = problem.law, []
     if "one-sided" in (law.ground_contact, law.net_contact):
         causes.append(
             "snow lifts off a one-sided support and settles again; a two-sided "
@@ -436,6 +437,11 @@ def _fail(law: FlowLaw, outcome: Outcome, what: str) -> SolveError:
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
         causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
+    if problem.slack > _MUCH_SLACK:
+        causes.append(
+            f"a net with a slack of {problem.slack:.3g} may come to lie on the ground; "
+            "less slack, less inclination or a stiffer net is needed"
+        )
     if outcome is not Outcome.MAX_ITERATIONS or not causes:
         return SolveError(outcome, what)
     return SolveError(
