@@ -248,10 +248,9 @@ def _solve_levels(
 
     try:
         return run(settings.levels)
-    except SuctionError:
-        raise
-    except SolveError:
-        if len(solved) < 2:
+    except SolveError as failure:
+        # what a finer mesh finds outside of the model, coarser ones do not prove
+        if len(solved) < 2 or failure.outcome is Outcome.OUT_OF_VALIDITY:
             raise
         return run(settings.levels[: len(solved)])
 

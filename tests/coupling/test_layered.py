@@ -197,3 +197,23 @@ def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes)
     assert result.cost.elements == finest
     assert result.foot.error > 1e-4 * result.foot.size
     assert len(solved) == meshes < len(MESH_LEVELS)
+
+
+@pytest.mark.parametrize("meshes", [2, 3])
+def test_what_a_finer_mesh_finds_outside_of_the_model_is_refused(
+    a_scene, monkeypatch, meshes
+):
+    """A net that touches the ground there is not proven by meshes too coarse for it."""
+    couple, solved = steady._couple, []
+
+    def couple_some(problem, *given, **named):
+        if len(solved) == meshes:
+            raise SolveError(Outcome.OUT_OF_VALIDITY, "the net would touch the ground")
+        solved.append(problem)
+        return couple(problem, *given, **named)
+
+    monkeypatch.setattr(steady, "_couple", couple_some)
+    scene = a_scene(ground="no-slip", inclination_deg=31.3)
+    refused = solve_steady(scene, SolverSettings(accuracy=1e-4))
+    assert isinstance(refused, FailedSolution)
+    assert refused.outcome is Outcome.OUT_OF_VALIDITY
