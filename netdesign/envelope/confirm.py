@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from netdesign.checks.result import Band
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope.extremes import find_extremes
@@ -115,12 +116,19 @@ def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
     if not history.is_converged:
         return replace(history, reason=f"history of a governing case: {history.reason}")
     compared = Compared(steady=steady, history=history)
-    raised = [member for member in steady.member_forces if compared.exceeds(member)]
-    forces = steady.member_forces | {
-        member: history.member_forces[member] for member in raised
-    }
-    shown = history if raised else steady
-    return replace(shown, member_forces=forces, compared=compared)
+    forces = {member: _take_demand(compared, member) for member in steady.member_forces}
+    raised = any(compared.exceeds(member) for member in forces)
+    return replace(
+        history if raised else steady, member_forces=forces, compared=compared
+    )
+
+
+def _take_demand(compared: Compared, member: str) -> Band:
+    """The steady force, or the history's; its band covers what the other may reach."""
+    steady = compared.steady.member_forces[member]
+    history = compared.history.member_forces[member]
+    taken = history if compared.exceeds(member) else steady
+    return replace(taken, high=max(steady.high, history.high))
 
 
 def build_history_settings(settings: SolverSettings) -> TransientSettings:

@@ -54,7 +54,8 @@ def test_a_history_counts_if_it_is_surely_larger(history, expected):
     """By more than both errors, 0.1 each; else the steady state is the demand."""
     followed = result(300.0, post=0.5, guy=history)
     merged = merge_history(GRID[0], followed)
-    assert merged.member_forces["guy"] == band(expected)
+    reached = max(9.1, history + 0.1)  # what either may reach is never left out
+    assert merged.member_forces["guy"] == replace(band(expected), high=reached)
     assert merged.member_forces["post"] == band(1.0)
     assert merged.is_converged
     assert merged.compared.steady is GRID[0]
