@@ -17,7 +17,7 @@ import netdesign
 PACKAGE = Path(netdesign.__file__).parent
 
 # First part of the name below ``netdesign`` (a package or a single module), by row.
-# The package itself stands for its version only.
+# The package itself stands for its version and, loaded later, the public names.
 ROWS = (
     {
         *("netdesign", "errors", "outcome", "units", "guards", "resources"),
@@ -34,7 +34,7 @@ ROWS = (
         *("envelope_record", "envelope_file", "study_repeat", "study_values", "audit"),
         *("scene_file", "solution_file", "verification", "paper"),
     },
-    {"benchmark"},
+    {"benchmark", "public", "examples"},  # examples see the public names only
     {"report"},
     {"commands"},
     {"cli"},
@@ -99,7 +99,7 @@ THIRD_PARTY = {
     "jinja2": ("report.page",),
     "markupsafe": ("report.html", "report.page"),
     "weasyprint": ("report.pdf",),
-    "matplotlib": ("report.*", "site.drawing"),
+    "matplotlib": ("report.*", "site.drawing", "examples.one_net"),
     "pandas": ("report.case_table",),
     "click": ("cli", "commands.*"),
     "rich": (
@@ -230,10 +230,25 @@ def test_module_keeps_to_its_row(module):
 
 def test_the_package_itself_imports_next_to_nothing():
     source = (PACKAGE / "__init__.py").read_text(encoding="utf-8")
-    assert [one.target for one in find_imports(source, "netdesign")] == [
+    imports = find_imports(source, "netdesign")
+    assert [one.target for one in imports if one.is_immediate] == [
         "os",
         "importlib.metadata.version",
+        "typing.TYPE_CHECKING",
     ]
+    # What it imports later are the public names: the one arrow of the package upwards.
+    assert [one.target for one in imports if not one.is_immediate] == [
+        "netdesign.public.*",
+        "netdesign.public",
+    ]
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("examples.")])
+def test_an_example_uses_public_names_only(module):
+    imports = find_imports(MODULES[module].read_text(encoding="utf-8"), module)
+    own = {one.target for one in imports if one.target.startswith("netdesign")}
+    assert own
+    assert own <= {f"netdesign.{name}" for name in netdesign.__all__}
 
 
 def test_every_module_has_a_row():
