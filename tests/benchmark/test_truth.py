@@ -59,7 +59,7 @@ def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     truth = solve_truth(a_scene(), MESH_LEVELS[3], SolverSettings())
     coarse, fine = solved(), solved(first_level=2)
     assert truth.compare(fine) < truth.compare(coarse) / 2
-    # physics.md, section 7: two independent codes
+    # FACTS.md, section 6: two independent codes
     assert np.hypot(*truth.foot) == pytest.approx(309.67e3, rel=3e-4)
     assert 2**HALVINGS == 4
 

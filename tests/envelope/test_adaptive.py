@@ -79,7 +79,7 @@ def test_every_number_of_parameters_is_searched(dimension):
 
 
 def test_foot_tension_that_is_not_monotonic_in_friction():
-    """Physics.md section 7: 369 at 0, 341 near 20, 345.6 where all sticks."""
+    """FACTS.md, section 6: 369 at 0, 341 near 20, 345.6 where all sticks."""
 
     def foot(u):
         phi = 45.0 * u[0]

@@ -48,7 +48,7 @@ def test_layered_pack(tmp_path):
     assert kinds == ["layered", "uniform"] * 3
     pulls = [numbers(line[16:]) for line in lines]
     feet = [one[0] for one in pulls]
-    # tests/verification/FACTS.md, layered scenes LA and LB
+    # FACTS.md, section 7: scenes LA and LB
     assert feet[0] == pytest.approx(27.987, abs=0.1)
     assert feet[4] == pytest.approx(168.14, abs=pulls[4][1])
     # The more the ground slips, the more hangs on the net.

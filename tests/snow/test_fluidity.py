@@ -12,7 +12,7 @@ from netdesign.snow.fluidity import (
 from netdesign.units import fluidity_to_mpa_year
 
 
-# standards-facts.md 7.5: B = 2A in MPa^-3 a^-1, three digits, from the same law.
+# FACTS.md, section 4: B = 2A in MPa^-3 a^-1, three digits, from the same law.
 @pytest.mark.parametrize(
     ("celsius", "expected"),
     [(-20, 10.5), (-15, 18.2), (-10, 30.9), (-5, 101), (-2, 202), (0, 317)],
