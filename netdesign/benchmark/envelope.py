@@ -1,4 +1,4 @@
-"""What an envelope costs and how well it bounds: the figures of the README.
+"""What an envelope costs and how well it bounds: the figures of its README.
 
 Sizes are arguments, so that the same functions serve a quick look and the full table.
 """
