@@ -13,14 +13,14 @@ from netdesign.commands.options import jobs_option
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
+    from netdesign.edge.progress import RunProgress
     from netdesign.envelope.run import CaseResult
     from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowEnvelope
     from netdesign.envelope.workers import Job
-    from netdesign.progress import RunProgress
     from netdesign.site.model import Site
-    from netdesign.site_cases import CheckRun
-    from netdesign.study import Study
+    from netdesign.study.cases import CheckRun
+    from netdesign.study.records import Study
 
 
 def solving_options(command: Any) -> Any:
@@ -64,10 +64,10 @@ def open_rows(
     profiles: int = 1,
 ) -> Iterator[SolvedRows]:
     """Search or sample the rows of a site; workers, store and progress stay open."""
+    from netdesign.edge.progress import show_phases
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
-    from netdesign.progress import show_phases
-    from netdesign.site_cases import list_phases, search_site, solve_site
+    from netdesign.study.cases import list_phases, search_site, solve_site
 
     with (
         open_runner(
@@ -92,7 +92,7 @@ def open_rows(
 
 def follow_runner(progress: RunProgress, runner: Runner) -> None:
     """Count every case of a runner; that histories have begun is seen by them."""
-    from netdesign.coupling.solve import method_of
+    from netdesign.solving.solve import method_of
 
     def ask(jobs: Sequence[Job]) -> None:
         if any(method_of(job.settings) != "steady" for job in jobs):
@@ -106,9 +106,9 @@ def judge_rows(
     site: Site, run: CheckRun, solved: SolvedRows, profiles: Sequence[Standard]
 ) -> list[Study]:
     """Study of each profile; what was measured on the site is followed once."""
-    from netdesign.check_site import judge_site
-    from netdesign.rowcheck.probe import Probe
-    from netdesign.site_cases import follow_site
+    from netdesign.study.cases import follow_site
+    from netdesign.study.check_site import judge_site
+    from netdesign.study.probe import Probe
 
     solved.progress.enter("measured")
     measured = follow_site(site, run, solved.runner)
