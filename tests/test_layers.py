@@ -18,8 +18,9 @@ PACKAGE = Path(netdesign.__file__).parent
 
 # Rooms, from the ground up. A room is a package, or the modules beside them. Each row
 # sees what stands below it; rooms on one row do not see each other.
-ROOT = "root"  # what every room may use
+ROOT = "root"  # modules beside the rooms, for all of them
 ROWS = (
+    {"words"},
     {ROOT},
     {"edge"},
     {"numerics", "resistance"},
