@@ -1,9 +1,9 @@
 """Texts of each language by key, and messages rendered in them.
 
-A language is a folder of TOML files, one for each area, whose tables give the first part
-of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistance``. A gap is
-``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace. Every
-language has every key with the same gaps; a test says so.
+A language is a folder of TOML files, one for each area, whose tables give the first
+part of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistance``. A
+gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace.
+Every language has every key with the same gaps; a test says so.
 """
 
 from __future__ import annotations
