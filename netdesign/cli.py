@@ -43,9 +43,11 @@ from netdesign.commands.paper import paper
 from netdesign.commands.report import DEFAULT_FOLDER, report
 from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options, temporary_example
-from netdesign.commands.solving import judge_rows, open_rows, solving_options
+from netdesign.commands.solving import open_run, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.verify import verify
+from netdesign.edge.given_files import make_printable
+from netdesign.edge.streams import guard_streams, print_json
 from netdesign.errors import (
     NetDesignError,
     OutputError,
@@ -53,21 +55,19 @@ from netdesign.errors import (
     StandardError,
 )
 from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
-from netdesign.given_files import make_printable
 from netdesign.outcome import Outcome, Verdict
-from netdesign.streams import guard_streams, print_json
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
-    from netdesign.coupling.bound import PullBound
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.solve import Settings
+    from netdesign.coupling.steady.bound import PullBound
     from netdesign.report.language import Language
-    from netdesign.report.solution_page import Solved
+    from netdesign.report.page.solution_page import Solved
     from netdesign.site.model import Site
-    from netdesign.study import Study
+    from netdesign.solving.solve import Settings
+    from netdesign.study.records import Study
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
@@ -174,14 +174,15 @@ def check(
     NETDESIGN_CHECK_JOBS.
     """
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.output import require_free, write_files
+    from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import (
         STUDY_FILE,
         ReportStyle,
         name_files,
         render_files,
     )
-    from netdesign.site_cases import CheckRun
+    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_site import check_site
 
     if example == (site_file is not None):
         raise click.UsageError(
@@ -203,17 +204,18 @@ def check(
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     style = ReportStyle(language=language, detail=detail)
-    with open_rows(
+    with open_run(
         site,
         run,
         executor=executor,
         cache=cache,
         quiet=quiet,
         profiles=len(profiles),
-    ) as solved:
-        studies = judge_rows(site, run, solved, profiles)
+    ) as (runner, progress):
+        studies = check_site(site, profiles, run, runner, progress)
+        progress.enter("reports")
         files = render_files(studies, names, style)
-    failed = tell_faults(solved.runner.faults)
+    failed = tell_faults(runner.faults)
     write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, quiet=quiet or as_json)
@@ -235,8 +237,8 @@ def init(
     netdesign init chantier.xlsx --language fr
     netdesign init example.xlsx --example
     """
-    from netdesign.output import require_free
-    from netdesign.site.template import write_site_workbook
+    from netdesign.edge.output import require_free
+    from netdesign.site.template.workbook import write_site_workbook
 
     require_free([site_file], overwrite=force)
     write_site_workbook(site_file, example=example, overwrite=force, language=language)
@@ -274,8 +276,8 @@ def solve(
         require_free_folder,
         write_solution_folder,
     )
-    from netdesign.scene_file import read_scene
-    from netdesign.solution_file import write_solution_document
+    from netdesign.files.scene import read_scene
+    from netdesign.files.solution import write_solution_document
 
     scene, settings = read_scene(scene_file, method)
     if out is not None:
@@ -303,9 +305,9 @@ def solve(
 
 def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     """Solution of a scene, and the exit code of a fault; it is told on stderr."""
-    from netdesign.coupling.describe import describe_case
     from netdesign.coupling.solution import FailedSolution
-    from netdesign.coupling.solve import solve_scene
+    from netdesign.solving.describe import describe_case
+    from netdesign.solving.solve import solve_scene
 
     case = describe_case(scene, settings)
     solution = catch_fault(lambda: solve_scene(scene, settings), case)
@@ -319,9 +321,9 @@ def _bound_refused(
     scene: Scene, settings: Settings, solution: object
 ) -> PullBound | None:
     """What a net without a steady state stays below; None if it has one."""
-    from netdesign.coupling.bound import bound_by_less_slack
     from netdesign.coupling.scene import SolverSettings
     from netdesign.coupling.solution import FailedSolution
+    from netdesign.coupling.steady.bound import bound_by_less_slack
 
     if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
         return bound_by_less_slack(scene, settings)
@@ -432,7 +434,7 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
 def _show(
     studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
 ) -> None:
-    from netdesign.study import write_document
+    from netdesign.study.records import write_document
 
     if not as_json:
         from netdesign.report.language import load_words

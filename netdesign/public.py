@@ -5,15 +5,15 @@
 """
 
 from netdesign.cable.net import Net as Net
-from netdesign.coupling.rigid import solve_rigid as solve_rigid
+from netdesign.coupling.history.transient import TransientSettings as TransientSettings
+from netdesign.coupling.history.transient import solve_transient as solve_transient
 from netdesign.coupling.scene import Scene as Scene
 from netdesign.coupling.scene import SolverSettings as SolverSettings
 from netdesign.coupling.solution import FailedSolution as FailedSolution
 from netdesign.coupling.solution import Solution as Solution
 from netdesign.coupling.solution import WallSolution as WallSolution
-from netdesign.coupling.steady import solve_steady as solve_steady
-from netdesign.coupling.transient import TransientSettings as TransientSettings
-from netdesign.coupling.transient import solve_transient as solve_transient
+from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
+from netdesign.coupling.steady.rounds import solve_steady as solve_steady
 from netdesign.errors import NetDesignError as NetDesignError
 from netdesign.errors import SolveError as SolveError
 from netdesign.snow.ground import GroundLaw as GroundLaw

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from netdesign.paper.cases import PaperSettings, list_cases
-from netdesign.paper.runs import PaperRun, Shape, Track
-from netdesign.paper.study import PaperStudy
+from netdesign.evidence.paper.cases import PaperSettings, list_cases
+from netdesign.evidence.paper.runs import PaperRun, Shape, Track
+from netdesign.evidence.paper.study import PaperStudy
 
 SETTINGS = PaperSettings()
 TRIANGLE = np.array([[0.0, 4.0, 0.0], [0.0, 0.0, 4.0]])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.site import template
+from netdesign.site.template import workbook as template
 
 
 def write_short_example(path, rows, *, is_grid=True, leans=True):

@@ -12,9 +12,9 @@ from netdesign.site.model import (
     Resistance,
     Site,
 )
-from netdesign.site_cases import CheckRun
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
+from netdesign.study.cases import CheckRun
 
 STRONG, WEAK = 1e7, 1e3  # [N]
 RUN = CheckRun(

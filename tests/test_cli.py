@@ -17,10 +17,10 @@ import openpyxl
 import pytest
 
 from netdesign import __version__, cli
-from netdesign.resources import find_resource
+from netdesign.edge.resources import find_resource
 from netdesign.site.reader import read_site
-from netdesign.site.template import load_example
-from netdesign.study import read_document, write_document
+from netdesign.site.template.workbook import load_example
+from netdesign.study.records import read_document, write_document
 
 PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
 PROFILE = "nf-p-95-304-style"
@@ -416,11 +416,11 @@ def test_what_is_no_workbook_ends_with_3(tmp_path, content):
 # --- bugs, interrupts, closed pipes ------------------------------------------------
 
 BUG = """
-import netdesign.site_cases
+import netdesign.study.cases
 def solve_site(*_):
     raise ZeroDivisionError("spoilt")
-netdesign.site_cases.solve_site = solve_site
-netdesign.site_cases.search_site = solve_site
+netdesign.study.cases.solve_site = solve_site
+netdesign.study.cases.search_site = solve_site
 """
 
 
@@ -585,7 +585,7 @@ def test_init_never_overwrites_unasked(tmp_path):
 
 def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path):
     # judged again it may be, never solved again
-    without = "import netdesign.coupling.steady as s\ns.solve_steady = None"
+    without = "import netdesign.coupling.steady.rounds as s\ns.solve_steady = None"
     result = run(
         *("report", home / "out" / "study.json", "--out", "again"),
         cwd=tmp_path,

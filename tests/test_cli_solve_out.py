@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from netdesign import cli
-from netdesign.report.solution_page import render_solution, write_history
+from netdesign.report.page.solution_page import render_solution, write_history
 
 SCENE = """
 [slope]
@@ -107,8 +107,8 @@ def test_json_stays_alone_on_stdout(tmp_path, monkeypatch, capsys):
 def test_a_failed_solve_has_a_page_with_its_reason():
     from netdesign.coupling.scene import SolverSettings
     from netdesign.coupling.solution import FailedSolution
+    from netdesign.files.solution import write_solution_document
     from netdesign.outcome import Outcome
-    from netdesign.solution_file import write_solution_document
 
     failed = FailedSolution(outcome=Outcome.NO_EQUILIBRIUM, reason="<b>too slack</b>")
     document = write_solution_document(failed, SolverSettings(), 0.1)
@@ -127,8 +127,8 @@ def test_history_table_has_a_column_for_each_node():
 
 
 def test_paper_writes_its_folder_and_names_failures(tmp_path, monkeypatch, capsys):
-    from netdesign.paper import study as module
-    from netdesign.paper.cases import find_history
+    from netdesign.evidence.paper import study as module
+    from netdesign.evidence.paper.cases import find_history
     from tests.build_paper import build_study
 
     made = build_study()

@@ -120,9 +120,11 @@ def test_what_a_solver_means_keeps_its_outcome(end_of, error, outcome):
 CATCH_ALL = {
     "fault.py": "catch_fault",  # every case, whoever solves it
     "cli.py": "_run",
-    "output.py": "_exchange",  # undoes, and raises again
-    "benchmark/spread.py": "_work_through",  # stops its processes, and raises again
-    "benchmark/stress.py": "attempt_scene",  # counts bugs: that is what it is for
+    "edge/output.py": "_exchange",  # undoes, and raises again
+    # stops its processes, and raises again
+    "evidence/benchmark/spread.py": "_work_through",
+    # counts bugs: that is what it is for
+    "evidence/benchmark/stress.py": "attempt_scene",
     "commands/doctor.py": "_try",  # so is this
 }
 

@@ -16,101 +16,65 @@ import netdesign
 
 PACKAGE = Path(netdesign.__file__).parent
 
-# First part of the name below ``netdesign`` (a package or a single module), by row.
-# The package itself stands for its version and, loaded later, the public names.
+# Rooms, from the ground up. A room is a package, or the modules beside them. Each row
+# sees what stands below it; rooms on one row do not see each other.
+ROOT = "root"  # modules beside the rooms, for all of them
 ROWS = (
-    {
-        *("netdesign", "errors", "outcome", "units", "guards", "resources"),
-        *("quantities", "output", "progress", "given_files", "json_text", "streams"),
-        *("fault",),
-    },
+    {"words"},
+    {ROOT},
+    {"edge"},
     {"numerics", "resistance"},
     {"snow", "cable", "structure", "checks"},
     {"coupling", "guideline"},
+    {"coupling.steady"},
+    {"coupling.history"},
+    {"solving"},
     {"envelope"},
+    {"site.columns"},
+    {"site.cells"},
     {"site"},
-    {
-        *("study", "check_site", "monitoring", "rowcheck", "site_cases"),
-        *("envelope_record", "envelope_file", "study_repeat", "study_values", "audit"),
-        *("scene_file", "solution_file", "verification", "paper"),
-    },
-    {"benchmark", "public", "examples"},  # examples see the public names only
-    {"report"},
+    {"site.template"},
+    {"study"},
+    {"study.audit", "files"},
+    {"report", "public", "examples"},  # examples see the public names only
+    {"evidence"},
+    {"evidence.verification", "evidence.paper", "evidence.benchmark"},
     {"commands"},
     {"cli"},
     {"__main__"},
 )
-
-# Neighbours on one row do not see each other, but for these.
-NEIGHBOURS = {
-    ("errors", "outcome"),  # a SolveError carries its outcome
-    ("guards", "errors"),  # guards raise
-    ("fault", "errors"),  # tells what is raised on purpose from what is not
-    ("resources", "errors"),
-    ("output", "errors"),
-    ("check_site", "study"),  # fills in what study.py declares
-    ("check_site", "site_cases"),  # judges what site_cases.py solved
-    ("check_site", "envelope_record"),
-    ("envelope_record", "study"),
-    ("envelope_file", "envelope_record"),
-    ("envelope_file", "study"),
-    ("site_cases", "monitoring"),
-    ("site_cases", "rowcheck"),  # the scene of a row at a case
-    ("site_cases", "study"),
-    ("monitoring", "study"),  # fills in what study.py declares too
-    ("cli", "commands"),  # registers what would make it too long
-    ("rowcheck", "study"),  # so does this
-    ("check_site", "rowcheck"),
-    ("study_repeat", "check_site"),  # what a study says of its settings
-    ("study_repeat", "site_cases"),
-    ("study_repeat", "study"),
-    ("audit", "study"),
-    ("audit", "check_site"),  # how a study states a profile
-    ("audit", "rowcheck"),  # judges checks again
-    ("audit", "study_values"),
-    ("study_repeat", "study_values"),
-}
+ROOMS = set().union(*ROWS)
+ROOT_MODULES = {"errors", "outcome", "units", "guards", "quantities", "fault"}
 
 # Third-party packages, and the modules that may import them.
 THIRD_PARTY = {
     "numpy": (
-        *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.*", "solution_file", "verification.*", "benchmark.*"),
-        *(
-            "envelope_record",
-            "monitoring",
-            "paper.runs",
-            "paper.findings",
-            "report.net_figures",
-        ),
-        *("guideline.comparison", "commands.doctor"),
+        *("numerics.*", "snow.*", "cable.*", "coupling.*", "envelope.*"),
+        *("guideline.comparison", "files.solution", "evidence.*"),
+        *("study.record_envelope", "study.record_monitoring"),
+        *("report.drawing.net_figures", "commands.doctor"),
     ),
-    "scipy": (
-        *("numerics.newton", "snow.*", "envelope.store", "verification.*"),
-        "benchmark.reference_path",
-    ),
+    "scipy": ("numerics.newton", "snow.*", "envelope.store", "evidence.*"),
     "distributed": ("envelope.workers",),
-    "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),
-    "openpyxl": ("site.xlsx", "site.annotate"),
-    "defusedxml": ("site.xlsx", "site.ods"),
-    "xlsxwriter": ("site.template", "site.notes_sheet", "report.*"),
-    "pydantic": ("checks.schema", "scene_file", "study", "json_text"),
-    "pydantic_core": ("checks.schema", "json_text"),
-    "jinja2": ("report.page",),
-    "markupsafe": ("report.html", "report.page"),
-    "weasyprint": ("report.pdf",),
-    "matplotlib": ("report.*", "site.drawing", "examples.one_net"),
-    "pandas": ("report.case_table",),
-    "click": ("cli", "commands.*"),
-    "rich": (
-        *(
-            "commands.verify",
-            "progress",
-            "report.terminal",
-            "report.verification_table",
-        ),
-        *("commands.bench", "report.bench_table"),
+    "skfem": (
+        *("snow.mesh", "snow.kernel", "snow.forms"),
+        "evidence.benchmark.reference_path",
     ),
+    "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
+    "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
+    "xlsxwriter": ("site.template.*", "report.workbook.*"),
+    "pydantic": ("checks.schema", "files.scene", "study.records", "edge.json_text"),
+    "pydantic_core": ("checks.schema", "edge.json_text"),
+    "jinja2": ("report.page.render",),
+    "markupsafe": ("report.page.*",),
+    "weasyprint": ("report.page.pdf",),
+    "matplotlib": (
+        *("report.drawing.*", "site.template.drawing", "evidence.*"),
+        "examples.one_net",
+    ),
+    "pandas": ("report.view.case_table",),
+    "click": ("cli", "commands.*"),
+    "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
 }
 
 # Slow to import: only inside functions, so that help is there at once.
@@ -179,15 +143,18 @@ def name_targets(node: ast.AST, module: str) -> list[str]:
     return [f"{base}.{alias.name}" for alias in node.names]
 
 
-def own_part(target: str) -> str:
-    """Unit of the tables that a name of the package belongs to."""
+def name_room(target: str) -> str:
+    """Room of a module, or of a name in one, given below ``netdesign``."""
     parts = target.split(".")
-    known = set().union(*ROWS)
-    return parts[1] if len(parts) > 1 and parts[1] in known else "netdesign"
+    if parts[0] in ROOT_MODULES:
+        return ROOT
+    names = [".".join(parts[:count]) for count in range(len(parts), 0, -1)]
+    # what is not a room is the package's own: its version and its public names
+    return next((name for name in names if name in ROOMS), ROOT)
 
 
-def row_of(part: str) -> int:
-    return next(number for number, row in enumerate(ROWS) if part in row)
+def row_of(room: str) -> int:
+    return next(number for number, row in enumerate(ROWS) if room in row)
 
 
 def faults(source: str, module: str) -> list[str]:
@@ -203,7 +170,7 @@ def faults(source: str, module: str) -> list[str]:
 def judge(one: Import, module: str) -> str:
     top = one.target.split(".")[0]
     if top == "netdesign":
-        return judge_own(module.split(".")[0], own_part(one.target))
+        return judge_own(name_room(module), name_room(below_package(one.target)))
     if top in sys.stdlib_module_names:
         return ""
     if not any(fnmatch(module, allowed) for allowed in THIRD_PARTY.get(top, ())):
@@ -213,12 +180,16 @@ def judge(one: Import, module: str) -> str:
     return ""
 
 
-def judge_own(part: str, target: str) -> str:
-    if part == target or (part, target) in NEIGHBOURS:
+def below_package(target: str) -> str:
+    return target.partition(".")[2]
+
+
+def judge_own(room: str, target: str) -> str:
+    if room == target:
         return ""
-    if row_of(target) > row_of(part):
-        return f"stands on row {row_of(target)}, above {row_of(part)}"
-    if row_of(target) == row_of(part) and target != "netdesign":
+    if row_of(target) > row_of(room):
+        return f"stands on row {row_of(target)}, above {row_of(room)}"
+    if row_of(target) == row_of(room):
         return "is a neighbour on the same row"
     return ""
 
@@ -251,27 +222,22 @@ def test_an_example_uses_public_names_only(module):
     assert own <= {f"netdesign.{name}" for name in netdesign.__all__}
 
 
-def test_every_module_has_a_row():
-    parts = {module.split(".")[0] for module in MODULES}
-    assert parts <= set().union(*ROWS)
-    assert sum(len(row) for row in ROWS) == len(set().union(*ROWS))
+def test_every_module_has_a_room():
+    loose = {module for module in MODULES if name_room(module) == ROOT}
+    assert loose == ROOT_MODULES
+    assert sum(len(row) for row in ROWS) == len(ROOMS)
+    assert {name_room(module) for module in MODULES} == ROOMS
 
 
-def test_no_entry_of_the_tables_is_idle():
+def test_no_allowance_is_idle():
     """An allowance that nothing uses is a door left open."""
-    parts = {module.split(".")[0] for module in MODULES} | {"netdesign"}
-    assert set().union(*ROWS) == parts
     used = {
-        (module, one.target.split(".")[0], own_part(one.target))
+        (module, one.target.split(".")[0])
         for module, path in MODULES.items()
         for one in find_imports(path.read_text(encoding="utf-8"), module)
     }
-    neighbours = {
-        (module.split(".")[0], part) for module, top, part in used if top == "netdesign"
-    }
-    assert neighbours >= NEIGHBOURS
     for package, allowed in THIRD_PARTY.items():
-        users = [module for module, top, _ in used if top == package]
+        users = [module for module, top in used if top == package]
         for pattern in allowed:
             assert any(fnmatch(user, pattern) for user in users), (package, pattern)
 
@@ -294,14 +260,14 @@ def test_no_module_imports_by_name_at_run_time():
         ("snow.flow", "from .. import cable", "neighbour"),
         ("snow.flow", "if TYPE_CHECKING:\n    import netdesign.cli", "above"),
         ("snow.flow", "class A:\n    def f(self):\n        import click", "allowed"),
-        ("study", "import netdesign.check_site", "neighbour"),
-        ("units", "import netdesign.output", "neighbour"),
+        ("site.cells.xlsx", "import netdesign.site.reader", "above"),
+        ("units", "import netdesign.edge.output", "above"),
         ("checks.check", "import numpy as np", "allowed"),
         ("snow.flow", "import skfem", "allowed"),
-        ("report.view", "import pandas", "allowed"),
+        ("report.view.whole", "import pandas", "allowed"),
         ("site.reader", "import openpyxl", "allowed"),
-        ("site.xlsx", "import openpyxl", "inside a function"),
-        ("site.xlsx", "class A:\n    import openpyxl", "inside a function"),
+        ("site.cells.xlsx", "import openpyxl", "inside a function"),
+        ("site.cells.xlsx", "class A:\n    import openpyxl", "inside a function"),
         (
             "commands.verify",
             "try:\n    import rich\nexcept ImportError:\n    pass",
@@ -321,10 +287,10 @@ def test_the_walk_finds_what_is_forbidden(module, source, fault):
         ("snow.flow", "from netdesign.snow import mesh\nfrom . import kernel"),
         ("snow.flow", "import math\nimport numpy.typing"),
         ("cli", "from netdesign import __version__"),
-        ("check_site", "from netdesign.study import Study"),
-        ("site.xlsx", "def f():\n    import openpyxl"),
-        ("site.xlsx", "if TYPE_CHECKING:\n    import openpyxl"),
-        ("report.html", "from netdesign.errors import NetDesignError"),
+        ("study.check_site", "from netdesign.study.records import Study"),
+        ("site.cells.xlsx", "def f():\n    import openpyxl"),
+        ("site.cells.xlsx", "if TYPE_CHECKING:\n    import openpyxl"),
+        ("report.page.html", "from netdesign.errors import NetDesignError"),
     ],
 )
 def test_the_walk_lets_the_rest_pass(module, source):

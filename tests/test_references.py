@@ -25,7 +25,8 @@ NO_AUTHORS = {"December 1992", "Bern 2007", "Paris 2013"}
 NO_AUTHORS |= {"Ice 2012"}  # the manual of Elmer/Ice, listed by its author
 NO_DOCUMENT = {"REMARKS.md"}  # a file's wrong name, in a test
 # Translations repeat what the texts cite.
-TRANSLATIONS = ("netdesign/report/languages", "netdesign/site/words")
+TRANSLATIONS = ("netdesign/report/languages", "netdesign/site/columns/words")
+TRANSLATIONS += ("netdesign/words/de", "netdesign/words/fr")
 
 
 def read(path):

@@ -20,14 +20,14 @@ from netdesign.checks.schema import (
     TablesFile,
     check_table,
 )
-from netdesign.errors import StandardError
-from netdesign.given_files import (
+from netdesign.edge.given_files import (
     MAX_TOML_BYTES,
     is_there,
     parse_toml,
     read_bounded,
 )
-from netdesign.resources import find_resource
+from netdesign.edge.resources import find_resource
+from netdesign.errors import StandardError
 from netdesign.units import radian_from_degree
 
 CONFIRM = "assumed: confirm in your copy of the standard"

@@ -14,8 +14,8 @@ from netdesign.commands.options import accuracy_option, jobs_option, json_option
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from netdesign.benchmark.rows import Row
-    from netdesign.study import Study
+    from netdesign.evidence.benchmark.rows import Row
+    from netdesign.study.records import Study
 
 Kind = Literal["stress", "errors", "lines"]
 
@@ -123,11 +123,15 @@ def _run_random(
     kind: Kind, count: int, seed: int, accuracy: float, jobs: int, *, as_json: bool
 ) -> int:
     """Exit code of a run over random scenes."""
-    from netdesign.benchmark.honesty import study_errors, write_errors
-    from netdesign.benchmark.lines import study_lines, write_lines
-    from netdesign.benchmark.stress import run_stress, write_stress
-    from netdesign.progress import show_progress
-    from netdesign.report.bench_table import print_errors, print_lines, print_stress
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.benchmark.bench_table import (
+        print_errors,
+        print_lines,
+        print_stress,
+    )
+    from netdesign.evidence.benchmark.honesty import study_errors, write_errors
+    from netdesign.evidence.benchmark.lines import study_lines, write_lines
+    from netdesign.evidence.benchmark.stress import run_stress, write_stress
 
     known: dict[Kind, tuple[Any, Any, Any]] = {
         "stress": (run_stress, write_stress, print_stress),
@@ -150,7 +154,11 @@ def _run_random(
 
 def _run_envelope(missed: int, *, quick: bool, as_json: bool) -> int:
     """Exit code: a quick look reaches nothing and so fails at nothing."""
-    from netdesign.benchmark.envelope import QUICK, BenchSize, run_envelope_bench
+    from netdesign.evidence.benchmark.envelope import (
+        QUICK,
+        BenchSize,
+        run_envelope_bench,
+    )
     from netdesign.report.files import render_files
 
     def render(study: Study) -> object:
@@ -185,14 +193,14 @@ def _run_named(
     force: bool,
     as_json: bool,
 ) -> None:
-    from netdesign.benchmark.precision import write_bench
-    from netdesign.output import require_free, write_files
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.evidence.benchmark.precision import write_bench
 
     if plot is not None:
         require_free([plot], overwrite=force)
     rows = _measure(names, quick=quick)
     if plot is not None:
-        from netdesign.report.bench_figure import draw_work_precision
+        from netdesign.evidence.benchmark.bench_figure import draw_work_precision
 
         write_files({plot: draw_work_precision(rows).encode()}, overwrite=force)
         click.echo(f"wrote {plot}", err=True)
@@ -201,20 +209,20 @@ def _run_named(
     else:
         from rich.console import Console
 
-        from netdesign.report.bench_table import print_rows
+        from netdesign.evidence.benchmark.bench_table import print_rows
 
         print_rows(rows, Console())
 
 
 def _measure(names: tuple[str, ...], *, quick: bool) -> Sequence[Row]:
-    from netdesign.benchmark.precision import (
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.benchmark.precision import (
         FULL,
         QUICK,
         measure_steady,
         measure_transient,
     )
-    from netdesign.benchmark.scenes import HISTORY_SCENES, load_scenes
-    from netdesign.progress import show_progress
+    from netdesign.evidence.benchmark.scenes import HISTORY_SCENES, load_scenes
 
     chosen = load_scenes(names)
     rows: list[Row] = []

@@ -24,7 +24,7 @@ from typing import Any
 
 import click
 
-from netdesign.given_files import is_there, read_toml
+from netdesign.edge.given_files import is_there, read_toml
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"

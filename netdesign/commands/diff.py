@@ -33,7 +33,7 @@ def diff(old: Path, new: Path, *, as_json: bool) -> None:
     netdesign diff rev-a/study.json rev-b/study.json --json
     """
     from netdesign.report.difference import compare_studies, write_difference
-    from netdesign.study import load_study
+    from netdesign.study.records import load_study
 
     changes = compare_studies(load_study(old), load_study(new))
     if as_json:

@@ -114,7 +114,7 @@ def _round_trip_example() -> str:
     from pathlib import Path
 
     from netdesign.site.reader import read_site
-    from netdesign.site.template import write_site_workbook
+    from netdesign.site.template.workbook import write_site_workbook
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "example.xlsx"
@@ -133,7 +133,7 @@ def _solve_small_scene() -> str:
     from netdesign.cable.net import Net
     from netdesign.coupling.scene import Scene, SolverSettings
     from netdesign.coupling.solution import FailedSolution
-    from netdesign.coupling.steady import solve_steady
+    from netdesign.coupling.steady.rounds import solve_steady
     from netdesign.errors import SolveError
     from netdesign.snow.ground import GroundLaw
     from netdesign.snow.snowpack import Snowpack

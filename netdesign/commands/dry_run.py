@@ -14,10 +14,10 @@ from netdesign.commands.faults import tell_faults
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.edge.progress import Phase
     from netdesign.envelope.runner import Runner
-    from netdesign.progress import Phase
     from netdesign.site.model import Site
-    from netdesign.site_cases import CheckRun
+    from netdesign.study.cases import CheckRun
 
 
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
@@ -26,7 +26,7 @@ _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""
     from netdesign.envelope.runner import Runner
-    from netdesign.site_cases import list_phases
+    from netdesign.study.cases import list_phases
 
     runner, phases = Runner(), list_phases(site, run, profiles)
     seconds = _predict(phases, _measure_case(site, run, runner))
@@ -84,7 +84,7 @@ def _predict(phases: Sequence[Phase], of_case: float) -> float:
 def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
     """Seconds of one case on this machine: the middle of the ranges, for some rows."""
     from netdesign.envelope.grid import Interval, Ranges
-    from netdesign.site_cases import solve_site
+    from netdesign.study.cases import solve_site
 
     def middle(interval: Interval) -> Interval:
         value = (interval.low + interval.high) / 2

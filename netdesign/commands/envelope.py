@@ -25,12 +25,12 @@ from netdesign.commands.solving import follow_runner, solving_options
 
 if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
-    from netdesign.coupling.solve import Settings
+    from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.parameters import Box
     from netdesign.envelope.runner import Runner
     from netdesign.envelope.search import RowTask
-    from netdesign.progress import Phase, RunProgress
-    from netdesign.study import EnvelopeRecord
+    from netdesign.solving.solve import Settings
+    from netdesign.study.records import EnvelopeRecord
 
 _OPTIONS = (
     ("--density", "density", "Snow density [kg/m3]."),
@@ -94,12 +94,12 @@ def envelope(
     netdesign envelope scene.toml --inclination 25:35 --json
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.edge.progress import show_phases
     from netdesign.envelope.parameters import require_valid
     from netdesign.envelope.session import open_runner
     from netdesign.envelope.store import find_store
-    from netdesign.output import require_free, write_files
-    from netdesign.progress import show_phases
-    from netdesign.scene_file import read_scene
+    from netdesign.files.scene import read_scene
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
@@ -157,8 +157,8 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
 
 def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
     """What is done, with about so many cases; confirmations are part of a search."""
-    from netdesign.progress import Phase
-    from netdesign.site_cases import HISTORY
+    from netdesign.edge.progress import Phase
+    from netdesign.study.cases import HISTORY
 
     counts = [one.count for one in given.values() if one.count]
     number = math.prod(counts) if counts else _USUAL_CASES * len(given)
@@ -216,7 +216,7 @@ def _read_confirming(
     scene_file: Path, confirm: Literal["mesh", "transient", "none"]
 ) -> Settings | None:
     """Settings of the scene file for the other fidelity."""
-    from netdesign.scene_file import read_scene
+    from netdesign.files.scene import read_scene
 
     if confirm == "none":
         return None
@@ -230,7 +230,7 @@ def _sample(
 ) -> dict[str, Any]:
     """Document of a grid."""
     from netdesign.envelope.search import run_grid
-    from netdesign.envelope_file import write_grid_document
+    from netdesign.files.envelope import write_grid_document
 
     grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
@@ -242,7 +242,7 @@ def _search(
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document of a bounded search, and its model to draw."""
     from netdesign.envelope.search import search_rows
-    from netdesign.envelope_file import write_envelope_document
+    from netdesign.files.envelope import write_envelope_document
 
     (found,) = search_rows([task], runner, progress.tell_wave)
     elapsed = time.perf_counter() - start
@@ -251,7 +251,11 @@ def _search(
 
 def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
     """Contents of the outputs; a grid has no model to draw."""
-    from netdesign.report.envelope_maps import draw_drivers, draw_lines, draw_maps
+    from netdesign.report.drawing.envelope_maps import (
+        draw_drivers,
+        draw_lines,
+        draw_maps,
+    )
 
     pictures = [
         draw(record) if record else "" for draw in (draw_maps, draw_lines, draw_drivers)

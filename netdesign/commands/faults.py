@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping
 
 import click
 
+from netdesign.edge.given_files import make_printable
 from netdesign.fault import EXIT_CODE, Fault
-from netdesign.given_files import make_printable
 
 _SHOWN = 20  # cases of one fault
 TRACEBACK = "NETDESIGN_TRACEBACK"  # a variable that asks for the whole way

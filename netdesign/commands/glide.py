@@ -8,7 +8,7 @@ import click
 @click.command()
 def glide() -> None:
     """Measure the glide factors of slip lengths again, beside the stored table."""
-    from netdesign.coupling.glide import measure_glide_factor
+    from netdesign.coupling.steady.glide_factor import measure_glide_factor
     from netdesign.snow.creep_law import CREEP_LAWS
     from netdesign.snow.ground import load_glide_tables
 

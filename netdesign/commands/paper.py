@@ -30,11 +30,11 @@ def paper(out: Path, *, force: bool, jobs: int | None, quiet: bool) -> None:
     """
     import sys
 
-    from netdesign.output import require_free, write_files
-    from netdesign.paper.cases import PaperSettings, list_cases
-    from netdesign.paper.study import run_study
-    from netdesign.progress import show_progress
-    from netdesign.report.paper_page import PAGE_FILE, render_paper
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.paper.cases import PaperSettings, list_cases
+    from netdesign.evidence.paper.page import PAGE_FILE, render_paper
+    from netdesign.evidence.paper.study import run_study
 
     settings = PaperSettings()
     require_free([out / PAGE_FILE], overwrite=force)

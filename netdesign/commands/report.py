@@ -20,7 +20,7 @@ from netdesign.errors import NetDesignError, StudyError
 if TYPE_CHECKING:
     from netdesign.checks import Standard
     from netdesign.site.model import Site
-    from netdesign.study import Study
+    from netdesign.study.records import Study
 
 DEFAULT_FOLDER = "netdesign-out"
 _SHOWN = 10  # contradictions; more help nobody
@@ -51,10 +51,10 @@ def report(
     netdesign report netdesign-out/study.json --language fr --out rapport
     netdesign report netdesign-out/study.json --detail summary --no-excel --force
     """
-    from netdesign.output import require_free, write_files
+    from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import ReportStyle, name_files, render_files
     from netdesign.report.words import VERDICTS
-    from netdesign.study import load_study
+    from netdesign.study.records import load_study
 
     study = load_study(study_file)
     names = name_files(out, [study.profile.id], list_wanted(options))
@@ -77,8 +77,8 @@ def _require_sound(
     StudyError
         With the contradictions, or if a file that was given is not the study's.
     """
-    from netdesign.audit import audit_study
-    from netdesign.study import compute_digest
+    from netdesign.study.audit import audit_study
+    from netdesign.study.records import compute_digest
 
     site = _find_site(study, study_file, site_file)
     profile = _find_profile(study, standard)
@@ -129,7 +129,7 @@ def _find_profile(study: Study, standard: str | None) -> Standard | None:
 
 
 def _tell_uncompared(what: str, reason: str) -> None:
-    from netdesign.given_files import make_printable
+    from netdesign.edge.given_files import make_printable
 
     text = f"not compared with its {what}: {reason}"
     click.echo(make_printable(text), err=True)

@@ -45,7 +45,7 @@ def list_wanted(options: dict[str, Any]) -> list[str]:
         If one of them cannot be written on this machine.
     """
     from netdesign.report.files import list_reports
-    from netdesign.report.pdf import require_pdf
+    from netdesign.report.page.pdf import require_pdf
 
     names = ("html", "excel", "csv", "pdf")
     wanted = {name: options.pop(name) for name in names}

@@ -12,7 +12,7 @@ import click
 from netdesign.errors import OutputError, SiteDataError
 
 if TYPE_CHECKING:
-    from netdesign.site.cells import TextFormat
+    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site
 
 _DELIMITERS = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";"}
@@ -71,8 +71,8 @@ def open_site(
     OutputError
         If the copy is in the way of another file.
     """
-    from netdesign.output import require_free
-    from netdesign.site.cells import TextFormat
+    from netdesign.edge.output import require_free
+    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.reader import read_site
 
     text_format = TextFormat(
@@ -116,7 +116,7 @@ def temporary_example() -> Iterator[Path]:
     """
     import tempfile
 
-    from netdesign.site.template import write_site_workbook
+    from netdesign.site.template.workbook import write_site_workbook
 
     try:
         place = tempfile.TemporaryDirectory()
@@ -136,9 +136,9 @@ def _write_copy(
     *,
     overwrite: bool,
 ) -> None:
-    from netdesign.output import write_files
-    from netdesign.site.annotate import annotate_workbook
-    from netdesign.site.diagnostics import Finding
+    from netdesign.edge.output import write_files
+    from netdesign.site.cells.findings import Finding
+    from netdesign.site.template.annotate import annotate_workbook
 
     findings = [one for one in read.findings if isinstance(one, Finding)]
     try:

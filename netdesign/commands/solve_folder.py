@@ -6,14 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solve import Settings, method_of
-from netdesign.output import require_free, write_files
-from netdesign.report.solution_page import (
+from netdesign.edge.output import require_free, write_files
+from netdesign.report.page.solution_page import (
     Solved,
     list_solution_files,
     render_solution,
 )
 from netdesign.snow.wall import Wall
+from netdesign.solving.solve import Settings, method_of
 
 
 def require_free_folder(

@@ -14,7 +14,7 @@ from netdesign.errors import StudyError
 
 if TYPE_CHECKING:
     from netdesign.site.model import Site
-    from netdesign.study import Study
+    from netdesign.study.records import Study
 
 NO_COMMAND = "netdesign check"  # of a study that no command line made
 
@@ -46,7 +46,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
     StudyError
         If there is none.
     """
-    from netdesign.given_files import is_there
+    from netdesign.edge.given_files import is_there
 
     values = _parse_command(study.provenance.command) or {}
     name = Path(study.provenance.site_file).name  # never a path out of these folders
@@ -68,7 +68,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
 
 def contradict_command(study: Study) -> Iterator[str]:
     """Sentences on where the command of a study is not one that could make it."""
-    from netdesign.given_files import make_printable
+    from netdesign.edge.given_files import make_printable
 
     made = study.provenance
     if made.command == NO_COMMAND:

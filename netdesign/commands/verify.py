@@ -14,7 +14,7 @@ import click
 
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.options import jobs_option, json_option
-from netdesign.commands.solving import judge_rows, open_rows
+from netdesign.commands.solving import open_run
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
@@ -23,8 +23,8 @@ from netdesign.commands.stored_study import (
 )
 
 if TYPE_CHECKING:
-    from netdesign.study import Study
-    from netdesign.study_values import Difference
+    from netdesign.study.records import Study
+    from netdesign.study.values import Difference
 
 _FAIL, _NOT_PROVEN = 1, 4
 _SHOWN = 20  # differences; more help nobody
@@ -71,8 +71,8 @@ def verify(
 
 
 def _run_pack(*, as_json: bool) -> int:
-    from netdesign.progress import show_progress
-    from netdesign.verification.pack import GROUPS, run_pack, write_pack
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
     with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
         cases = run_pack(advance)
@@ -81,7 +81,7 @@ def _run_pack(*, as_json: bool) -> int:
     else:
         from rich.console import Console
 
-        from netdesign.report.verification_table import print_cases
+        from netdesign.evidence.verification.verification_table import print_cases
 
         print_cases(cases, Console())
     return 0 if all(case.passes for case in cases) else _FAIL
@@ -91,10 +91,11 @@ def _verify_study(
     path: Path, site_file: Path | None, standard: str | None, jobs: int | None
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
-    from netdesign.audit import audit_study
     from netdesign.checks import load_standard
-    from netdesign.study import load_study
-    from netdesign.study_repeat import build_run, is_of_ties, list_differences
+    from netdesign.study.audit import audit_study
+    from netdesign.study.check_site import check_site
+    from netdesign.study.records import load_study
+    from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
     study = load_study(path)
     run = build_run(study, jobs or os.cpu_count() or 1)
@@ -113,9 +114,9 @@ def _verify_study(
         _show_contradictions("its time", list(_contradict_time(study))),
         _show_contradictions("its own arithmetic", audit_study(study, profile, site)),
     ]
-    with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
-        (again,) = judge_rows(site, run, solved, [profile])
-    if failed := tell_faults(solved.runner.faults):
+    with open_run(site, run, executor="", cache=False, quiet=False) as (runner, watch):
+        (again,) = check_site(site, [profile], run, runner, watch)
+    if failed := tell_faults(runner.faults):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]
@@ -128,7 +129,7 @@ def _verify_study(
 
 
 def _show_hash(what: str, stored: str, again: str) -> bool:
-    from netdesign.given_files import make_printable
+    from netdesign.edge.given_files import make_printable
 
     is_equal = stored == again
     click.echo(f"{what}, SHA-256: {'equal' if is_equal else 'DIFFERS'}")
@@ -138,7 +139,7 @@ def _show_hash(what: str, stored: str, again: str) -> bool:
 
 def _show_digest(study: Study) -> bool:
     """Whether the document is as it was written; one without a digest may be."""
-    from netdesign.study import compute_digest
+    from netdesign.study.records import compute_digest
 
     if not study.digest:
         return True
@@ -146,7 +147,7 @@ def _show_digest(study: Study) -> bool:
 
 
 def _show_contradictions(what: str, found: Sequence[str]) -> bool:
-    from netdesign.given_files import make_printable
+    from netdesign.edge.given_files import make_printable
 
     for one in found[:_SHOWN]:
         click.echo(f"{what}: DIFFERS: {make_printable(one)}")
@@ -171,10 +172,10 @@ def _show_comparison(
     study: Study, again: Study, count: int, differences: Sequence[Difference]
 ) -> None:
     """Tell which values do not come out; the hash may differ in last digits."""
-    from netdesign.given_files import make_printable
-    from netdesign.report.tables import hash_results
-    from netdesign.study import write_document
-    from netdesign.study_values import SAME
+    from netdesign.edge.given_files import make_printable
+    from netdesign.report.view.tables import hash_results
+    from netdesign.study.records import write_document
+    from netdesign.study.values import SAME
 
     stored, now = hash_results(study), hash_results(again)
     if stored == now or differences:
@@ -195,8 +196,8 @@ def _show_comparison(
 
 def _show_unverified(study: Study, again: Study, ties: Sequence[Difference]) -> bool:
     """Tell what no new solve can show; whether any of it might have been shown."""
-    from netdesign.given_files import make_printable
-    from netdesign.study_repeat import list_versions
+    from netdesign.edge.given_files import make_printable
+    from netdesign.study.repeat import list_versions
 
     made = study.provenance
     old, new = list_versions(study), list_versions(again)

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from netdesign.checks.result import Band
+from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
 from netdesign.envelope.runner import Runner

@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from netdesign.checks.result import Band
-from netdesign.coupling.describe import describe_case
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solve import Settings
 from netdesign.envelope.grid import Case
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd, SolvedState
@@ -17,6 +15,8 @@ from netdesign.envelope.workers import Job
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
+from netdesign.solving.describe import describe_case
+from netdesign.solving.solve import Settings
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support

@@ -11,7 +11,6 @@ from typing import NamedTuple, TypeVar
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solve import Settings
 from netdesign.envelope.adaptive import (
     Maxima,
     Point,
@@ -41,6 +40,7 @@ from netdesign.envelope.run import (
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import Batch, Ends
+from netdesign.solving.solve import Settings
 from netdesign.structure.layout import SupportLayout
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.

@@ -31,7 +31,7 @@ from netdesign.outcome import Outcome
 _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
-_SOLVER_PARTS = ("numerics", "snow", "cable", "coupling")
+_SOLVER_PARTS = ("numerics", "snow", "cable", "coupling", "solving")
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
 _FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)

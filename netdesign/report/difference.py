@@ -8,11 +8,11 @@ from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 from typing import Any, TypeVar
 
-from netdesign.given_files import make_printable
+from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
-from netdesign.report.check_view import find_governing
-from netdesign.study import CheckRecord, RowStudy, Study
-from netdesign.study_values import Difference, compare_values
+from netdesign.report.view.check_view import find_governing
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.values import Difference, compare_values
 
 SCHEMA = "netdesign.diff/1"
 _MET, _UNMET = "met", "not met"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from netdesign.report.language import Language, load_words
-from netdesign.study import Study, write_document
+from netdesign.study.records import Study, write_document
 
 STUDY_FILE = "study.json"
 
@@ -71,20 +71,20 @@ def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, byt
 
         view = show_study(study, words)
     if wanted & {".html", ".pdf"}:
-        from netdesign.report.html import render_html
+        from netdesign.report.page.html import render_html
 
         page = render_html(study, words, style.detail, view)
         rendered[".html"] = page.encode()
     if ".pdf" in wanted:
-        from netdesign.report.pdf import render_pdf
+        from netdesign.report.page.pdf import render_pdf
 
         rendered[".pdf"] = render_pdf(page)
     if ".xlsx" in wanted:
-        from netdesign.report.excel import render_workbook
+        from netdesign.report.workbook.excel import render_workbook
 
         rendered[".xlsx"] = render_workbook(study, words, view)
     if ".csv" in wanted:
-        from netdesign.report.case_table import render_cases
+        from netdesign.report.view.case_table import render_cases
 
         rendered[".csv"] = render_cases(study)
     if ".json" in wanted:

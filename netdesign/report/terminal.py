@@ -6,9 +6,9 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from netdesign.report.row_tables import describe_flip
 from netdesign.report.translation import show_study
-from netdesign.report.view import ReportView, RowView
+from netdesign.report.view.row_tables import describe_flip
+from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import (
     MISSING,
     VERDICTS,
@@ -16,7 +16,7 @@ from netdesign.report.words import (
     name_check,
     show_text,
 )
-from netdesign.study import ChangeRecord, Study
+from netdesign.study.records import ChangeRecord, Study
 
 if TYPE_CHECKING:
     from rich.console import Console

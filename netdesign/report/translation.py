@@ -8,12 +8,12 @@ from dataclasses import fields, is_dataclass, replace
 from html import escape, unescape
 from typing import Any, TypeVar
 
-from netdesign.report.check_view import CheckView, Step, Worked
 from netdesign.report.language import Words
-from netdesign.report.table import Cell, Column, Table
-from netdesign.report.view import EXPLANATION, ReportView, RowView, build_view
+from netdesign.report.view.check_view import CheckView, Step, Worked
+from netdesign.report.view.table import Cell, Column, Table
+from netdesign.report.view.whole import EXPLANATION, ReportView, RowView, build_view
 from netdesign.report.words import VerdictWords
-from netdesign.study import Study
+from netdesign.study.records import Study
 
 Translate = Callable[[str], str]
 View = TypeVar("View")

@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.given_files import make_printable
+from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.study import CasePoint, CheckRecord
+from netdesign.study.records import CasePoint, CheckRecord
 
 MISSING = "-"
 

@@ -7,23 +7,23 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from netdesign.site.cells import Cell, MergedRange, Sheet, name_column
-from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
-from netdesign.site.fields import (
+from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
+from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
+from netdesign.site.cells.numbers import parse_number
+from netdesign.site.columns.fields import (
     Field,
     Language,
     SheetPlan,
     normalise,
     split_heading,
 )
-from netdesign.site.numbers import parse_number
-from netdesign.site.readings import refuse_stored
-from netdesign.site.unit_names import (
+from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
     convert_unit,
     normalise_unit,
 )
+from netdesign.site.readings import refuse_stored
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import difflib
 import re
 
-from netdesign.site.diagnostics import Finding, quote
-from netdesign.site.fields import (
+from netdesign.site.cells.findings import Finding, quote
+from netdesign.site.columns.fields import (
     Field,
     Language,
     find_item,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from netdesign.envelope.grid import Ranges
 from netdesign.guards import require_positive, require_within
 from netdesign.resistance.pull_out import PullOutTests
-from netdesign.site.diagnostics import Finding
+from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout

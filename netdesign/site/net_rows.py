@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from netdesign.errors import ModelError
-from netdesign.site.diagnostics import Finding, Refusal, add_nearest, quote
+from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
 from netdesign.site.model import (
     MEMBER_MODES,
     OPTIONAL_MODES,

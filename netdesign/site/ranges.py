@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from netdesign.envelope.grid import Interval, Ranges
-from netdesign.site.columns import (
+from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.columns.all_tables import (
     DEFAULT_INCLINATION_DEG,
     RANGE_QUANTITIES,
     SEARCHED,
 )
-from netdesign.site.diagnostics import Finding, Refusal, quote
-from netdesign.site.fields import Field, split_heading
+from netdesign.site.columns.fields import Field, split_heading
+from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.items import match_item
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
-from netdesign.site.unit_names import UNCLEAR_UNITS, normalise_unit
 
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 

@@ -6,8 +6,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from netdesign.errors import SiteDataError
-from netdesign.site.cells import UNDECLARED, TextFormat, Workbook
-from netdesign.site.columns import (
+from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
+from netdesign.site.cells.findings import Finding, note_file
+from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.all_tables import (
     ANCHORS,
     MONITORING,
     NETS,
@@ -19,16 +21,14 @@ from netdesign.site.columns import (
     SHEETS,
     SNOW,
 )
-from netdesign.site.diagnostics import Finding, note_file
-from netdesign.site.fields import split_heading
+from netdesign.site.columns.fields import split_heading
 from netdesign.site.items import match_item
 from netdesign.site.model import Project, Site
-from netdesign.site.monitoring import read_monitoring
+from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_layers import check_densities, read_layers
-from netdesign.site.spreadsheet import read_workbook
 from netdesign.site.tables import (
     Table,
     find_table,
@@ -49,7 +49,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     ----------
     path : Path
         An xlsx, xlsm, ods or csv file, or a folder of csv files, laid out as
-        `netdesign.site.columns` says.
+        `netdesign.site.columns.all_tables` says.
     text_format : TextFormat
         What is declared of the file's text.
 

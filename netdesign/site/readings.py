@@ -8,12 +8,12 @@ from decimal import Decimal
 from typing import Literal
 
 from netdesign.errors import ModelError
-from netdesign.site.cells import Cell
-from netdesign.site.diagnostics import Finding, Refusal, Severity, add_nearest
-from netdesign.site.fields import Field, normalise
+from netdesign.site.cells.cells import Cell
+from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
+from netdesign.site.cells.numbers import parse_number
+from netdesign.site.columns.fields import Field, normalise
+from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
 from netdesign.site.model import InputEcho
-from netdesign.site.numbers import parse_number
-from netdesign.site.unit_names import convert_unit, normalise_unit, to_si
 
 State = Literal["given", "blank", "default", "faulty"]
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from netdesign.site.diagnostics import Finding, add_nearest
+from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.model import InputEcho, NetRow
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows

@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
-from netdesign.site.cells import Cell, Sheet, Workbook
-from netdesign.site.diagnostics import Finding, Refusal, quote
-from netdesign.site.fields import (
+from netdesign.site.cells.cells import Cell, Sheet, Workbook
+from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.columns.fields import (
     Field,
     Language,
     SheetPlan,

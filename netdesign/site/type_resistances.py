@@ -19,7 +19,7 @@ from netdesign.resistance.post import (
 )
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
-from netdesign.site.diagnostics import Finding
+from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
 from netdesign.units import kilonewton_from_newton
 

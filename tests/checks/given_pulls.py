@@ -5,15 +5,15 @@ from pathlib import Path
 
 import openpyxl
 
-from netdesign.check_site import judge_site
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.grid import build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
-from netdesign.site_cases import CheckRun
 from netdesign.structure import compute_anchor_forces, place_support
+from netdesign.study.cases import CheckRun
+from netdesign.study.check_site import judge_site
 
 NETS = {
     "id": "R",

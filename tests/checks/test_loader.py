@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from netdesign.checks.loader import CONFIRM, list_standards, load_standard
+from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
-from netdesign.resources import find_resource
 
 NF_STYLE = "nf-p-95-304-style"
 

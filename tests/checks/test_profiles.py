@@ -6,9 +6,9 @@ from dataclasses import asdict, replace
 import pytest
 
 from netdesign.checks import list_standards, load_standard
+from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
 from netdesign.outcome import Verdict
-from netdesign.resources import find_resource
 from tests.checks.given_pulls import judge_row, study_row
 
 NAMES = ("eurocode", "nf-p-95-304-style", "onr-24805-style", "swiss-guideline-2007")

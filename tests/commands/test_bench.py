@@ -5,11 +5,11 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from netdesign.benchmark import envelope, precision, stress
-from netdesign.benchmark.precision import Effort
-from netdesign.benchmark.stress import Attempt
 from netdesign.commands.bench import bench
 from netdesign.errors import ModelError, OutputError
+from netdesign.evidence.benchmark import envelope, precision, stress
+from netdesign.evidence.benchmark.precision import Effort
+from netdesign.evidence.benchmark.stress import Attempt
 
 
 def run(*arguments):

@@ -5,7 +5,13 @@ import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
-from netdesign.study import SCHEMA, ProfileRecord, Provenance, Study, write_document
+from netdesign.study.records import (
+    SCHEMA,
+    ProfileRecord,
+    Provenance,
+    Study,
+    write_document,
+)
 
 STUDY = Study(
     schema=SCHEMA,

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from netdesign import cli
-from netdesign.study import read_document, write_document
+from netdesign.study.records import read_document, write_document
 from tests.short_example import write_short_example
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5

@@ -6,18 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.benchmark.random_scenes import draw_scene as draw_any_scene
-from netdesign.benchmark.scenes import build_tables
 from netdesign.cable.net import Net
-from netdesign.coupling import steady
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.steady import rounds as steady
+from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import SolveError
+from netdesign.evidence.benchmark.random_scenes import draw_scene as draw_any_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
-from netdesign.solution_file import write_solution_document
 
 GROUNDS = ("no-slip", "free", "sliding")
 # Linear solves times triangles that a scene may take, solved or refused: some 20

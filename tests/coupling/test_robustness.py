@@ -11,14 +11,14 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady import solve_steady
-from netdesign.coupling.transient import (
+from netdesign.coupling.history.transient import (
     TRANSIENT_LEVELS,
     TransientSettings,
     run_history,
 )
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import Solution
+from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize
 

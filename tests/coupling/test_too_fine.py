@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.rigid import solve_rigid
+from netdesign.coupling.history.staggered import StaggeredSettings, solve_staggered
+from netdesign.coupling.history.transient import TransientSettings, solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.staggered import StaggeredSettings, solve_staggered
-from netdesign.coupling.steady import find_end_pulls, solve_steady
-from netdesign.coupling.transient import TransientSettings, solve_transient
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.steady.rounds import find_end_pulls, solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize

@@ -6,15 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import (
     MESH_LEVELS,
     MIXED_BULK_RATIO,
     Scene,
     SolverSettings,
 )
-from netdesign.coupling.solve import solve_scene
-from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import compute_shear_factor
 from netdesign.snow.fluidity import compute_fluidity
@@ -23,6 +22,7 @@ from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
+from netdesign.solving.solve import solve_scene
 
 SETTINGS = SolverSettings(
     accuracy=0.1,

@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks.result import Band
+from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope import confirm
 from netdesign.envelope.confirm import (
     build_history_settings,

@@ -1,7 +1,8 @@
 """Full disks, places that cannot be written, two runs at once, clocks, Ctrl-C.
 
-What is the same for any bytes is tested in ``tests/test_output.py``, dying workers in
-``tests/envelope/test_workers.py``, damaged stores in ``tests/envelope/test_store.py``.
+What is the same for any bytes is tested in ``tests/edge/test_output.py``, dying
+workers in ``tests/envelope/test_workers.py``, damaged stores in
+``tests/envelope/test_store.py``.
 """
 
 import json

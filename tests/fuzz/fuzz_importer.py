@@ -19,7 +19,9 @@ import pytest
 atheris = pytest.importorskip("atheris")  # pytest looks at every module for examples
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent))
-with atheris.instrument_imports(include=["netdesign.site", "netdesign.given_files"]):
+with atheris.instrument_imports(
+    include=["netdesign.site", "netdesign.edge.given_files"]
+):
     from tests.fuzz import targets
 
 _SHEETS = sorted(n for n in targets.sound_parts() if n.startswith("xl/worksheets/s"))

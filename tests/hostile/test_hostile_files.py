@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 import netdesign
-from netdesign.site.template import write_site_workbook
+from netdesign.site.template.workbook import write_site_workbook
 from tests.hostile.hostile_files import write_all
 
 ROOT = Path(netdesign.__file__).parent.parent
@@ -23,8 +23,8 @@ MOST_SECONDS = 20.0  # of one file; on an idle machine none needs more than thre
 _CHILD = """
 import contextlib, io, json, resource, sys, time
 from netdesign import cli
-import netdesign.site.annotate, netdesign.study, openpyxl, pydantic
-import netdesign.coupling.solve, netdesign.check_site, netdesign.commands.dry_run
+import netdesign.site.template.annotate, netdesign.study.records, openpyxl, pydantic
+import netdesign.solving.solve, netdesign.study.check_site, netdesign.commands.dry_run
 
 def peak():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

@@ -13,11 +13,9 @@ from functools import lru_cache
 
 import pytest
 
-from netdesign.check_site import judge_site
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.solve import solve_scene
 from netdesign.envelope import store as store_module
 from netdesign.envelope import workers as workers_module
 from netdesign.envelope.grid import Interval
@@ -26,7 +24,9 @@ from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
-from netdesign.site_cases import CheckRun, search_site, solve_site
+from netdesign.solving.solve import solve_scene
+from netdesign.study.cases import CheckRun, search_site, solve_site
+from netdesign.study.check_site import judge_site
 from tests import small_site
 from tests.envelope.made_up_workers import Spoiling
 from tests.small_site import RANGES as GRID

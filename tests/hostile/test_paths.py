@@ -5,7 +5,7 @@ import tempfile
 
 import pytest
 
-from netdesign.site import template
+from netdesign.site.template import workbook as template
 
 LONG = "9" * 400
 

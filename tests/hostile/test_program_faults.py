@@ -11,19 +11,20 @@ from functools import lru_cache, partial
 
 import pytest
 
-from netdesign import monitoring, site_cases
-from netdesign.coupling import solve as solve_module
+from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solve import solve_scene
-from netdesign.coupling.transient import TransientSettings
 from netdesign.envelope import run as run_module
 from netdesign.envelope import workers as workers_module
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE
-from netdesign.rowcheck.probe import build_scene
 from netdesign.site.model import MonitoringSeries
+from netdesign.solving import solve as solve_module
+from netdesign.solving.solve import solve_scene
+from netdesign.study import cases as site_cases
+from netdesign.study import record_monitoring as monitoring
+from netdesign.study.probe import build_scene
 from tests import small_site
 from tests.short_example import write_short_example
 

@@ -16,14 +16,14 @@ import openpyxl
 import pytest
 from rich.console import Console
 
-from netdesign.report.case_table import render_cases
 from netdesign.report.difference import compare_studies
-from netdesign.report.excel import render_workbook
-from netdesign.report.html import render_html
+from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_changes, print_summary
-from netdesign.site.annotate import annotate_workbook
+from netdesign.report.view.case_table import render_cases
+from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
-from netdesign.study import compute_digest, read_document, write_document
+from netdesign.site.template.annotate import annotate_workbook
+from netdesign.study.records import compute_digest, read_document, write_document
 from tests.report.build_study import build_study
 
 ATTACKS = (

@@ -5,9 +5,9 @@ import math
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.columns import SHEETS
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.unit_names import convert_unit
 from netdesign.site.reader import read_site
-from netdesign.site.unit_names import convert_unit
 from tests.fuzz.targets import example_tables, write_delimited
 
 PLANS = {plan.name: plan for plan in SHEETS}

@@ -9,7 +9,7 @@ from itertools import pairwise, product
 
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study import (
+from netdesign.study.records import (
     SCHEMA,
     ActionRecord,
     AnchorRecord,

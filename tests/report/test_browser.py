@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from netdesign.report.html import list_sections, render_html
 from netdesign.report.language import load_words
-from netdesign.report.view import build_view
+from netdesign.report.page.html import list_sections, render_html
+from netdesign.report.view.whole import build_view
 from tests.programs import require_program
 from tests.report.build_study import build_study
 

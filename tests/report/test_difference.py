@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, write_difference
-from netdesign.study import read_document, write_document
+from netdesign.study.records import read_document, write_document
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
 

@@ -5,12 +5,12 @@ import re
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.report.excel import render_workbook
-from netdesign.report.html import render_html
 from netdesign.report.language import LANGUAGES, Words, load_words
-from netdesign.report.table import Cell
+from netdesign.report.page.html import render_html
 from netdesign.report.translation import translate_drawing, translate_view
-from netdesign.rowcheck.guideline_record import _SENTENCES as GUIDELINE_SENTENCES
+from netdesign.report.view.table import Cell
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.study.record_guideline import _SENTENCES as GUIDELINE_SENTENCES
 from tests.report.build_study import SCRIPT, build_study
 
 # Not translated: texts of the made-up study, which no solver and no profile writes.

@@ -7,13 +7,13 @@ import re
 import pytest
 from rich.console import Console
 
-from netdesign.report.excel import render_workbook
-from netdesign.report.html import render_html
 from netdesign.report.language import load_words
+from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
-from netdesign.report.view import build_view
+from netdesign.report.view.whole import build_view
 from netdesign.report.words import VERDICTS, show_number
-from netdesign.study import write_document
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.study.records import write_document
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader, read_rows, read_workbook
 

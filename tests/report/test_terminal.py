@@ -5,7 +5,7 @@ from rich.console import Console
 
 from netdesign.report.language import load_words
 from netdesign.report.terminal import open_console, print_summary
-from netdesign.report.view import build_view
+from netdesign.report.view.whole import build_view
 from tests.report.build_study import SCRIPT, build_study
 
 

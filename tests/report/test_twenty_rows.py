@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.report.excel import render_workbook
-from netdesign.report.html import render_html
 from netdesign.report.language import load_words
-from netdesign.study import (
+from netdesign.report.page.html import render_html
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.study.records import (
     AxisRecord,
     BoundRecord,
     DriverRecord,

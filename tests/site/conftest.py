@@ -10,7 +10,7 @@ import openpyxl
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.diagnostics import Finding
+from netdesign.site.cells.findings import Finding
 from netdesign.site.reader import read_site
 
 SOUND = {

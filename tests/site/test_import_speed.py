@@ -9,9 +9,9 @@ import time
 import pytest
 import xlsxwriter
 
-from netdesign.site.columns import NETS
+from netdesign.site.columns.all_tables import NETS
 from netdesign.site.reader import read_site
-from tests.site.ods_files import write_ods
+from tests.site.cells.ods_files import write_ods
 
 ROWS = 1000
 TYPED = {

@@ -11,9 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from netdesign.site.diagnostics import Refusal
-from netdesign.site.numbers import parse_number
-from netdesign.site.spreadsheet import read_workbook
+from netdesign.site.cells.findings import Refusal
+from netdesign.site.cells.numbers import parse_number
+from netdesign.site.cells.spreadsheet import read_workbook
 
 # decimal mark, signs that may separate thousands
 LOCALES = {

@@ -7,12 +7,12 @@ import openpyxl
 import pytest
 
 from netdesign.errors import SiteDataError
-from netdesign.site.annotate import annotate_workbook
 from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
+from netdesign.site.template.annotate import annotate_workbook
 from netdesign.snow.ground import build_ground_from_glide_factor
 from tests.programs import require_program
-from tests.site.ods_files import write_ods
+from tests.site.cells.ods_files import write_ods
 from tests.site.whole_sites import (
     DAMAGED_FINDINGS,
     FRENCH_HEIGHTS,

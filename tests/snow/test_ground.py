@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from netdesign.coupling.glide import measure_glide_factor
+from netdesign.coupling.steady.glide_factor import measure_glide_factor
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import (

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from netdesign.verification.case import VerificationCase, observe_order
-from netdesign.verification.pack import run_pack, write_pack
+from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.evidence.verification.pack import run_pack, write_pack
 
 
 def a_case(**changes):

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.coupling.rigid import solve_rigid
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.snow.wall import Wall
 
 SETTINGS = SolverSettings(accuracy=0.02)

@@ -8,11 +8,11 @@ import sys
 import numpy as np
 import pytest
 
-from netdesign.benchmark.scenes import SCENES, build_tables
-from netdesign.coupling import steady
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.steady import rounds as steady
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.snow.mesh import MeshTemplate, build_template
 
 # The order of summation and of elimination changes, the iterations take the same
@@ -84,9 +84,9 @@ def test_order_of_cases_does_not_matter():
 
 
 PROBE = """
-from netdesign.benchmark.scenes import SCENES, build_tables
+from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady import solve_steady
+from netdesign.coupling.steady.rounds import solve_steady
 for name in ("paper-30", "slipping-part"):
     solution = solve_steady(build_tables(SCENES[name]), SolverSettings(accuracy=0.002))
     for end in (solution.foot, solution.head):

@@ -1,5 +1,0 @@
-"""Whether a stored study agrees with itself, its site and its profile; unsolved."""
-
-from netdesign.audit.study_audit import audit_study
-
-__all__ = ["audit_study"]

@@ -1,0 +1,1 @@
+"""Histories: snow that settles and a net that stretches, followed in time."""

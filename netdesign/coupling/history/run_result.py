@@ -1,0 +1,129 @@
+"""From a history on its meshes to a solution in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.tension import compute_node_forces
+from netdesign.coupling.balance import check_balance, negative_share
+from netdesign.coupling.history.clock import Clock
+from netdesign.coupling.history.run import Run
+from netdesign.coupling.moments import History, Moment
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
+
+Floats = NDArray[np.float64]
+
+
+def scale_history(
+    run: Run, scene: Scene, clock: Clock, *, start: str, densifies: bool
+) -> History:
+    """History of a run in SI units, on the clock of its temperatures."""
+    plateau = run.plateau
+    if plateau.time is not None:
+        time = clock.to_time(plateau.time * scene.time_scale)
+        plateau = replace(plateau, time=time)
+    return History(
+        moments=tuple(_scale_moment(moment, scene, clock) for moment in run.moments),
+        plateau=plateau,
+        start=start,
+        densifies=densifies,
+        fallen_share=run.fallen,
+        ended=run.ended,
+    )
+
+
+def build_solution(
+    scene: Scene,
+    runs: Sequence[Run],
+    foot: EndPull,
+    head: EndPull,
+    history: History,
+    method: Method,
+    balance_tolerance: float,
+    friction_tolerance: float | None = None,
+) -> Solution:
+    """Solution whose shapes are those at the end of the finest run.
+
+    Raises
+    ------
+    SolveError
+        If a balance is not met.
+    """
+    run = runs[-1]
+    thickness, body = scene.snowpack.thickness, run.state.body
+    template = body.topology.template
+    vertices = body.vertices
+    nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
+    sliding = run.instant.response.sliding
+    points = run.instant.points
+    along = run.problem.head / np.hypot(*run.problem.head)
+    slides = np.append(False, sliding.glide != 0)
+    if run.instant.on_net.shape[1] > sliding.glide.size:
+        slides = np.append(slides, True)  # a corner held at the head slips freely
+    balance = _measure_balance(run, scene)
+    check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
+    corner = -run.instant.on_net.sum(axis=1)
+    corner += run.instant.foot_pull + run.instant.head_pull
+    return Solution(
+        scene=scene,
+        method=method,
+        foot=foot,
+        head=head,
+        tension_min=min(one.tension_min for one in run.counted) * scene.force_scale,
+        tension_max=max(one.tension_max for one in run.counted) * scene.force_scale,
+        sag=float((along[1] * points[0] - along[0] * points[1]).max()) * thickness,
+        net_curve=points * thickness,
+        net_forces=np.column_stack([corner, run.instant.on_net]) * scene.force_scale,
+        net_slides=slides,
+        mesh_nodes=nodes * thickness,
+        mesh_edges=template.edges,
+        mesh_triangles=body.topology.triangles.T,
+        mesh_density=body.density * scene.snowpack.density,
+        largest_velocity=float(np.hypot(*run.instant.velocity).max())
+        * scene.velocity_scale,
+        balance=balance,
+        cost=Cost(
+            linear_solves=sum(part.linear_solves for part in runs),
+            rounds=sum(len(part.moments) + part.rejected for part in runs),
+            elements=template.triangles.shape[1],
+            degrees_of_freedom=2 * template.nodes.shape[1],
+        ),
+        history=history,
+    )
+
+
+def _scale_moment(moment: Moment, scene: Scene, clock: Clock) -> Moment:
+    force, thickness = scene.force_scale, scene.snowpack.thickness
+    return replace(
+        moment,
+        time=clock.to_time(moment.time * scene.time_scale),
+        foot=moment.foot * force,
+        head=moment.head * force,
+        tension_min=moment.tension_min * force,
+        tension_max=moment.tension_max * force,
+        on_net=moment.on_net * force,
+        way=moment.way * thickness,
+        speed=moment.speed * scene.velocity_scale,
+    )
+
+
+def _measure_balance(run: Run, scene: Scene) -> Balance:
+    weight = float(run.state.body.mass.sum())
+    tensions = run.instant.response.sliding.tensions
+    forces = compute_node_forces(run.instant.points, tensions)
+    friction = run.problem.law.friction
+    excess = np.abs(forces.tangential) - friction * np.maximum(forces.normal, 0.0)
+    size = weight * float(np.hypot(*run.problem.law.gravity))
+    return Balance(
+        weight_along_slope=weight * run.problem.law.gravity[0] * scene.force_scale,
+        relative_residual=max(moment.residual for moment in run.moments),
+        friction_excess=max(0.0, float(excess.max())) / size,
+        smallest_tension=float(tensions.min()) * scene.force_scale,
+        suction_share=negative_share(forces.normal),
+        ground_tension_share=negative_share(run.instant.ground_normal),
+    )

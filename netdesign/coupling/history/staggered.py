@@ -1,0 +1,262 @@
+"""The source paper's exchange: snow under the last net forces, then the net.
+
+Explicit, so its oscillations come from the scheme and its steps must be short; on a
+ground where snow glides freely only a base drag makes a step well posed. Kept as the
+record of the paper's method and to compare with. Theory: coupling/THEORY.md,
+section 7.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.incremental import (
+    CableState,
+    advance_increment,
+    build_cable_state,
+)
+from netdesign.cable.response import (
+    NetResponse,
+    keep_lengths,
+    measure_arcs,
+    pull_nodes,
+)
+from netdesign.cable.tension import compute_turning_angles
+from netdesign.coupling.history.clock import Clock
+from netdesign.coupling.history.instant import Instant, advance_under
+from netdesign.coupling.history.net_start import Start, build_start, find_start
+from netdesign.coupling.history.problem import build_problem
+from netdesign.coupling.history.run import Run, measure_run, record_moment
+from netdesign.coupling.history.run_result import build_solution, scale_history
+from netdesign.coupling.history.state import TransientProblem, TransientState
+from netdesign.coupling.history.transient import TRANSIENT_LEVELS
+from netdesign.coupling.moments import Moment, find_plateau, judge_plateau
+from netdesign.coupling.refine import ErrorModel
+from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.errors import ModelError, SolveError
+from netdesign.guards import require_count, require_positive, require_within
+from netdesign.outcome import Outcome
+from netdesign.snow.body import move_body
+from netdesign.snow.mesh import MeshSize, build_template
+
+Floats = NDArray[np.float64]
+
+# Of the step: whole and halved.
+_ERROR = ErrorModel(share=1.0, floor=0.0)
+# Share of the time in which net and drag come to rest that a step may take.
+_STABLE_SHARE = 0.3
+# Shear beyond the friction limit, over the weight: increments keep the limit only as
+# steps vanish.
+_FRICTION_TOLERANCE = 1e-2
+# Creep time that a run follows at most: its steps are short.
+LONGEST_EXCHANGE = 0.1
+_ADVICE = "the method transient has no such limit of explicit steps"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaggeredSettings:
+    """How the paper's exchange is computed; pure numbers.
+
+    Attributes
+    ----------
+    base_drag : float
+        Shear stress on the ground [rho g d] over its velocity [the snow's velocity
+        scale]; the smaller, the shorter the steps must be.
+    step_share : float
+        Step over the longest that is about stable.
+    start : str
+        ``straight`` (the paper), ``sagged`` or ``steady``.
+    horizon : float
+        Creep time to follow, over thickness by velocity scale.
+    stress_tolerance : float
+        Relative change of the stress in the last iteration of a step.
+    max_iterations : int
+        Newton iterations of a step.
+    size : MeshSize
+        Resolution.
+    """
+
+    base_drag: float = 0.02
+    step_share: float = 1.0
+    start: Start = "straight"
+    horizon: float = LONGEST_EXCHANGE
+    stress_tolerance: float = 1e-6
+    max_iterations: int = 40
+    size: MeshSize = field(default=TRANSIENT_LEVELS[0])
+
+    def __post_init__(self) -> None:
+        """Refuse a singular or an unstable scheme."""
+        require_within("base drag", self.base_drag, 1e-5, 10.0)
+        require_within("step share", self.step_share, 1e-3, 2.0)
+        require_positive("horizon", self.horizon)
+        require_within("stress tolerance", self.stress_tolerance, 1e-14, 1e-4)
+        require_count("iterations", self.max_iterations)
+
+
+def solve_staggered(
+    scene: Scene,
+    settings: StaggeredSettings | None = None,
+    *,
+    on_failure: Literal["return", "raise"] = "return",
+) -> Solution | FailedSolution:
+    """The paper's exchange, with a step and with half of it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : StaggeredSettings, optional
+        Drag, step, start.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` a SolveError.
+
+    Returns
+    -------
+    Solution or FailedSolution
+        ``error`` is that of the step, not of the mesh.
+
+    Verified by
+    -----------
+    tests/coupling/history/test_staggered.py, ``netdesign verify``
+    """
+    try:
+        return _solve(scene, settings or StaggeredSettings())
+    except SolveError as failure:
+        reason = f"{failure.reason.rstrip('.')}; {_ADVICE}"
+        if on_failure == "raise":
+            raise SolveError(failure.outcome, reason) from None
+        return FailedSolution(outcome=failure.outcome, reason=reason)
+
+
+def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
+    half = replace(settings, step_share=settings.step_share / 2.0)
+    runs = [run_exchange(scene, settings), run_exchange(scene, half)]
+    foot, head = (
+        EndPull.of_estimate(one, scene.force_scale)
+        for one in _ERROR.estimate([measure_run(run) for run in runs])
+    )
+    history = scale_history(
+        runs[-1], scene, Clock(), start=settings.start, densifies=True
+    )
+    return build_solution(
+        scene, runs, foot, head, history, "staggered", 1e-8, _FRICTION_TOLERANCE
+    )
+
+
+def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
+    """One history by the paper's exchange, dimensionless.
+
+    Raises
+    ------
+    SolveError
+        If a step fails: the net would have to push, or the mesh folds.
+    """
+    if scene.ground.kind == "no-slip":
+        raise ModelError(
+            "ground law = 'no-slip': the staggered exchange has its own base drag; "
+            "take a free ground, or another method"
+        )
+    problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
+    aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
+    template = build_template(aspect, settings.size, scene.layer_tops)
+    start = find_start(scene, settings.size, settings.start)
+    state = build_start(problem, template, start)
+    cable = _start_cable(problem, state)
+    step = settings.step_share * _longest_step(problem, aspect)
+    moments: list[Moment] = []
+    way: Floats | float = 0.0
+    solves, mass = 0, float(state.body.mass.sum())
+    while state.time < settings.horizon:
+        instant = advance_under(
+            problem,
+            state,
+            step,
+            _respond(problem, state, cable),
+            tolerance=settings.stress_tolerance,
+            max_iterations=settings.max_iterations,
+        )
+        state, cable = _follow(problem, state, cable, instant, step)
+        moment, way = record_moment(
+            problem, state, instant, way, moments[-1].strain if moments else 0.0, step
+        )
+        moments.append(moment)
+        solves += instant.linear_solves
+    return Run(
+        problem=problem,
+        moments=tuple(moments),
+        plateau=judge_plateau(moments, find_plateau(moments)),
+        state=state,
+        instant=instant,
+        fallen=1.0 - float(state.body.mass.sum()) / mass,
+        ended="",
+        linear_solves=solves,
+        rejected=0,
+        is_guessed=settings.start != "steady",
+    )
+
+
+def _longest_step(problem: TransientProblem, aspect: float) -> float:
+    """Time in which drag lets the net come to rest, as one spring and one dashpot."""
+    chord = float(np.hypot(*problem.head))
+    return _STABLE_SHARE * problem.base_drag * aspect * chord / problem.stiffness
+
+
+def _start_cable(problem: TransientProblem, state: TransientState) -> CableState:
+    arcs = measure_arcs(_net_points(problem, state))
+    return build_cable_state(arcs, np.minimum(state.lengths, arcs), problem.stiffness)
+
+
+def _net_points(problem: TransientProblem, state: TransientState) -> Floats:
+    nodes = state.body.vertices[:, state.carried]
+    return np.column_stack([np.zeros(2), nodes, problem.head])
+
+
+def _respond(
+    problem: TransientProblem, state: TransientState, cable: CableState
+) -> NetResponse:
+    """The net as it is, its forces taken as they are."""
+    points = _net_points(problem, state)
+    return pull_nodes(points, keep_lengths(cable.unstressed_lengths, cable.tensions))
+
+
+def _follow(
+    problem: TransientProblem,
+    state: TransientState,
+    cable: CableState,
+    instant: Instant,
+    step: float,
+) -> tuple[TransientState, CableState]:
+    net = instant.displaced[:, state.body.topology.net].copy()
+    if state.top != "on-net":
+        net[:, -1] = problem.head
+    body, _ = move_body(state.body, instant.displaced, net, problem.head)
+    moved = replace(
+        state,
+        time=state.time + step,
+        body=body,
+        velocity=instant.velocity,
+        moved=instant.displaced - state.body.vertices,
+        step=step,
+        stress=instant.stress,
+        base_shear=instant.base_shear,
+    )
+    points = _net_points(problem, moved)
+    increment = advance_increment(
+        cable,
+        measure_arcs(points),
+        compute_turning_angles(points),
+        friction=problem.law.friction,
+        stiffness=problem.stiffness,
+    )
+    if increment.outcome is not Outcome.CONVERGED:
+        raise SolveError(
+            increment.outcome,
+            f"staggered exchange at creep time {moved.time:.3g}: the increments of "
+            "the cable have no solution; a shorter step may",
+        )
+    return moved, increment.state

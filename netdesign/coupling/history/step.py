@@ -1,0 +1,349 @@
+"""Equations of one step of the moving snow, linearised about an iterate.
+
+Theory: coupling/THEORY.md, section 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.coupling.history.state import TransientProblem, TransientState
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.body import SnowBody
+from netdesign.snow.kernel import (
+    PlacedMesh,
+    assemble_base_force,
+    assemble_stress,
+    build_base_stiffness,
+    build_stiffness,
+    compute_base_velocity,
+    compute_strain,
+    gather,
+    reference_element,
+)
+from netdesign.snow.law import (
+    Material,
+    Tangent,
+    advance_stress,
+    hold_stress,
+    linearise_creep,
+    linearise_sliding,
+    squared_size,
+    total_stress,
+)
+from netdesign.snow.linear import (
+    Blocks,
+    SingularError,
+    build_ordering,
+    solve_blocks,
+)
+from netdesign.snow.settling import build_material
+from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Motion:
+    """Displacement of a step as a function of its end velocity: offset + rate v."""
+
+    offset: Floats  # (2, n_vertices)
+    rate: float
+    guess: Floats  # (2, n_vertices), where equilibrium is assembled
+
+    @classmethod
+    def of_step(cls, state: TransientState, step: float) -> Motion:
+        """Second order from two steps (BDF2), first order for the first one."""
+        if state.step == 0.0:
+            still = np.zeros_like(state.moved)
+            return cls(offset=still, rate=step, guess=still)
+        growth = step / state.step
+        return cls(
+            offset=growth**2 / (1.0 + 2.0 * growth) * state.moved,
+            rate=(1.0 + growth) / (1.0 + 2.0 * growth) * step,
+            guess=growth * state.moved,
+        )
+
+
+class SnowIterate(NamedTuple):
+    """Velocities, and the stresses that belong to them once converged."""
+
+    unknowns: Floats
+    stress: Floats | None
+    base_shear: Floats | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StepEquations:
+    """The step's equations, but for stress and net.
+
+    Attributes
+    ----------
+    problem, mesh, material
+        Scene, mesh and creep law where equilibrium is assembled.
+    bottom_fluidity : ndarray, shape (n_ground_edges, 1)
+        Of the snow on the ground, over the reference.
+    weight : ndarray, shape (n_dofs,)
+        Nodal forces.
+    free : ndarray of bool, shape (n_dofs,)
+        Unknowns that nothing holds.
+    net_dofs : ndarray of int, shape (2 n,)
+        Unknowns of the net's nodes, X of all, then Y of all.
+    top_slips : bool
+        The snow's upper corner slips over the net's head.
+    motion : Motion
+        From velocities to displacements.
+    nodes : ndarray, shape (2, n)
+        The net's nodes moved by the offset.
+    """
+
+    problem: TransientProblem
+    mesh: PlacedMesh
+    material: Material
+    bottom_fluidity: Floats
+    weight: Floats
+    free: Mask
+    net_dofs: Ints
+    top_slips: bool
+    motion: Motion
+    nodes: Floats
+
+    @property
+    def top(self) -> int:
+        """First unknown of the snow's upper corner."""
+        return 2 * int(self.mesh.template.net[-1])
+
+    @property
+    def weight_size(self) -> float:
+        """Size of the whole weight."""
+        return float(np.hypot(*self.mesh.to_slope_axes(self.weight).sum(axis=1)))
+
+    def with_top(self, *, slips: bool) -> StepEquations:
+        """The same with an upper corner that slips, or is held."""
+        free = self.free.copy()
+        free[self.top + 1] = slips
+        return replace(self, free=free, top_slips=slips)
+
+    def place_net(self, unknowns: Floats) -> Floats:
+        """Where the velocities carry the net's nodes, (2, n)."""
+        moved = self.motion.rate * unknowns[self.net_dofs].reshape(2, -1)
+        return np.asarray(self.nodes + moved)
+
+    def hold(self, unknowns: Floats) -> Floats:
+        """The unknowns, 0 where held."""
+        return np.where(self.free, unknowns, 0.0)
+
+
+class _Linear(NamedTuple):
+    """Linearised equations about an iterate."""
+
+    tangent: Tangent
+    strain: Floats
+    base: Tangent | None
+    base_shear: Floats | None
+
+
+class Answer(NamedTuple):
+    """Change of the unknowns without, and per, unit force on each net unknown."""
+
+    linear: _Linear
+    change: Floats  # (n_dofs,)
+    per_force: Floats  # (n_dofs, 2 n), or no column
+
+
+def assemble_step(
+    problem: TransientProblem, state: TransientState, step: float
+) -> StepEquations:
+    """Equations of a step.
+
+    Raises
+    ------
+    SolveError
+        If the mesh folds over where equilibrium is to be assembled.
+    """
+    body, law = state.body, problem.law
+    motion = Motion.of_step(state, step)
+    vertices = body.vertices + motion.guess
+    template = body.topology.template
+    top_axis = None
+    if state.top != "on-net":
+        last = problem.head - vertices[:, body.topology.net[-2]]
+        top_axis = np.array([last[1], -last[0]]) / np.hypot(*last)
+    mesh = build_straight_mesh(template, vertices, law.element, top_axis)
+    if not mesh.is_valid:
+        raise SolveError(
+            Outcome.OUT_OF_VALIDITY,
+            "the snow's mesh folds over within the step: take the steady method or a "
+            "shorter horizon",
+        )
+    moved = replace(body, vertices=vertices)
+    material = build_material(problem.settling, law, moved)
+    return StepEquations(
+        problem=problem,
+        mesh=mesh,
+        material=material,
+        bottom_fluidity=material.sample_fluidity(body.topology.bottom),
+        weight=_nodal_weight(problem, mesh, body),
+        free=_free_places(problem, mesh, state),
+        net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),
+        top_slips=state.top == "slipping",
+        motion=motion,
+        nodes=(body.vertices + motion.offset)[:, state.carried],
+    )
+
+
+def solve_linear(
+    equations: StepEquations, iterate: SnowIterate, forces: Floats, *, per_force: bool
+) -> Answer:
+    """Newton step of the snow under net forces (2, n), and its change per force.
+
+    Written for changes of the velocities: what rounding leaves of equilibrium in one
+    iteration is mended in the next.
+
+    Raises
+    ------
+    SolveError
+        If nothing holds the snow.
+    """
+    linear, blocks, force = _linearise(equations, iterate)
+    dofs = equations.net_dofs
+    right = np.zeros((force.size, 1 + (dofs.size if per_force else 0)))
+    right[:, 0] = force
+    right[dofs, 0] -= forces.ravel()
+    if per_force:
+        right[dofs, 1 + np.arange(dofs.size)] = -1.0
+    answers = _solve(equations, blocks, right)
+    return Answer(linear, answers[:, 0], answers[:, 1:])
+
+
+def advance_iterate(
+    equations: StepEquations, iterate: SnowIterate, linear: _Linear, change: Floats
+) -> SnowIterate:
+    """The iterate after a change of its unknowns."""
+    mesh, law = equations.mesh, equations.problem.law
+    base_shear = linear.base_shear
+    if linear.base is not None and base_shear is not None:
+        glide = compute_base_velocity(mesh, change)
+        base_shear = base_shear + linear.base.modulus * glide
+    return SnowIterate(
+        unknowns=iterate.unknowns + change,
+        stress=advance_stress(
+            law, linear.tangent, linear.strain, compute_strain(mesh, change)
+        ),
+        base_shear=base_shear,
+    )
+
+
+def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
+    """Internal forces less the weight (n_dofs,): what supports and net have to give."""
+    mesh, law = equations.mesh, equations.problem.law
+    assert iterate.stress is not None
+    residual = assemble_stress(mesh, total_stress(law, iterate.stress))
+    residual -= equations.weight
+    if iterate.base_shear is not None:
+        residual += assemble_base_force(mesh, iterate.base_shear)
+    return residual
+
+
+def measure_change(
+    equations: StepEquations, old: Floats | None, new: Floats | None
+) -> float:
+    """Relative change of the stress, by its invariant over the body."""
+    if old is None or new is None:
+        return 1.0
+    law, material = equations.problem.law, equations.material
+    weights = equations.mesh.weights
+    change = (weights * squared_size(law, material, new - old)).sum()
+    return float(np.sqrt(change / (weights * squared_size(law, material, new)).sum()))
+
+
+def _linearise(
+    equations: StepEquations, iterate: SnowIterate
+) -> tuple[_Linear, list[Blocks], Floats]:
+    mesh, law, stress = equations.mesh, equations.problem.law, iterate.stress
+    if stress is None:  # the first iterate is linear creep
+        law = replace(law, exponent=1.0)
+        stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
+    tangent = linearise_creep(law, equations.material, stress)
+    strain = compute_strain(mesh, iterate.unknowns)
+    blocks = [build_stiffness(mesh, tangent.modulus)]
+    force = assemble_stress(mesh, hold_stress(tangent, strain)) - equations.weight
+    base, shear = _linearise_base(equations, iterate), None
+    if base is not None:
+        glide = compute_base_velocity(mesh, iterate.unknowns)
+        shear = base.kept + base.modulus * glide
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+        force += assemble_base_force(mesh, shear)
+    return _Linear(tangent, strain, base, shear), blocks, force
+
+
+def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent | None:
+    weights, problem = equations.mesh.base.weights, equations.problem
+    shear = iterate.base_shear
+    if problem.law.ground == "sliding":
+        law = problem.law
+        if shear is None:
+            law, shear = replace(law, exponent=1.0), np.zeros_like(weights)
+        return linearise_sliding(law, shear, equations.bottom_fluidity)
+    if problem.base_drag > 0.0:
+        drag = np.full_like(weights, problem.base_drag)
+        return Tangent(modulus=drag, kept=np.zeros_like(weights))
+    return None
+
+
+def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) -> Floats:
+    mesh, law = equations.mesh, equations.problem.law
+    friction = None
+    if equations.top_slips and law.friction > 0.0:
+        # over the head the snow slips up, with friction against it (F6)
+        friction = np.zeros(mesh.n_dofs)
+        friction[equations.top + 1] = -law.friction
+    is_mixed = law.element == "mixed"
+    ordering = build_ordering(mesh.template, has_pressures=is_mixed, couples_net=False)
+    try:
+        return solve_blocks(
+            ordering, blocks, force, equations.free, friction, is_definite=not is_mixed
+        )
+    except SingularError:
+        raise SolveError(
+            Outcome.NONFINITE, "nothing holds the snow: a singular step"
+        ) from None
+
+
+def _nodal_weight(
+    problem: TransientProblem, mesh: PlacedMesh, body: SnowBody
+) -> Floats:
+    """Weight of the mass that each triangle has kept."""
+    shape, _, point_weights = reference_element()
+    shares = 2.0 * point_weights @ shape
+    template = mesh.template
+    nodal = gather(
+        template.triangles.T, np.outer(body.mass, shares), mesh.nodes.shape[1]
+    )
+    loads = np.outer(problem.law.gravity, fold_load(template, nodal))
+    return mesh.to_node_axes(loads)
+
+
+def _free_places(
+    problem: TransientProblem, mesh: PlacedMesh, state: TransientState
+) -> Mask:
+    template = mesh.template
+    free = np.ones(mesh.n_dofs, dtype=bool)
+    midpoints, ground = template.net[1::2], template.ground
+    free[2 * midpoints] = free[2 * midpoints + 1] = False
+    free[2 * ground + 1] = False
+    free[2 * ground[0]] = False
+    if problem.law.ground == "no-slip":
+        free[2 * ground] = False
+    if state.top != "on-net":
+        free[2 * template.net[-1]] = False
+        free[2 * template.net[-1] + 1] = state.top == "slipping"
+    return free

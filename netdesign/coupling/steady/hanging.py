@@ -1,0 +1,191 @@
+"""The net at rest under the forces of the snow, and how much of it lies in the snow.
+
+Theory: coupling/THEORY.md, sections 1 and 2. Dimensionless: lengths in snow
+thicknesses d, forces per metre of width in rho g d^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.closed_form import compute_parabola_sag
+from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.cable.parted import PartedCable, part_cable
+from netdesign.coupling.steady.start import guess_pressure
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.law import FlowLaw
+from netdesign.snow.mesh import MeshTemplate
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SteadyProblem:
+    """One scene on one mesh, dimensionless.
+
+    Attributes
+    ----------
+    law : FlowLaw
+        Creep, ground and friction.
+    template : MeshTemplate
+        Reference mesh.
+    head : ndarray, shape (2,)
+        Position of the net's head.
+    length, slack : float
+        Unstressed, of the whole net; what of it exceeds the chord, over the chord.
+    stiffness : float
+        ES, the force of a strain of 1.
+    """
+
+    law: FlowLaw
+    template: MeshTemplate
+    head: Floats
+    length: float
+    slack: float
+    stiffness: float
+
+    @property
+    def has_freeboard(self) -> bool:
+        """The head stands above the snow: the net's top segment hangs free."""
+        return bool(self.head[1] > 1.0 + 1e-9)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Hanging:
+    """The net under given forces, and how much of it lies in each layer of snow.
+
+    Attributes
+    ----------
+    cable : Funicular
+        Its equilibrium.
+    parts : ndarray, shape (n_parts,)
+        Unstressed lengths of the net in each layer, from the ground up, then of its
+        free top, if it has one.
+    forces : ndarray, shape (2, n_nodes)
+        As the cable takes them; those of a free end, 0, are the last two.
+    lengths : ndarray, shape (n_elements,)
+        Unstressed.
+    """
+
+    cable: Funicular
+    parts: Floats
+    forces: Floats
+    lengths: Floats
+
+
+def start_hanging(problem: SteadyProblem) -> Hanging:
+    """The net under a uniform pressure of about the right size.
+
+    Raises
+    ------
+    SolveError
+        If nothing holds the net.
+    """
+    chord = float(np.hypot(*problem.head))
+    along = problem.head / chord
+    outward = np.array([along[1], -along[0]])
+    pressure = guess_pressure(problem.law, problem.template.aspect)
+    sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
+    pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
+    marks = _list_marks(problem)
+    parts = np.diff(marks) * (problem.length / marks[-1])
+    lengths = np.diff(problem.template.net_fractions[::2]) * (
+        problem.length / marks[-1]
+    )
+    shares = np.zeros(2 * lengths.size + 1)
+    shares[1::2] = 4.0 / 6.0 * lengths
+    shares[:-1:2] += lengths / 6.0
+    shares[2::2] += lengths / 6.0
+    return _hang(problem, pressure * np.outer(outward, shares), pull, parts)
+
+
+def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hanging:
+    """The net under other forces on the nodes in the snow, shape (2, n_net).
+
+    Raises
+    ------
+    SolveError
+        If nothing holds the net, or its contact with the snow's surface is not found.
+    """
+    return _hang(problem, on_net, hanging.cable.pull, hanging.parts)
+
+
+def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
+    """Net nodes that lie in the snow, shape (2, n_net)."""
+    return hanging.cable.curve[:, : problem.template.net.size]
+
+
+def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
+    """Unstressed length below each net node, over that in the snow; shape (n_net,)."""
+    marks = np.array([0.0, *template.interfaces, 1.0])
+    below = np.append(0.0, np.cumsum(hanging.parts[: marks.size - 1]))
+    return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))
+
+
+def _list_marks(problem: SteadyProblem) -> Floats:
+    """Heights at which parts of the net begin and end, (n_parts + 1,)."""
+    top = [problem.head[1]] if problem.has_freeboard else []
+    return np.array([0.0, *problem.template.interfaces, 1.0, *top])
+
+
+def _share_parts(problem: SteadyProblem) -> tuple[Floats, Ints]:
+    """Length of each element over that of its part; part of each element."""
+    marks, heights = _list_marks(problem), problem.template.net_fractions[::2]
+    if problem.has_freeboard:
+        heights = np.append(heights, problem.head[1])
+    part = np.searchsorted(marks, (heights[1:] + heights[:-1]) / 2.0) - 1
+    return np.diff(heights) / np.diff(marks)[part], part
+
+
+def _hang(
+    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
+) -> Hanging:
+    """Net under nodal forces; its parts end where the layers and the snow end."""
+    if problem.has_freeboard:
+        forces = np.concatenate([forces, np.zeros((2, 2))], axis=1)
+    shares, part = _share_parts(problem)
+    if parts.size > 1:
+        parts = _find_parts(problem, forces, pull, parts)
+    lengths = shares * parts[part]
+    cable = _solve_cable(problem, forces, lengths, pull)
+    return Hanging(cable=cable, parts=parts, forces=forces, lengths=lengths)
+
+
+def _find_parts(
+    problem: SteadyProblem, forces: Floats, pull: Floats, parts: Floats
+) -> Floats:
+    """Lengths of the parts, from the pull of the last round or of the last lengths."""
+    shares, part = _share_parts(problem)
+    ends = np.append(_list_marks(problem)[:-1], problem.head[1])
+    cable = PartedCable(
+        shares=shares,
+        firsts=np.searchsorted(part, np.arange(ends.size - 1)),
+        rises=np.diff(ends),
+        head_x=float(problem.head[0]),
+        length=problem.length,
+        stiffness=problem.stiffness,
+    )
+    found = part_cable(cable, forces, pull)
+    if found is None:
+        hung = _solve_cable(problem, forces, shares * parts[part], pull)
+        found = part_cable(cable, forces, hung.pull)
+    if found is None:
+        raise SolveError(
+            Outcome.NO_EQUILIBRIUM,
+            "the net's contact with the snow's surface and layers was not found",
+        )
+    return found
+
+
+def _solve_cable(
+    problem: SteadyProblem, forces: Floats, lengths: Floats, pull: Floats
+) -> Funicular:
+    cable = solve_funicular(forces, lengths, problem.stiffness, problem.head, pull)
+    if cable.outcome is not Outcome.CONVERGED:
+        raise SolveError(cable.outcome)
+    return cable

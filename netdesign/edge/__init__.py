@@ -1,0 +1,1 @@
+"""Reading, writing and showing: where the program meets files and terminals."""

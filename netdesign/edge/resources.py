@@ -1,0 +1,21 @@
+"""Finds ``standards/`` and ``templates/`` in a wheel or beside a checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from netdesign.errors import NetDesignError
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def find_resource(name: str) -> Path:
+    """Folder ``name`` of the installed package or of the checkout around it.
+
+    A wheel carries the two folders as ``netdesign/_data/<name>``; a checkout
+    and an editable install have them beside the package.
+    """
+    for candidate in (_PACKAGE / "_data" / name, _PACKAGE.parent / name):
+        if candidate.is_dir():
+            return candidate
+    raise NetDesignError(f"the installation lacks its folder '{name}': install again")

@@ -1,0 +1,1 @@
+"""Evidence: verification, benchmark, the source paper's study."""

@@ -1,0 +1,126 @@
+"""Named scenes that span the ranges of use, as tables of scene files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from netdesign.coupling.scene import Scene
+from netdesign.errors import ModelError
+from netdesign.evidence.benchmark.random_scenes import Tables
+from netdesign.files.scene import SceneFile, build_scene
+
+PAPER_SCENE = "paper-30"
+# Of these histories are measured too.
+HISTORY_SCENES = ("paper-0", PAPER_SCENE)
+
+
+def _scene(
+    slope: float,
+    thickness: float,
+    length: float,
+    snow: dict[str, Any] | float,
+    ground: dict[str, Any] | str,
+    net: tuple[float, float, float, float],
+    *,
+    height: float = 0.0,
+    gravity: str = "full",
+) -> Tables:
+    """Tables; ``net`` holds inclination, friction, slack, stiffness."""
+    inclination, friction, slack, stiffness = net
+    packed = {"density_kg_m3": snow} if isinstance(snow, float) else snow
+    return {
+        "slope": {"angle_deg": slope},
+        "snow": {"thickness_m": thickness, "upslope_length_m": length, **packed},
+        "ground": {"law": ground} if isinstance(ground, str) else ground,
+        "net": {
+            "inclination_deg": inclination,
+            "friction_deg": friction,
+            "slack": slack,
+            "stiffness_kN_per_m": stiffness,
+            "height_m": height or thickness,
+        },
+        "gravity": {"mode": gravity},
+    }
+
+
+def _layers(*pairs: tuple[float, float]) -> dict[str, Any]:
+    return {
+        "layers": [
+            {"thickness_m": height, "density_kg_m3": density}
+            for height, density in pairs
+        ]
+    }
+
+
+def _sliding(slip_length: float, contact: str = "two-sided") -> dict[str, Any]:
+    return {"law": "sliding", "slip_length_m": slip_length, "contact": contact}
+
+
+SCENES: dict[str, Tables] = {
+    "paper-0": _scene(40, 4.0, 20, 366.8, "free", (0, 30, 0.0, 2e4)),
+    PAPER_SCENE: _scene(40, 4.0, 20, 366.8, "free", (30, 30, 0.0, 2e4)),
+    "smooth-net": _scene(40, 4.0, 20, 366.8, "free", (30, 0, 0.0, 2e4)),
+    "slipping-part": _scene(45, 3.0, 25, 400.0, "free", (35, 15, 0.02, 1e4)),
+    "parallel-gravity": _scene(
+        40, 4.0, 20, 366.8, "free", (0, 30, 0.0, 2e4), gravity="parallel"
+    ),
+    "rough-ground": _scene(38, 3.0, 15, 300.0, "no-slip", (30, 30, 0.03, 2e4)),
+    "rough-steep": _scene(55, 2.0, 12, 250.0, "no-slip", (15, 20, 0.0, 5e4)),
+    "rough-leaning": _scene(35, 4.5, 30, 450.0, "no-slip", (40, 45, 0.02, 1e5)),
+    "sliding-short": _scene(40, 3.0, 20, 350.0, _sliding(1.5), (25, 25, 0.03, 2e4)),
+    "sliding-long": _scene(
+        45, 2.5, 40, 300.0, _sliding(20.0), (30, 35, 0.05, 5e3)
+    ),
+    "flat-light": _scene(28, 1.5, 10, 200.0, "free", (20, 40, 0.05, 2e3)),
+    "long-slope": _scene(42, 2.0, 60, 320.0, "free", (30, 30, 0.02, 3e4)),
+    "slack-net": _scene(38, 3.0, 20, 400.0, _sliding(3.0), (10, 30, 0.15, 2e4)),
+    "freeboard": _scene(
+        40, 2.5, 20, 350.0, "free", (25, 30, 0.02, 2e4), height=3.2
+    ),
+    "layered": _scene(
+        40, 3.0, 20, _layers((1.0, 450.0), (1.2, 350.0), (0.8, 250.0)),
+        _sliding(3.0), (30, 30, 0.03, 2e4),
+    ),
+    "layered-rough": _scene(
+        38, 3.0, 20, _layers((1.2, 400.0), (1.0, 320.0), (0.8, 240.0)),
+        "no-slip", (30, 30, 0.03, 2e4),
+    ),
+    "layered-free": _scene(
+        38, 3.0, 20, _layers((1.2, 400.0), (1.0, 320.0), (0.8, 240.0)),
+        "free", (30, 30, 0.03, 2e4),
+    ),
+    "weak-base": _scene(
+        41, 2.6, 17,
+        _layers((0.37, 208.0), (0.71, 391.0), (0.83, 342.0), (0.69, 226.0)),
+        _sliding(1.4), (27, 24, 0.04, 1.3e4),
+    ),
+    "soft-middle": _scene(
+        36, 3.4, 23, _layers((1.3, 431.0), (0.6, 187.0), (1.5, 318.0)),
+        "no-slip", (22, 33, 0.02, 3e4),
+    ),
+    "dense-firn": _scene(
+        36, 3.0, 15, {"density_kg_m3": 600.0, "creep_law": "gagliardini-1997"},
+        _sliding(2.0, "one-sided"), (28, 38, 0.01, 4e4),
+    ),
+}  # fmt: skip
+
+
+def load_scenes(names: tuple[str, ...] = ()) -> dict[str, Scene]:
+    """Scenes by name; all of them if none is named.
+
+    Raises
+    ------
+    ModelError
+        For a name that is not known.
+    """
+    unknown = [name for name in names if name not in SCENES]
+    if unknown:
+        raise ModelError(
+            f"scenes {', '.join(unknown)}: not known; accepted are {', '.join(SCENES)}"
+        )
+    return {name: build_tables(SCENES[name]) for name in names or tuple(SCENES)}
+
+
+def build_tables(tables: Tables) -> Scene:
+    """Scene of the tables of a scene file."""
+    return build_scene(SceneFile.model_validate(tables))[0]

@@ -1,0 +1,106 @@
+"""What a solution is compared with: the same scene on a mesh four times finer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import EndPull, FailedSolution, Solution
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.errors import SolveError
+from netdesign.snow.mesh import MeshSize, build_template
+
+HALVINGS = 2  # of every side: a truth is four times finer
+# Rounding in the balance grows with the mesh; a truth is not handed out as a result.
+_TRUTH_BALANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Truth:
+    """End pulls of the fine mesh, shape (2,) each [N/m]."""
+
+    foot: NDArray[np.float64]
+    head: NDArray[np.float64]
+
+    def compare(self, solution: Solution) -> float:
+        """Larger relative error of the two end pulls, as vectors [-]."""
+        return max(self.compare_ends(solution))
+
+    def compare_ends(self, solution: Solution) -> tuple[float, float]:
+        """Relative errors of the pulls at foot and head [-]."""
+        return self.compare_pulls(_vector(solution.foot), _vector(solution.head))
+
+    def compare_pulls(
+        self, foot: NDArray[np.float64], head: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """The same of vectors, shape (2,) each [N/m]."""
+        return _relative(foot, self.foot), _relative(head, self.head)
+
+
+def solve_truth(
+    scene: Scene,
+    size: MeshSize,
+    settings: SolverSettings,
+    *,
+    halvings: int = HALVINGS,
+) -> Truth:
+    """End pulls on a mesh finer than ``size`` in each direction, at the net's ends too.
+
+    Every side of a triangle is halved so many times; by default it is four times finer.
+
+    Raises
+    ------
+    SolveError
+        If the fine mesh gives no converged solution.
+    """
+    fine = replace(
+        settings,
+        levels=(size, refine_size(size, halvings)),
+        balance_tolerance=_TRUTH_BALANCE,
+        step=None,
+    )
+    return build_truth(solve_steady(scene, fine))
+
+
+def build_truth(solution: Solution | FailedSolution) -> Truth:
+    """Truth from a fine solution.
+
+    Raises
+    ------
+    SolveError
+        If it has failed.
+    """
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
+    return Truth(foot=_vector(solution.foot), head=_vector(solution.head))
+
+
+def refine_size(size: MeshSize, times: int) -> MeshSize:
+    """Every triangle cut in four, so many times."""
+    return replace(size, subdivisions=size.subdivisions + times)
+
+
+def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
+    """Level whose mesh a solution was found on, by its number of triangles."""
+    aspect = solution.scene.reach
+    for level in levels:
+        template = build_template(aspect, level, solution.scene.layer_tops)
+        if template.triangles.shape[1] == solution.cost.elements:
+            return level
+    return levels[-1]
+
+
+def state_error(solution: Solution) -> float:
+    """Larger relative error of the end forces that a solution states [-]."""
+    return max(pull.error / pull.size for pull in (solution.foot, solution.head))
+
+
+def _relative(pull: NDArray[np.float64], true: NDArray[np.float64]) -> float:
+    return float(np.hypot(*(pull - true)) / np.hypot(*true))
+
+
+def _vector(pull: EndPull) -> NDArray[np.float64]:
+    return np.array([pull.x, pull.y])

@@ -1,0 +1,246 @@
+"""Closed forms of the creep law, of slabs and columns of snow, and of cables."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.cable.closed_form import compute_parabola_sag
+from netdesign.cable.funicular import Funicular, solve_funicular
+from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.evidence.verification.manufactured import build_square
+from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.snow.creep_law import (
+    ZWINGER_2007,
+    compute_bulk_factor,
+    compute_shear_factor,
+    compute_strain_rate,
+)
+from netdesign.snow.kernel import build_placed_mesh, interpolate
+from netdesign.snow.law import FlowLaw, FlowLayer
+from netdesign.snow.mesh import place_nodes
+from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
+
+Floats = NDArray[np.float64]
+
+_ROUNDING = 1e-12
+_ELMER = "Porous Law for snow and firn in Elmer/Ice (2012)"
+_DENSITY, _FLUIDITY, _STRESS = 0.5, 20.0, -0.01  # [-], [MPa^-3 a^-1], [MPa]
+_N = 3.0
+_BULK_RATIO, _SLOPE = 2.0, math.radians(40.0)
+_DIVISIONS = (4, 8, 16)
+
+
+def list_law() -> list[VerificationCase]:
+    """Strain rates of simple stress states, against formula and printed figure."""
+    a = compute_shear_factor(ZWINGER_2007, _DENSITY)
+    b = compute_bulk_factor(ZWINGER_2007, _DENSITY)
+    s = _STRESS
+    axial = np.diag([0.0, 0.0, s])
+    even = np.diag([s, s, s])
+    # lateral stress of confined compression, from tau_xx and p of the same source
+    tau = -2.0 / (3.0 * a) / (4.0 / (3.0 * a) + 1.0 / b) * s
+    confined = np.diag([s + 3.0 * tau, s + 3.0 * tau, s])
+    one = a / 3.0 + b / 9.0
+    two = 4.0 / (3.0 * a) + 1.0 / b
+    rows = (
+        ("law-uniaxial", axial, 2, _FLUIDITY * one**2 * s**3, -0.1381),
+        (
+            "law-uniaxial-lateral",
+            axial,
+            0,
+            _FLUIDITY / 18.0 * one * (2 * b - 3 * a) * s**3,
+            0.03328,
+        ),
+        ("law-isotropic", even, 0, b**2 * _FLUIDITY * s**3 / 3.0, -0.1113),
+        ("law-confined", confined, 2, _FLUIDITY * two**-2 * s**3, -0.0991),
+    )
+    cases = []
+    for name, stress, axis, formula, printed in rows:
+        got = _rate_per_year(stress)[axis, axis]
+        for suffix, expected, source, tolerance in (
+            ("", formula, f"formula of {_ELMER}", _ROUNDING),
+            ("-printed", printed, f"figure printed in {_ELMER}, 4 digits", 1e-3),
+        ):
+            cases.append(
+                VerificationCase(
+                    id=name + suffix,
+                    kind="published" if suffix else "closed form",
+                    reference=source,
+                    expected=expected,
+                    got=float(got),
+                    tolerance=tolerance,
+                )
+            )
+    lateral = _rate_per_year(confined)[0, 0] / _rate_per_year(confined)[2, 2]
+    return [*cases, _zero("law-confined-lateral", "no lateral strain", lateral)]
+
+
+def list_snow() -> list[VerificationCase]:
+    """Settlement of a confined column and shear of an infinite slab."""
+    stiffness = _BULK_RATIO + 4.0 / 3.0
+    size = math.hypot(math.sin(_SLOPE), math.cos(_SLOPE) / math.sqrt(stiffness))
+    scale = size ** (_N - 1.0) / (_N + 1.0)
+    column = stiffness ** (-(_N + 1.0) / 2.0) / (_N + 1.0)
+    return [
+        _slab_case("column-settlement", 0.0, 1, -column, f"w(z) of {_ELMER}"),
+        _slab_case(
+            "slab-shear",
+            _SLOPE,
+            0,
+            scale * math.sin(_SLOPE),
+            "surface velocity of an infinite slab, stress linear in depth",
+        ),
+        _slab_case(
+            "slab-settlement",
+            _SLOPE,
+            1,
+            -scale * math.cos(_SLOPE) / stiffness,
+            "settlement of an infinite slab, stress linear in depth",
+        ),
+    ]
+
+
+def list_cable() -> list[VerificationCase]:
+    """Elastic catenary (uniform load along its length) and shallow parabola."""
+    load, chord, stiffness = 10.0, 4.0, 20e3
+    exact = _clamped_parabola(load, chord, stiffness)
+    cases = []
+    errors = []
+    counts = (2, 4, 8)
+    for count in counts:
+        cable = _solve_uniform(load, chord, stiffness, count)
+        errors.append(abs(float(np.hypot(*cable.foot_pull)) / exact - 1.0))
+    cases.append(
+        VerificationCase(
+            id="cable-catenary",
+            kind="closed form",
+            reference="elastic catenary, cable/THEORY.md (C9)",
+            expected=exact,
+            got=exact * (1.0 + errors[-1]),
+            tolerance=1e-6,
+            order=observe_order([1.0 / n for n in counts], errors),
+            least_order=1.9,
+        )
+    )
+    # a small sag is the premise of the formula: a stiff cable, a light load
+    stiff = 1e9
+    shallow = _solve_uniform(1.0, chord, stiff, 8)
+    sag = float(shallow.curve[0].max())
+    cases.append(
+        VerificationCase(
+            id="cable-parabola-sag",
+            kind="closed form",
+            reference="f^3 = 3 q b^4 / (64 ES), shallow limit",
+            expected=compute_parabola_sag(1.0, chord, stiff, 0.0),
+            got=sag,
+            tolerance=1e-4,
+        )
+    )
+    return cases
+
+
+def _rate_per_year(stress_mpa: Floats) -> Floats:
+    fluidity = fluidity_from_mpa_year(_FLUIDITY, _N)
+    rate = compute_strain_rate(ZWINGER_2007, _DENSITY, fluidity, stress_mpa * 1e6)
+    return rate * SECONDS_PER_YEAR
+
+
+def _slab_case(
+    name: str, slope: float, axis: int, exact: float, reference: str
+) -> VerificationCase:
+    errors, got = [], math.nan
+    for divisions in _DIVISIONS:
+        got, error = _solve_slab(divisions, slope, axis)
+        errors.append(error)
+    return VerificationCase(
+        id=name,
+        kind="closed form",
+        reference=reference,
+        expected=exact,
+        got=got,
+        tolerance=1e-4,
+        order=observe_order([1.0 / n for n in _DIVISIONS], errors),
+        least_order=2.85,
+    )
+
+
+def _solve_slab(divisions: int, slope: float, axis: int) -> tuple[float, float]:
+    """Surface velocity along an axis, and its relative L2 error over the slab.
+
+    The two sides of the square move as an infinite slab does.
+    """
+    template = build_square(divisions)
+    heights = template.net_fractions
+    straight = np.array([0.0 * heights, heights])
+    mesh = build_placed_mesh(template, place_nodes(template, straight))
+    on_ground = mesh.nodes[1] == 0.0
+    on_side = (template.nodes[0] == 0.0) | (template.nodes[0] == 1.0)
+    gravity = (math.sin(slope), -math.cos(slope))
+    law = FlowLaw(
+        exponent=_N,
+        layers=(FlowLayer(bulk_ratio=_BULK_RATIO),),
+        gravity=gravity,
+        stress_floor=1e-9,
+    )
+    flow: PrescribedFlow = solve_prescribed(
+        law,
+        mesh,
+        held=np.array([on_ground | on_side, on_ground | on_side]),
+        values=_slab_velocity(mesh.nodes[1], slope),
+        body_force=np.ones((2, *mesh.weights.shape)) * np.array(gravity)[:, None, None],
+    )
+    middle = np.hypot(mesh.nodes[0] + 0.5, mesh.nodes[1] - 1.0).argmin()
+    _, height = interpolate(mesh, mesh.nodes)
+    exact = _slab_velocity(height, slope)[axis]
+    missed = interpolate(mesh, flow.velocity[axis]) - exact
+    error = (mesh.weights * missed**2).sum() / (mesh.weights * exact**2).sum()
+    return float(flow.velocity[axis, middle]), math.sqrt(error)
+
+
+def _slab_velocity(height: Floats, slope: float) -> Floats:
+    """Exact velocity of an infinite slab, shape (2, n)."""
+    stiffness = _BULK_RATIO + 4.0 / 3.0
+    size = math.hypot(math.sin(slope), math.cos(slope) / math.sqrt(stiffness))
+    profile = size ** (_N - 1.0) * (1.0 - (1.0 - height) ** (_N + 1.0)) / (_N + 1.0)
+    return np.array([math.sin(slope) * profile, -math.cos(slope) / stiffness * profile])
+
+
+def _solve_uniform(
+    load: float, chord: float, stiffness: float, count: int
+) -> Funicular:
+    """Straight unstressed cable along Y under a load along X."""
+    lengths = np.full(count, chord / count)
+    shares = np.zeros(2 * count + 1)
+    shares[1::2] = 4.0 / 6.0 * lengths
+    shares[:-1:2] += lengths / 6.0
+    shares[2::2] += lengths / 6.0
+    sag = compute_parabola_sag(load, chord, stiffness, 0.0)
+    start = np.array([load * chord / 2.0, load * chord**2 / (8.0 * sag)])
+    forces = load * np.array([shares, 0.0 * shares])
+    head = np.array([0.0, chord])
+    return solve_funicular(forces, lengths, stiffness, head, start)
+
+
+def _clamped_parabola(load: float, chord: float, stiffness: float) -> float:
+    """End tension of (C9) for an unstressed length equal to the chord."""
+    end = load * chord / 2.0  # V at the ends
+    low, high = 1e-6 * stiffness, stiffness
+    for _ in range(200):
+        pull = math.sqrt(low * high)
+        half = pull * (chord / 2.0) / stiffness + pull / load * math.asinh(end / pull)
+        low, high = (pull, high) if half < chord / 2.0 else (low, pull)
+    return math.hypot(math.sqrt(low * high), end)
+
+
+def _zero(name: str, reference: str, got: float) -> VerificationCase:
+    return VerificationCase(
+        id=name,
+        kind="closed form",
+        reference=reference,
+        expected=0.0,
+        got=float(got),
+        tolerance=_ROUNDING,
+    )

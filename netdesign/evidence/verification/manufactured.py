@@ -1,0 +1,200 @@
+"""Manufactured solution of the nonlinear creep law, on a mesh with a curved side.
+
+The velocity is a polynomial that no element represents; the body force that makes it
+a solution follows from the law by the chain rule. The functions of x and y below take
+arrays and symbols alike: ``tests/verification/test_manufactured.py`` proves with them
+that the residual of the exact solution is zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.snow.kernel import Element, PlacedMesh, build_placed_mesh, interpolate
+from netdesign.snow.law import FlowLaw, FlowLayer
+from netdesign.snow.mesh import MeshTemplate, place_nodes, triangulate
+
+Floats = NDArray[np.float64]
+Vector = tuple[Any, Any, Any]  # (xx, yy, xy)
+
+EXPONENT = 3
+BULK_RATIO = 3
+_DIVISIONS = (4, 8, 16)
+_BULGE = 0.15  # of the curved side, over its height
+_REFERENCE = "chosen polynomial velocity, its body force proved with sympy"
+
+
+def exact_velocity(x: Any, y: Any) -> tuple[Any, Any]:
+    """Velocity; its strain rate vanishes nowhere on the bench."""
+    u = x + x * y / 2 + 3 * x**2 * y / 10 - y**3 / 5
+    v = -2 * y / 5 + 3 * x**2 / 10 + x * y**2 / 4
+    return u, v
+
+
+def exact_strain(x: Any, y: Any) -> Vector:
+    """Strain rate of the velocity, with the engineering shear."""
+    return (
+        (10 + 5 * y + 6 * x * y) / 10,
+        (5 * x * y - 4) / 10,
+        (22 * x + 6 * x**2 - 7 * y**2) / 20,
+    )
+
+
+def strain_slopes(x: Any, y: Any) -> tuple[Vector, Vector]:
+    """Derivatives of the strain rate along x and along y."""
+    along_x = (3 * y / 5, y / 2, (11 + 6 * x) / 10)
+    along_y = ((5 + 6 * x) / 10, x / 2, -7 * y / 10)
+    return along_x, along_y
+
+
+def linear_stress(strain: Vector) -> Vector:
+    """M times a strain rate, snow/THEORY.md (F2)."""
+    xx, yy, xy = strain
+    bulk = BULK_RATIO * (xx + yy) - (xx + yy) * 2 / 3
+    return 2 * xx + bulk, 2 * yy + bulk, xy
+
+
+def exact_stress(x: Any, y: Any) -> Vector:
+    """Stress of the velocity."""
+    strain = exact_strain(x, y)
+    shape = linear_stress(strain)
+    viscosity = _dot(strain, shape) ** _power(strain)
+    return (shape[0] * viscosity, shape[1] * viscosity, shape[2] * viscosity)
+
+
+def exact_body_force(x: Any, y: Any) -> tuple[Any, Any]:
+    """Minus the divergence of the stress."""
+    strain = exact_strain(x, y)
+    shape = linear_stress(strain)
+    size = _dot(strain, shape)
+    power = _power(strain)
+    slopes = []
+    for slope in strain_slopes(x, y):
+        change = linear_stress(slope)
+        growth = 2 * _dot(slope, shape) * power / size
+        slopes.append(
+            tuple(
+                size**power * (d + growth * s)
+                for d, s in zip(change, shape, strict=True)
+            )
+        )
+    along_x, along_y = slopes
+    return -(along_x[0] + along_y[2]), -(along_x[2] + along_y[1])
+
+
+def list_manufactured() -> list[VerificationCase]:
+    """Errors and orders of both elements."""
+    velocity, strain, pressure = _measure("velocity")
+    cases = [
+        _case("mms-p2-velocity", velocity, 3.0, 1e-4),
+        _case("mms-p2-strain-rate", strain, 2.0, 5e-3),
+        _case("mms-p2-pressure", pressure, 2.0, 5e-3),
+    ]
+    velocity, strain, pressure = _measure("mixed")
+    cases += [
+        _case("mms-p2p1-velocity", velocity, 3.0, 1e-4),
+        _case("mms-p2p1-strain-rate", strain, 2.0, 5e-3),
+        _case("mms-p2p1-pressure", pressure, 2.0, 5e-3),
+    ]
+    return cases
+
+
+def build_law(element: Element) -> FlowLaw:
+    """Law of the bench, with a stress floor far below its stresses."""
+    return FlowLaw(
+        exponent=float(EXPONENT),
+        layers=(FlowLayer(bulk_ratio=float(BULK_RATIO)),),
+        gravity=(0.0, 0.0),
+        element=element,
+        stress_floor=1e-9,
+    )
+
+
+def solve_bench(divisions: int, element: Element) -> tuple[PlacedMesh, PrescribedFlow]:
+    """Manufactured problem on a square with ``divisions`` pieces along each side."""
+    template = build_square(divisions)
+    heights = template.net_fractions
+    curve = np.array([4 * _BULGE * heights * (1 - heights), heights])
+    mesh = build_placed_mesh(template, place_nodes(template, curve), element)
+    distance, height = template.nodes
+    on_side = (distance == 0) | (distance == 1) | (height == 0) | (height == 1)
+    flow = solve_prescribed(
+        build_law(element),
+        mesh,
+        held=np.array([on_side, on_side]),
+        values=np.array(exact_velocity(*mesh.nodes)),
+        body_force=np.array(exact_body_force(*interpolate(mesh, mesh.nodes))),
+    )
+    return mesh, flow
+
+
+def build_square(divisions: int) -> MeshTemplate:
+    """Reference mesh of a square with equal pieces along its sides."""
+    ticks = np.linspace(0.0, 1.0, divisions + 1)
+    x, y = np.meshgrid(ticks, ticks)
+    return triangulate(np.column_stack([x.ravel(), y.ravel()]), 1.0)
+
+
+def _measure(element: Element) -> tuple[list[float], list[float], list[float]]:
+    """Relative L2 errors of velocity, strain rate and pressure over the meshes."""
+    velocity, strain, pressure = [], [], []
+    for divisions in _DIVISIONS:
+        mesh, flow = solve_bench(divisions, element)
+        places = interpolate(mesh, mesh.nodes)
+        got = interpolate(mesh, flow.velocity)
+        velocity.append(_error(mesh, got, np.array(exact_velocity(*places))))
+        exact = np.array(exact_strain(*places))
+        strain.append(_error(mesh, np.moveaxis(flow.strain, -1, 0), exact))
+        pressure.append(_error(mesh, _pressure(flow), exact_pressure(*places)))
+    return velocity, strain, pressure
+
+
+def exact_pressure(x: Any, y: Any) -> Any:
+    """Mean pressure of the velocity."""
+    strain = exact_strain(x, y)
+    size = _dot(strain, linear_stress(strain))
+    return -BULK_RATIO * (strain[0] + strain[1]) * size ** _power(strain)
+
+
+def _pressure(flow: PrescribedFlow) -> Floats:
+    if flow.stress.shape[-1] == 4:
+        return np.asarray(flow.stress[..., 3])
+    strain = tuple(np.moveaxis(flow.strain, -1, 0))
+    size = _dot(strain, linear_stress(strain))
+    return np.asarray(-BULK_RATIO * (strain[0] + strain[1]) * size ** _power(strain))
+
+
+def _error(mesh: PlacedMesh, got: Floats, exact: Floats) -> float:
+    missed = (mesh.weights * (got - exact) ** 2).sum()
+    return float(np.sqrt(missed / (mesh.weights * exact**2).sum()))
+
+
+def _case(
+    name: str, errors: list[float], theory: float, tolerance: float
+) -> VerificationCase:
+    sizes = [1.0 / divisions for divisions in _DIVISIONS]
+    return VerificationCase(
+        id=name,
+        kind="manufactured",
+        reference=f"{_REFERENCE}; theory: order {theory:g}",
+        expected=0.0,
+        got=errors[-1],
+        tolerance=tolerance,
+        order=observe_order(sizes, errors),
+        least_order=theory - 0.15,
+    )
+
+
+def _dot(first: Vector, second: Vector) -> Any:
+    return sum(a * b for a, b in zip(first, second, strict=True))
+
+
+def _power(strain: Vector) -> Any:
+    """(1 - n) / (2 n) as an exact fraction where the strain is symbolic."""
+    one = strain[0] / strain[0]
+    return one * (1 - EXPONENT) / (2 * EXPONENT)

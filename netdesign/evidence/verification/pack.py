@@ -1,0 +1,73 @@
+"""The whole verification pack."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.closed_forms import list_cable, list_law, list_snow
+from netdesign.evidence.verification.coupled import (
+    list_invariants,
+    list_layered,
+    list_limits,
+    list_numerics,
+    list_orders,
+    list_reference,
+)
+from netdesign.evidence.verification.histories import list_histories
+from netdesign.evidence.verification.manufactured import list_manufactured
+from netdesign.evidence.verification.sliding_net import list_sliding_net
+from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
+
+# Lowest rung first: a rung is believed only when the one below stands.
+GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
+    list_law,
+    list_snow,
+    list_manufactured,
+    list_cable,
+    list_sliding_net,
+    list_invariants,
+    list_limits,
+    list_numerics,
+    list_orders,
+    list_reference,
+    list_layered,
+    list_walls,
+    list_depth_averaged,
+    list_histories,
+)
+
+
+def run_pack(
+    on_group: Callable[[int], None] | None = None,
+) -> list[VerificationCase]:
+    """All cases, in the order of the ladder; ``on_group`` gets the groups done."""
+    cases: list[VerificationCase] = []
+    for done, group in enumerate(GROUPS, start=1):
+        cases.extend(group())
+        if on_group:
+            on_group(done)
+    return cases
+
+
+def write_pack(cases: list[VerificationCase]) -> dict[str, Any]:
+    """Plain values in the form ``netdesign.verification/1``."""
+    return {
+        "schema": "netdesign.verification/1",
+        "cases": [
+            {
+                "id": case.id,
+                "kind": case.kind,
+                "reference": case.reference,
+                "expected": case.expected,
+                "got": case.got,
+                "error": case.error,
+                "tolerance": case.tolerance,
+                "order": case.order,
+                "least_order": case.least_order,
+                "pass": case.passes,
+            }
+            for case in cases
+        ],
+    }

@@ -1,0 +1,131 @@
+"""Rigid walls: other codes, a depth-averaged solution, the Swiss guideline."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.errors import SolveError
+from netdesign.evidence.verification.case import VerificationCase
+from netdesign.snow.creep_law import (
+    BOUTILLIER_2004,
+    ICE_DENSITY,
+    compute_bulk_factor,
+    compute_shear_factor,
+)
+from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import GRAVITY, Snowpack
+from netdesign.snow.wall import Wall
+
+_THICKNESS = 3.0  # [m]
+_ROUGH = GroundLaw(kind="no-slip")
+# Recalled, not read, from the guideline: density -> K / sin(2 psi).
+_CREEP_FACTORS = {200.0: 0.70, 300.0: 0.76, 400.0: 0.83, 500.0: 0.92, 600.0: 1.05}
+# (exponent, slope) -> force over guideline at 300 kg/m3, from two independent codes.
+_TWO_CODES = {(3, 35): 1.263, (3, 45): 1.039, (1, 35): 1.023, (1, 45): 0.866}
+_WITHIN_A_THIRD = 1.0 / 3.0
+
+
+def list_walls() -> list[VerificationCase]:
+    """Force along X on a wall normal to the slope, snow adhering, rough ground."""
+    cases = []
+    for (exponent, slope), expected in _TWO_CODES.items():
+        got = wall_force(slope, 300.0, exponent=exponent) / guideline_force(
+            slope, 300.0
+        )
+        cases.append(
+            VerificationCase(
+                id=f"wall-n{exponent}-{slope}",
+                kind="cross model",
+                reference="two independent codes; force over Swiss guideline, N = 1",
+                expected=expected,
+                got=got,
+                tolerance=2e-3,
+            )
+        )
+    cases.extend(
+        VerificationCase(
+            id=f"guideline-{density:.0f}-{slope}",
+            kind="published",
+            reference="Swiss guideline S'_N, K recalled; within a third, not tuned",
+            expected=guideline_force(slope, density) / 1e3,
+            got=wall_force(slope, density) / 1e3,
+            tolerance=_WITHIN_A_THIRD,
+        )
+        for density in _CREEP_FACTORS
+        for slope in (35, 40, 45)
+    )
+    return cases
+
+
+def list_depth_averaged() -> list[VerificationCase]:
+    """Linear creep on a very slippery ground tends to plug flow."""
+    cases = []
+    for ratio, tolerance in ((4.0, 0.05), (16.0, 0.01), (64.0, 0.005)):
+        ground = GroundLaw(kind="sliding", slip_length=ratio * _THICKNESS)
+        got = wall_force(40, 300.0, exponent=1, ground=ground, length=190 * _THICKNESS)
+        cases.append(
+            VerificationCase(
+                id=f"depth-averaged-{ratio:g}",
+                kind="limit",
+                reference="depth-averaged viscous layer, slip length / d to infinity",
+                expected=depth_averaged_force(40, 300.0, ratio) / 1e3,
+                got=got / 1e3,
+                tolerance=tolerance,
+            )
+        )
+    return cases
+
+
+def wall_force(
+    slope: float,
+    density: float,
+    *,
+    exponent: float = 3,
+    ground: GroundLaw = _ROUGH,
+    length: float = 40.0,
+) -> float:
+    """Force along X [N/m] on an adhering wall; slope in degrees."""
+    scene = Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(slope),
+            thickness=_THICKNESS,
+            upslope_length=length,
+            density=density,
+        ),
+        ground=ground,
+        net=Wall(height_normal=_THICKNESS),
+        creep_law=replace(BOUTILLIER_2004, exponent=float(exponent)),
+    )
+    solution = solve_rigid(scene, SolverSettings(accuracy=0.005))
+    if isinstance(solution, FailedSolution):
+        raise SolveError(solution.outcome, solution.reason)
+    return solution.force.x
+
+
+def guideline_force(slope: float, density: float) -> float:
+    """S'_N = rho g H^2 / 2 K with N = 1 [N/m]; H is the vertical height."""
+    angle = math.radians(slope)
+    height = _THICKNESS / math.cos(angle)
+    creep_factor = _CREEP_FACTORS[density] * math.sin(2.0 * angle)
+    return density * GRAVITY * height**2 / 2.0 * creep_factor
+
+
+def depth_averaged_force(slope: float, density: float, slip_ratio: float) -> float:
+    """Force per width [N/m] of a viscous layer of plane sections.
+
+    F = rho g d^2 [ l/d sin psi + K0/2 cos psi ], (l/d)^2 = 2 / (1 - nu) (1/3 + D*/d),
+    K0 = nu / (1 - nu), nu = (3a - 2b) / (6a + 2b).
+    """
+    relative = density / ICE_DENSITY
+    a = compute_shear_factor(BOUTILLIER_2004, relative)
+    b = compute_bulk_factor(BOUTILLIER_2004, relative)
+    poisson = (3 * a - 2 * b) / (6 * a + 2 * b)
+    length = math.sqrt(2.0 / (1.0 - poisson) * (1.0 / 3.0 + slip_ratio))
+    angle = math.radians(slope)
+    side = poisson / (1.0 - poisson) / 2.0
+    mean = length * math.sin(angle) + side * math.cos(angle)
+    return density * GRAVITY * _THICKNESS**2 * mean

@@ -1,0 +1,1 @@
+"""Scenes, solutions and envelopes as files."""

@@ -1,0 +1,174 @@
+"""The document of ``netdesign envelope --json``: forces per metre of net width."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from netdesign import __version__
+from netdesign.envelope.extremes import describe_gap, find_extremes
+from netdesign.envelope.parameters import Box
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.runner import Counts
+from netdesign.envelope.search import Grid, RowEnvelope
+from netdesign.study.record_envelope import record_case, record_envelope
+from netdesign.study.records import BoundRecord, EnvelopeRecord
+from netdesign.units import kilonewton_from_newton
+
+SCHEMA = "netdesign.envelope/1"
+# Quantity of the document for each force that is followed.
+QUANTITY_KEYS = {
+    "foot": "foot_size_kN_per_m",
+    "head": "head_size_kN_per_m",
+    "rope": "tension_max_kN_per_m",
+}
+
+
+def write_envelope_document(
+    envelope: RowEnvelope, counts: Counts, wall_s: float
+) -> tuple[dict[str, Any], EnvelopeRecord]:
+    """Document and record of a searched envelope.
+
+    Parameters
+    ----------
+    envelope : RowEnvelope
+        Of the net's own tensions.
+    counts : Counts
+        Of the run.
+    wall_s : float
+        Time that the search took [s].
+    """
+    record = record_envelope(envelope, tuple(QUANTITY_KEYS))
+    document = {
+        "schema": SCHEMA,
+        "outcome": "not_proven" if envelope.gap else "bounded",
+        "reason": envelope.gap,
+        "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
+        "extremes": [_write_bound(envelope, bound) for bound in record.bounds],
+        "cases": {
+            "solved": counts.solved,
+            "reused": counts.reused,
+            "skipped": record.skipped,
+            "failed": record.failed,
+            "asked": record.cases,
+            "skips_tested": record.skips_tested,
+        },
+        "bound": {
+            "gap_asked": envelope.task.search.gap,
+            "certainty": record.certainty,
+            "resolved_share": record.resolved_share,
+            "rests_on": (
+                "held-out errors of the model between the cases; features narrower "
+                "than the resolved share of a range may hide"
+            ),
+        },
+        "log": [_write_addition(asdict(one)) for one in record.log],
+        "cost": {"wall_s": wall_s},
+        "provenance": {
+            "version": __version__,
+            "creep_law": envelope.task.scene.creep_law.name,
+            "settings": {"accuracy": envelope.task.settings.accuracy},
+        },
+    }
+    return document, record
+
+
+def write_grid_document(
+    box: Box, grid: Grid, counts: Counts, wall_s: float
+) -> dict[str, Any]:
+    """Document of a grid of cases, which has no upper bound.
+
+    Parameters
+    ----------
+    box : Box
+        Ranges.
+    grid : Grid
+        All cases.
+    counts : Counts
+        Of the run.
+    wall_s : float
+        Time that the cases took [s].
+    """
+    results = grid.results
+    reason = describe_gap(results)
+    extremes = find_extremes(results)
+    return {
+        "schema": SCHEMA,
+        "outcome": "not_proven" if reason else "sampled",
+        "reason": reason,
+        "ranges": {
+            key: [min(values), max(values)]
+            for key, values in _list_values(box, results).items()
+        },
+        "extremes": [
+            {
+                "quantity": QUANTITY_KEYS[member],
+                "max": kilonewton_from_newton(extreme.force.value),
+                "upper_bound": None,  # a grid says nothing between its cases
+                "low": kilonewton_from_newton(extreme.force.low),
+                "high": kilonewton_from_newton(extreme.force.high),
+                "case": record_case(extreme.governing.case, box),
+                "coincident": _list_coincident(extreme.governing, member),
+            }
+            for member, extreme in extremes.items()
+        ],
+        "cases": {
+            "solved": counts.solved,
+            "reused": counts.reused,
+            "skipped": grid.skipped,
+            "failed": sum(not result.is_converged for result in results),
+            "asked": len(results),
+        },
+        "cost": {"wall_s": wall_s},
+        "provenance": {"version": __version__},
+    }
+
+
+def _write_bound(envelope: RowEnvelope, bound: BoundRecord) -> dict[str, Any]:
+    band = envelope.bound(bound.quantity)
+    confirmation = None
+    if bound.confirmation is not None:
+        confirmation = _per_metre(asdict(bound.confirmation))
+    return {
+        "quantity": QUANTITY_KEYS[bound.quantity],
+        "max": bound.max_kN,
+        "upper_bound": bound.upper_bound_kN,
+        "gap": bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN else 0.0,
+        "low": kilonewton_from_newton(band.low),
+        "high": kilonewton_from_newton(band.high),
+        "case": bound.case,
+        "coincident": _list_coincident(
+            envelope.governing(bound.quantity), bound.quantity
+        ),
+        "confirmation": confirmation,
+        "sensitivity": {
+            "unexplained": bound.unexplained,
+            "drivers": [_per_metre(asdict(driver)) for driver in bound.drivers],
+        },
+    }
+
+
+def _list_coincident(result: CaseResult, member: str) -> dict[str, float]:
+    return {
+        QUANTITY_KEYS[other]: kilonewton_from_newton(band.value)
+        for other, band in result.member_forces.items()
+        if other != member
+    }
+
+
+def _list_values(box: Box, results: Sequence[CaseResult]) -> dict[str, list[float]]:
+    cases = [record_case(result.case, box) for result in results]
+    return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
+
+
+def _write_addition(one: dict[str, Any]) -> dict[str, Any]:
+    return _per_metre(one | {"quantity": QUANTITY_KEYS.get(one["quantity"], "")})
+
+
+def _per_metre(values: dict[str, Any]) -> dict[str, Any]:
+    """Keys of a record whose forces are per metre of width."""
+    return {
+        f"{key}_per_m" if key.endswith("_kN") else key: value
+        for key, value in values.items()
+    }

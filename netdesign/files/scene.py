@@ -1,0 +1,335 @@
+"""The scene file (TOML): one scene at the edge, and how it is to be solved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from netdesign.cable.net import Net
+from netdesign.coupling.history.staggered import LONGEST_EXCHANGE, StaggeredSettings
+from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.edge.given_files import list_faults, read_toml
+from netdesign.errors import ModelError, SceneFileError
+from netdesign.snow.creep_law import (
+    CREEP_LAWS,
+    DENSEST_SNOW,
+    ICE_DENSITY,
+    CreepLaw,
+)
+from netdesign.snow.fluidity import (
+    FLUIDITY_EXPONENT,
+    PAPER_FLUIDITY,
+    compute_fluidity,
+)
+from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor
+from netdesign.snow.law import Sides
+from netdesign.snow.snowpack import (
+    GravityMode,
+    Layer,
+    Snowpack,
+    compute_mean_density,
+    compute_thickness,
+)
+from netdesign.snow.wall import Wall
+from netdesign.solving.solve import Settings
+from netdesign.units import (
+    fluidity_from_mpa_year,
+    kelvin_from_celsius,
+    newton_from_kilonewton,
+    second_from_day,
+)
+
+Method = Literal["steady", "transient", "staggered"]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Pair = Annotated[list[Finite], Field(min_length=2, max_length=2)]
+Density = Annotated[float, Field(gt=0, le=DENSEST_SNOW * ICE_DENSITY)]
+Temperature = Annotated[float, Field(ge=-60, le=0)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class SlopeTable(_Table):
+    """``[slope]``."""
+
+    angle_deg: Annotated[float, Field(ge=0, le=80)]
+
+
+class LayerTable(_Table):
+    """One entry of ``snow.layers``, from the ground up."""
+
+    thickness_m: Positive
+    density_kg_m3: Density
+    temperature_C: Temperature | None = None
+
+
+class CreepLawTable(_Table):
+    """A set of the user's own for ``snow.creep_law``."""
+
+    name: str
+    source: str
+    shear_fit: Pair
+    bulk_fit: Pair
+    branch: Positive
+    clamp: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    calibrated: Pair
+
+
+class SnowTable(_Table):
+    """``[snow]``; one of thickness and vertical height, one of density and layers."""
+
+    thickness_m: Positive | None = None
+    height_vertical_m: Positive | None = None
+    upslope_length_m: Positive
+    density_kg_m3: Density | None = None
+    layers: Annotated[list[LayerTable], Field(min_length=1)] | None = None
+    creep_law: str | CreepLawTable = "boutillier-2004"
+    creep_exponent: Annotated[float, Field(ge=1, le=10)] = 3.0
+    fluidity_per_MPa3_a: Positive | None = None
+    temperature_C: Temperature | None = None
+
+
+class GroundTable(_Table):
+    """``[ground]``."""
+
+    law: GroundKind = "free"
+    slip_length_m: Positive | None = None
+    glide_factor: Annotated[float, Field(ge=1, allow_inf_nan=False)] | None = None
+    contact: Sides = "two-sided"
+
+
+class NetTable(_Table):
+    """``[net]``; a rigid wall has no stiffness and slack, and may adhere."""
+
+    kind: Literal["cable", "rigid"] = "cable"
+    inclination_deg: Annotated[float, Field(ge=0, lt=90)] = 30.0
+    height_m: Positive | None = None
+    stiffness_kN_per_m: Positive | None = None
+    slack: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    friction_deg: Annotated[float, Field(ge=0, le=60)] | None = None
+    contact: Sides = "two-sided"
+
+
+class GravityTable(_Table):
+    """``[gravity]``."""
+
+    mode: GravityMode = "full"
+
+
+class SolveTable(_Table):
+    """``[solve]``; start and horizon matter for histories only."""
+
+    method: Method = "steady"
+    accuracy: Annotated[float, Field(ge=1e-4, le=0.1)] = 0.005
+    start: Literal["steady", "straight", "sagged"] | None = None
+    horizon_days: Positive = 30.0
+    densification: bool = True
+
+
+class SceneFile(_Table):
+    """A whole scene file."""
+
+    slope: SlopeTable
+    snow: SnowTable
+    ground: GroundTable = GroundTable()
+    net: NetTable
+    gravity: GravityTable = GravityTable()
+    solve: SolveTable = SolveTable()
+
+
+def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Settings]:
+    """Scene and settings from a TOML file; ``method`` overrules the file's.
+
+    Raises
+    ------
+    SceneFileError
+        With every fault of the file: key, value, what is accepted.
+    """
+    try:
+        tables = read_toml(path)
+    except (OSError, ValueError) as error:
+        raise SceneFileError(f"{path}: cannot be read as TOML: {error}") from None
+    try:
+        return build_scene(SceneFile.model_validate(tables), method)
+    except ValidationError as error:
+        lines = [f"{path}: {_describe(fault)}" for fault in error.errors()]
+        raise SceneFileError(list_faults(lines)) from None
+    except ModelError as error:
+        raise SceneFileError(f"{path}: {error}") from None
+
+
+def build_scene(
+    file: SceneFile, method: Method | None = None
+) -> tuple[Scene, Settings]:
+    """Scene and settings in SI units; ``method`` overrules the file's."""
+    snowpack = _snowpack(file)
+    creep_law = _creep_law(file.snow)
+    scene = Scene(
+        snowpack=snowpack,
+        ground=_ground(file.ground, snowpack.thickness, creep_law),
+        net=_net(file.net, snowpack.thickness),
+        creep_law=creep_law,
+        fluidity=_fluidity(file.snow),
+        ground_contact=file.ground.contact,
+        net_contact=file.net.contact,
+    )
+    return scene, _settings(file.solve, method or file.solve.method, scene)
+
+
+def _settings(table: SolveTable, method: Method, scene: Scene) -> Settings:
+    horizon = second_from_day(table.horizon_days)
+    if method == "transient":
+        return TransientSettings(
+            accuracy=table.accuracy,
+            start=table.start or "steady",
+            horizon=horizon,
+            densifies=table.densification,
+        )
+    if method == "staggered":
+        creep_time = min(horizon / scene.time_scale, LONGEST_EXCHANGE)
+        return StaggeredSettings(start=table.start or "sagged", horizon=creep_time)
+    return SolverSettings(accuracy=table.accuracy)
+
+
+def _snowpack(file: SceneFile) -> Snowpack:
+    snow, slope = file.snow, math.radians(file.slope.angle_deg)
+    thickness = _thickness(snow, slope)
+    if (snow.density_kg_m3 is None) == (snow.layers is None):
+        raise ModelError("snow.density_kg_m3 and snow.layers: give exactly one of them")
+    layers = tuple(
+        Layer(
+            thickness=layer.thickness_m,
+            density=layer.density_kg_m3,
+            temperature=(
+                None
+                if layer.temperature_C is None
+                else kelvin_from_celsius(layer.temperature_C)
+            ),
+        )
+        for layer in snow.layers or ()
+    )
+    density = snow.density_kg_m3 or compute_mean_density(layers)
+    return Snowpack(
+        slope_angle=slope,
+        thickness=thickness,
+        upslope_length=snow.upslope_length_m,
+        density=density,
+        layers=layers,
+        gravity=file.gravity.mode,
+    )
+
+
+def _thickness(snow: SnowTable, slope: float) -> float:
+    if (snow.thickness_m is None) == (snow.height_vertical_m is None):
+        raise ModelError(
+            "snow.thickness_m and snow.height_vertical_m: give exactly one of them"
+        )
+    if snow.thickness_m is not None:
+        return snow.thickness_m
+    return compute_thickness(snow.height_vertical_m or 0.0, slope)
+
+
+def _creep_law(snow: SnowTable) -> CreepLaw:
+    if isinstance(snow.creep_law, CreepLawTable):
+        given = snow.creep_law
+        if given.name in CREEP_LAWS:
+            raise ModelError(
+                f"snow.creep_law.name = {given.name!r}: is a shipped set; give your "
+                "own another name"
+            )
+        return CreepLaw(
+            name=given.name,
+            source=given.source,
+            exponent=snow.creep_exponent,
+            shear_fit=(given.shear_fit[0], given.shear_fit[1]),
+            bulk_fit=(given.bulk_fit[0], given.bulk_fit[1]),
+            branch=given.branch,
+            clamp=given.clamp,
+            calibrated=(given.calibrated[0], given.calibrated[1]),
+        )
+    if snow.creep_law not in CREEP_LAWS:
+        known = ", ".join(CREEP_LAWS)
+        raise ModelError(
+            f"snow.creep_law = {snow.creep_law!r}: known are {known}, or a table with "
+            "a set of your own"
+        )
+    return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
+
+
+def _fluidity(snow: SnowTable) -> float:
+    given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
+    if given is not None and temperature is not None:
+        raise ModelError(
+            "snow.fluidity_per_MPa3_a and snow.temperature_C: give one of them at most"
+        )
+    if temperature is not None and snow.creep_exponent != FLUIDITY_EXPONENT:
+        raise ModelError(
+            "snow.temperature_C: fluidity against temperature is known for creep "
+            f"exponent {FLUIDITY_EXPONENT:g} only; give snow.fluidity_per_MPa3_a"
+        )
+    if temperature is not None:
+        return compute_fluidity(kelvin_from_celsius(temperature))
+    if given is not None:
+        return fluidity_from_mpa_year(given, snow.creep_exponent)
+    return PAPER_FLUIDITY
+
+
+def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> GroundLaw:
+    slip, glide = ground.slip_length_m, ground.glide_factor
+    if ground.law != "sliding":
+        if slip is not None or glide is not None:
+            raise ModelError(
+                "ground.slip_length_m and ground.glide_factor belong to a sliding "
+                f"ground; ground.law is {ground.law!r}"
+            )
+        return GroundLaw(kind=ground.law)
+    if (slip is None) == (glide is None):
+        raise ModelError(
+            "ground.slip_length_m and ground.glide_factor: a sliding ground needs "
+            "exactly one of them"
+        )
+    if slip is not None:
+        return GroundLaw(kind="sliding", slip_length=slip)
+    if creep_law.exponent != FLUIDITY_EXPONENT:
+        raise ModelError(
+            "ground.glide_factor: its slip lengths were measured for creep exponent 3 "
+            "only; give ground.slip_length_m"
+        )
+    return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law.name)
+
+
+def _net(net: NetTable, thickness: float) -> Net | Wall:
+    height = net.height_m or thickness
+    inclination = math.radians(net.inclination_deg)
+    friction = None if net.friction_deg is None else math.radians(net.friction_deg)
+    if net.kind == "rigid":
+        if net.stiffness_kN_per_m is not None or net.slack is not None:
+            raise ModelError("net.stiffness_kN_per_m and net.slack: a wall has none")
+        return Wall(
+            height_normal=height, inclination=inclination, friction_angle=friction
+        )
+    if net.stiffness_kN_per_m is None:
+        raise ModelError("net.stiffness_kN_per_m: a cable needs one")
+    if friction is None:
+        raise ModelError("net.friction_deg: a cable needs one")
+    return Net(
+        height_normal=height,
+        inclination=inclination,
+        stiffness_per_m=newton_from_kilonewton(net.stiffness_kN_per_m),
+        slack=net.slack or 0.0,
+        friction_angle=friction,
+    )
+
+
+def _describe(fault: Any) -> str:
+    place = ".".join(str(part) for part in fault["loc"]) or "file"
+    value = fault.get("input")
+    shown = f" = {value!r:.100}" if isinstance(value, (str, int, float)) else ""
+    return f"{place}{shown}: {fault['msg']}"

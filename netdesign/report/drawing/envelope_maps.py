@@ -1,0 +1,268 @@
+"""Drawings of a searched envelope: maps by inclination, lines with bound, drivers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from netdesign.quantities import QUANTITIES
+from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.plain_svg import (
+    SHADES,
+    WIDTH,
+    Chart,
+    Frame,
+    bounds_of,
+    drop_straight,
+    list_ticks,
+    shade,
+)
+from netdesign.report.words import name_heading, show_given
+from netdesign.study.records import BoundRecord, EnvelopeRecord, LineRecord, MapRecord
+
+_LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
+_HEAD, _PANEL, _FOOT = 26.0, 84.0, 26.0  # heights of a row of panels [pt]
+_SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
+_OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
+
+
+def split_members(record: EnvelopeRecord) -> list[EnvelopeRecord]:
+    """One record for each member with a force: drawings that a page may part."""
+    return [replace(record, bounds=[bound]) for bound in _list_loaded(record)]
+
+
+def draw_maps(record: EnvelopeRecord) -> str:
+    """SVG of force over density and friction, a column for each inclination.
+
+    Returns "" where density or friction does not range. The ring marks the governing
+    case, in the map of the inclination nearest to it.
+    """
+    bounds = [bound for bound in _list_loaded(record) if bound.maps]
+    if not bounds:
+        return ""
+    chart = Chart()
+    for place, bound in enumerate(bounds):
+        top = place * (_HEAD + _PANEL + _FOOT)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        nearest = min(
+            range(len(bound.maps)),
+            key=lambda k: abs(
+                bound.maps[k].inclination_deg - bound.case["inclination_deg"]
+            ),
+        )
+        low, high = bounds_of(row for one in bound.maps for row in one.force_kN)
+        frames = [
+            _place_panel(column, len(bound.maps), top, one)
+            for column, one in enumerate(bound.maps)
+        ]
+        pairs = list(zip(frames, bound.maps, strict=True))
+        chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
+        for frame, one in pairs:
+            _name_map(chart, frame, one)
+        at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
+        chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
+        _paint_legend(chart, top + _HEAD, low, high)
+    height = len(bounds) * (_HEAD + _PANEL + _FOOT)
+    return chart.write(height, _title("Forces over density and friction", record))
+
+
+def draw_lines(record: EnvelopeRecord) -> str:
+    """SVG of force along each quantity through the governing case, with its bound."""
+    bounds = [bound for bound in _list_loaded(record) if bound.lines]
+    if not bounds:
+        return ""
+    chart = Chart()
+    for place, bound in enumerate(bounds):
+        top = place * (_HEAD + _PANEL + _FOOT)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        low, high = bounds_of([*(one.force_kN for one in bound.lines)])
+        high = max(high, bound.upper_bound_kN)
+        margin = 0.06 * (high - low) or 0.01 * high
+        for column, one in enumerate(bound.lines):
+            frame = Frame(
+                **_panel(column, len(bound.lines), top),
+                x_low=one.values[0],
+                x_high=one.values[-1],
+                y_low=low - margin,
+                y_high=high + margin,
+            )
+            _paint_line(chart, frame, one, bound)
+    height = len(bounds) * (_HEAD + _PANEL + _FOOT)
+    title = _title("Forces along each quantity, with the bound", record)
+    return chart.write(height, title)
+
+
+def draw_drivers(record: EnvelopeRecord) -> str:
+    """SVG of what drives each force: tornado about the governing case."""
+    bounds = [bound for bound in _list_loaded(record) if bound.drivers]
+    if not bounds:
+        return ""
+    chart, top = Chart(), 0.0
+    for bound in bounds:
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        top += 14.0
+        top += _paint_tornado(chart, bound, top)
+    return chart.write(top, _title("What drives each force", record))
+
+
+def _list_cells(
+    frame: Frame, one: MapRecord, low: float, high: float
+) -> list[tuple[float, float, float, float, str]]:
+    """Cells around the points of the map, clipped to its frame: tiles of a chart."""
+    xs = _edges(one.density_kg_m3)
+    ys = _edges(one.friction_deg)
+    cells = []
+    for column in range(len(one.density_kg_m3)):
+        left, right = frame.x(xs[column]), frame.x(xs[column + 1])
+        fills = [shade(forces[column], low, high) for forces in one.force_kN]
+        start = 0
+        for row in range(1, len(fills) + 1):  # cells of one shade are one tile
+            if row < len(fills) and fills[row] == fills[start]:
+                continue
+            bottom, top = frame.y(ys[start]), frame.y(ys[row])
+            end = min(right + _OVERLAP, frame.left + frame.width)
+            foot = min(bottom + _OVERLAP, frame.top + frame.height)
+            cells.append((left, top, end - left, foot - top, fills[start]))
+            start = row
+    return cells
+
+
+def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+    """Axes of a map and their names."""
+    chart.text(
+        frame.left + frame.width,
+        frame.top - 5.5,
+        f"θ = {show_given(round(one.inclination_deg, 3))}°",
+        anchor="end",
+    )
+    chart.text(frame.left, frame.top - 5.5, _label("friction_deg"))
+    chart.axes(frame)
+    _name_axis(chart, frame, "density_kg_m3")
+
+
+def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
+    """Bar of all shades, with a few round forces beside it."""
+    left, wide, high_pt = WIDTH - _RIGHT + 8.0, 9.0, _PANEL - 14.0
+    step = high_pt / SHADES
+    chart.tiles(
+        (left, top + k * step, wide, step + 0.1, shade(SHADES - 1 - k, 0, SHADES - 1))
+        for k in range(SHADES)
+    )
+    for value in list_ticks(low, high):
+        y = top + high_pt * (
+            1.0 - ((value - low) / (high - low) if high > low else 0.5)
+        )
+        chart.line([(left + wide, y), (left + wide + 2.5, y)], stroke=GREY, width=0.5)
+        chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
+
+
+def _paint_line(
+    chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord
+) -> None:
+    def trace(forces: Sequence[float]) -> list[tuple[float, float]]:
+        return drop_straight(
+            [
+                (frame.x(value), frame.y(min(force, frame.y_high)))
+                for value, force in zip(one.values, forces, strict=True)
+            ]
+        )
+
+    force, allowed = trace(one.force_kN), trace(one.bound_kN)
+    chart.area([*force, *allowed[::-1]], PALE)
+    chart.line(allowed, stroke=GREY, width=0.6, dash="3 2")
+    chart.line(force, stroke=INK)
+    across = frame.y(bound.upper_bound_kN)
+    chart.line(
+        [(frame.left, across), (frame.left + frame.width, across)],
+        stroke=ACCENT,
+        width=0.5,
+    )
+    chart.axes(frame)
+    chart.ring(frame.x(bound.case[one.key]), frame.y(bound.max_kN), ACCENT)
+    _name_axis(chart, frame, one.key)
+
+
+def _paint_tornado(chart: Chart, bound: BoundRecord, top: float) -> float:
+    """Bars of one force; their height on the page."""
+    drivers = sorted(bound.drivers, key=lambda one: one.least_kN - one.most_kN)
+    low = min(one.least_kN for one in drivers)
+    high = max(one.most_kN for one in drivers)
+    bar = 13.0
+    frame = Frame(
+        left=120.0,
+        top=top,
+        width=WIDTH - 250.0,
+        height=bar * len(drivers),
+        x_low=low,
+        x_high=high,
+        y_low=0.0,
+        y_high=1.0,
+    )
+    for place, one in enumerate(drivers):
+        y = top + place * bar
+        left, right = frame.x(one.least_kN), frame.x(one.most_kN)
+        chart.rectangle(left, y + 2.0, right - left, bar - 4.0, PALE)
+        base = y + bar / 2 + TEXT_PT / 3
+        chart.text(frame.left - 6.0, base, _label(one.key), anchor="end")
+        chart.text(
+            frame.left + frame.width + 8.0,
+            base,
+            f"S {one.first_order:.2f}, total {one.total:.2f}",
+        )
+    mark = frame.x(bound.max_kN)
+    chart.line([(mark, top), (mark, top + frame.height)], stroke=ACCENT, width=0.8)
+    chart.axes(frame, y_ticks=False)
+    return frame.height + 18.0
+
+
+def _place_panel(column: int, columns: int, top: float, one: MapRecord) -> Frame:
+    return Frame(
+        **_panel(column, columns, top),
+        x_low=one.density_kg_m3[0],
+        x_high=one.density_kg_m3[-1],
+        y_low=one.friction_deg[0],
+        y_high=one.friction_deg[-1],
+    )
+
+
+def _panel(column: int, columns: int, top: float) -> dict[str, float]:
+    width = (WIDTH - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns
+    return {
+        "left": _LEFT + column * (width + _GAP),
+        "top": top + _HEAD,
+        "width": width,
+        "height": _PANEL - 14.0,
+    }
+
+
+def _name_axis(chart: Chart, frame: Frame, key: str) -> None:
+    base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
+    chart.text(frame.left + frame.width / 2, base, _label(key), anchor="middle")
+
+
+def _edges(values: Sequence[float]) -> list[float]:
+    """Borders of the cells around some values; the outer ones are the ends."""
+    between = [(a + b) / 2 for a, b in pairwise(values)]
+    return [values[0], *between, values[-1]]
+
+
+def _list_loaded(record: EnvelopeRecord) -> list[BoundRecord]:
+    largest = max((bound.max_kN for bound in record.bounds), default=0.0)
+    return [bound for bound in record.bounds if bound.max_kN > _SMALLEST * largest]
+
+
+def _name(bound: BoundRecord, record: EnvelopeRecord) -> str:
+    if record.is_per_metre:
+        return f"Tension of the net, {bound.quantity} [kN/m]"
+    return f"{QUANTITIES[f'{bound.quantity}_kN'].label} [kN]"
+
+
+def _title(what: str, record: EnvelopeRecord) -> str:
+    """Name of a drawing for those who cannot see it, with its member if it is one."""
+    alone = len(record.bounds) == 1
+    return f"{_name(record.bounds[0], record)}: {what}" if alone else what
+
+
+def _label(key: str) -> str:
+    return name_heading(key)

@@ -1,0 +1,60 @@
+"""Force polygon of the post head: a head in equilibrium closes it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import accumulate, pairwise
+
+from netdesign.report.drawing.figures import ACCENT, INK, TEXT_PT
+from netdesign.report.drawing.plain_svg import WIDTH
+from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.words import name_member, show_with_unit
+from netdesign.study.records import HeadForce
+
+_TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
+_GAP = 6.0  # from a force to its name [pt]
+
+
+def draw_head(forces: Sequence[HeadForce]) -> str:
+    """SVG of the polygon of at least two forces, each starting where one ends."""
+    corners, height = _place_corners(forces)
+    count = len(forces)
+    middle = (
+        sum(x for x, _ in corners[:count]) / count,
+        sum(y for _, y in corners[:count]) / count,
+    )
+    sketch = Sketch()
+    for force, (start, end) in zip(forces, pairwise(corners), strict=True):
+        colour = ACCENT if force.member == "net" else INK
+        sketch.arrow(start, end, stroke=colour, width=1.2)
+        at, anchor = _place_name(start, end, middle)
+        size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
+        text = f"{name_member(force.member)} {size}"
+        sketch.words(at, text, anchor=anchor, fill=colour)
+    return sketch.write(height, "Force polygon of the post head")
+
+
+def _place_corners(forces: Sequence[HeadForce]) -> tuple[list[Point], float]:
+    """Corners on paper, and its height [pt]."""
+    xs = list(accumulate((force.x_kN for force in forces), initial=0.0))
+    ys = list(accumulate((force.y_kN for force in forces), initial=0.0))
+    wide, tall = max(xs) - min(xs), max(ys) - min(ys)
+    scale = min(_TALLEST / max(tall, 1e-9), _WIDEST / max(wide, 1e-9))
+    left = (WIDTH - wide * scale) / 2
+    corners = [
+        (left + (x - min(xs)) * scale, _EDGE + (max(ys) - y) * scale)
+        for x, y in zip(xs, ys, strict=True)
+    ]
+    return corners, tall * scale + 2 * _EDGE
+
+
+def _place_name(start: Point, end: Point, middle: Point) -> tuple[Point, str]:
+    """Place beside a force, outside the polygon, and where its text begins."""
+    x, y = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    length = math.dist(start, end) or 1.0
+    nx, ny = (end[1] - start[1]) / length, (start[0] - end[0]) / length
+    if nx * (x - middle[0]) + ny * (y - middle[1]) < 0:
+        nx, ny = -nx, -ny
+    at = (x + nx * _GAP, y + ny * _GAP + TEXT_PT / 3)
+    return at, "start" if nx > 0 else "end"

@@ -1,0 +1,212 @@
+"""Small charts written as SVG directly: a page of twenty rows has a hundred of them.
+
+A drawing library takes about a second for each such figure, this a millisecond.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from html import escape
+
+from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
+
+WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
+_STRAIGHT = 0.05  # least bend that shows [pt]
+_TICK = 2.5  # length of a tick [pt]
+SHADES = 16  # greys from white to the darkest: as many as a print tells apart
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """A rectangle on the page and the values at its sides.
+
+    ``left``, ``top``, ``width`` and ``height`` in points; x from left to right, y
+    from bottom to top in the units of the data.
+    """
+
+    left: float
+    top: float
+    width: float
+    height: float
+    x_low: float
+    x_high: float
+    y_low: float
+    y_high: float
+
+    def x(self, value: float) -> float:
+        """Place of a value along the page [pt]."""
+        span = self.x_high - self.x_low
+        share = (value - self.x_low) / span if span else 0.5
+        return self.left + share * self.width
+
+    def y(self, value: float) -> float:
+        """Place of a value down the page [pt]."""
+        span = self.y_high - self.y_low
+        share = (value - self.y_low) / span if span else 0.5
+        return self.top + (1.0 - share) * self.height
+
+
+@dataclass(slots=True, kw_only=True)
+class Chart:
+    """Shapes of one chart, in the order in which they are painted; words above all."""
+
+    shapes: list[str] = field(default_factory=list)
+    labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
+
+    def rectangle(
+        self, left: float, top: float, width: float, height: float, fill: str
+    ) -> None:
+        """Filled rectangle [pt]."""
+        self.shapes.append(
+            f'<rect x="{left:.2f}" y="{top:.2f}" width="{width:.2f}" '
+            f'height="{height:.2f}" fill="{fill}"/>'
+        )
+
+    def tiles(self, cells: Iterable[tuple[float, float, float, float, str]]) -> None:
+        """Many filled rectangles: left, top, width, height [pt] and fill of each.
+
+        A map has hundreds: each is a thick line, those of one fill are one path.
+        """
+        paths: dict[str, str] = {}
+        for left, top, width, height, fill in cells:
+            pen = f'stroke="{fill}" stroke-width="{_show(width)}"'
+            tile = f"M{_show(left + width / 2)} {_show(top)}v{_show(height)}"
+            paths[pen] = paths.get(pen, "") + tile
+        self.shapes += [f'<path {pen} d="{d}"/>' for pen, d in paths.items()]
+
+    def line(
+        self,
+        points: Iterable[tuple[float, float]],
+        *,
+        stroke: str = INK,
+        width: float = 0.9,
+        dash: str = "",
+    ) -> None:
+        """Open line through points [pt]."""
+        path = _list_points(points)
+        dashes = f' stroke-dasharray="{dash}"' if dash else ""
+        self.shapes.append(
+            f'<polyline points="{path}" fill="none" stroke="{stroke}" '
+            f'stroke-width="{width}"{dashes}/>'
+        )
+
+    def area(self, points: Iterable[tuple[float, float]], fill: str) -> None:
+        """Filled polygon [pt]."""
+        path = _list_points(points)
+        self.shapes.append(f'<polygon points="{path}" fill="{fill}"/>')
+
+    def ring(self, x: float, y: float, stroke: str) -> None:
+        """Mark of a point [pt]."""
+        self.shapes.append(
+            f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" fill="#fff" '
+            f'stroke="{stroke}" stroke-width="1.2"/>'
+        )
+
+    def text(
+        self,
+        x: float,
+        y: float,
+        words: str,
+        *,
+        anchor: str = "start",
+        bold: bool = False,
+    ) -> None:
+        """One line of text; y is its base line [pt]."""
+        weight = ' font-weight="bold"' if bold else ""
+        self.labels.setdefault(f'text-anchor="{anchor}"{weight}', []).append(
+            f'<text x="{_show(x)}" y="{_show(y)}">{escape(words)}</text>'
+        )
+
+    def axes(self, frame: Frame, *, y_ticks: bool = True, x_ticks: bool = True) -> None:
+        """Lines at the left and below, with few round ticks."""
+        left, bottom = frame.left, frame.top + frame.height
+        path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
+        for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
+            x = frame.x(value)
+            path += f"M{_show(x)} {_show(bottom)}v{_TICK}"
+            self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
+        for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
+            y = frame.y(value)
+            path += f"M{_show(left)} {_show(y)}h-{_TICK}"
+            self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+        self.shapes.append(
+            f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
+        )
+
+    def write(self, height: float, title: str) -> str:
+        """SVG element of the chart, the same bytes each time."""
+        words = (
+            f"<g {look}>{''.join(texts)}</g>" for look, texts in self.labels.items()
+        )
+        return (
+            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" '
+            f'aria-label="{escape(title)}" width="{WIDTH:.0f}pt" '
+            f'height="{height:.0f}pt" '
+            f'viewBox="0 0 {WIDTH:.0f} {height:.0f}" font-size="{TEXT_PT}" '
+            f'font-family="sans-serif" fill="{INK}">\n'
+            + "\n".join((*self.shapes, *words))
+            + "\n</svg>\n"
+        )
+
+
+def _show(place: float) -> str:
+    """Place on the page to a tenth of a point, without a zero that says nothing."""
+    return f"{place:.1f}".removesuffix(".0")
+
+
+def _list_points(points: Iterable[tuple[float, float]]) -> str:
+    return " ".join(f"{_show(x)},{_show(y)}" for x, y in points)
+
+
+def drop_straight(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Points without those that a straight line meets to a twentieth of a point.
+
+    Examples
+    --------
+    >>> drop_straight([(0.0, 0.0), (1.0, 1.01), (2.0, 2.0), (3.0, 5.0)])
+    [(0.0, 0.0), (2.0, 2.0), (3.0, 5.0)]
+    """
+    kept, start = list(points[:1]), 0
+    for end in range(2, len(points)):
+        (x0, y0), (x1, y1) = points[start], points[end]
+        rise = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0
+        between = points[start + 1 : end]
+        if any(abs(y0 + rise * (x - x0) - y) > _STRAIGHT for x, y in between):
+            start = end - 1
+            kept.append(points[start])
+    return [*kept, *points[1:][-1:]]
+
+
+def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
+    """Round numbers from low to high, a few of them.
+
+    Examples
+    --------
+    >>> list_ticks(250.0, 450.0)
+    [250.0, 300.0, 350.0, 400.0, 450.0]
+    >>> list_ticks(3.0, 3.0)
+    [3.0]
+    """
+    if not high > low:
+        return [low]
+    rough = (high - low) / (most - 1)
+    power = 10.0 ** math.floor(math.log10(rough))
+    step = next(m * power for m in (1, 2, 2.5, 5, 10, 20) if m * power >= rough * 0.999)
+    first = math.ceil(low / step - 1e-9)
+    last = math.floor(high / step + 1e-9)
+    return [round(k * step, 12) for k in range(first, last + 1)]
+
+
+def shade(value: float, low: float, high: float) -> str:
+    """Grey for a value, white at the low end; prints without colour."""
+    share = (value - low) / (high - low) if high > low else 0.0
+    level = 250 - 11 * round((SHADES - 1) * min(1.0, max(0.0, share)))
+    return f"#{level:02x}{level:02x}{level:02x}"
+
+
+def bounds_of(values: Iterable[Sequence[float]]) -> tuple[float, float]:
+    """Smallest and largest of several lists."""
+    known = [value for part in values for value in part]
+    return min(known), max(known)

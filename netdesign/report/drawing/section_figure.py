@@ -1,0 +1,139 @@
+"""Section of a net row to scale: slope, snow, net, support, forces."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from netdesign.numerics.curve import trace_curve
+from netdesign.report.drawing.figures import GREY, INK, PALE, SNOW
+from netdesign.report.drawing.section_frame import (
+    LONGEST_ARROW,
+    ROD,
+    Frame,
+    Paper,
+    Point,
+    fit_paper,
+    move,
+)
+from netdesign.report.drawing.section_labels import (
+    SLIP_DASH,
+    Label,
+    draw_dimensions,
+    draw_legend,
+    draw_scale_bar,
+    place_labels,
+)
+from netdesign.report.drawing.sketch import Sketch
+from netdesign.report.words import name_member, show_with_unit
+from netdesign.study.records import Arrow, Drawing
+
+_SHORTEST_ARROW = 0.14  # heights of the head
+_SLACK = 1e-3  # of the largest force; below it there is no arrow
+_CHORDS = 6  # straight pieces that are drawn between two nodes of the net
+
+
+def draw_section(drawing: Drawing, name: str) -> str:
+    """SVG of the section in the case of ``drawing``; ``name`` keeps its ids apart."""
+    paper = fit_paper(Frame(slope=math.radians(drawing.slope_deg), drawing=drawing))
+    sketch = Sketch()
+    _draw_snow(sketch, paper, f"{name}-snow")
+    _draw_ground(sketch, paper)
+    _draw_support(sketch, paper)
+    _draw_net(sketch, paper)
+    labels = [_draw_arrow(sketch, paper, arrow) for arrow in drawing.arrows]
+    sketch.dot(paper.at(drawing.head_m), 1.9, fill="#fff")
+    draw_dimensions(sketch, paper)
+    place_labels(sketch, labels)
+    draw_scale_bar(sketch, paper)
+    draw_legend(sketch)
+    return sketch.write(paper.height, "Section of the net row with anchor forces")
+
+
+def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
+    drawing, top_end = paper.frame.drawing, paper.frame.top_end
+    thickness = drawing.snow_thickness_m
+    net = [point for piece in trace_curve(drawing.net_m, _CHORDS) for point in piece]
+    covered = [(x, y) for x, y in net if y <= thickness]
+    surface = [(covered[-1][0], thickness), (top_end, thickness)]
+    outline = paper.all_at([(top_end, 0.0), *covered, *surface])
+    sketch.area(outline, SNOW)
+    sketch.clip_area(name, outline)
+    edges = (
+        (paper.at((x1, y1)), paper.at((x2, y2)))
+        for x1, y1, x2, y2 in drawing.mesh_edges_m
+        if max(x1, x2) > top_end
+    )
+    sketch.segments(edges, stroke=PALE, width=0.3, clip=name)
+    sketch.line(paper.all_at(surface), stroke=GREY, width=0.6)
+
+
+def _draw_ground(sketch: Sketch, paper: Paper) -> None:
+    frame = paper.frame
+    start, end = frame.top_end, frame.low_end
+    step, depth = 0.11 * frame.unit, 0.05 * frame.unit
+    ticks = (
+        (paper.at((start + (i + 1) * step, 0.0)), paper.at((start + i * step, -depth)))
+        for i in range(int((end - start) / step))
+    )
+    sketch.segments(ticks, stroke=PALE, width=0.5)
+    sketch.line(paper.all_at([(start, 0.0), (end, 0.0)]), width=1.0)
+
+
+def _draw_support(sketch: Sketch, paper: Paper) -> None:
+    drawing, reach = paper.frame.drawing, 0.09 * paper.frame.unit
+    for anchor in (drawing.uphill_anchor_m, drawing.downhill_anchor_m):
+        sketch.line(paper.all_at([anchor, drawing.head_m]), width=0.7)
+    post = [drawing.post_base_m, drawing.head_m]
+    sketch.line(paper.all_at(post), width=2.6)
+    x, _ = drawing.post_base_m
+    sketch.line(paper.all_at([(x - reach, 0.0), (x + reach, 0.0)]), width=2.6)
+
+
+def _draw_net(sketch: Sketch, paper: Paper) -> None:
+    pieces = trace_curve(paper.frame.drawing.net_m, _CHORDS)
+    sticks = [a and b for a, b in pairwise(paper.frame.drawing.sticks)]
+    start = 0
+    for i in range(1, len(sticks) + 1):
+        if i == len(sticks) or sticks[i] != sticks[start]:
+            run = [point for piece in pieces[start:i] for point in piece]
+            dash = "" if sticks[start] else SLIP_DASH
+            sketch.line(paper.all_at(run), width=1.8, dash=dash)
+            start = i
+
+
+def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow) -> Label:
+    """Draw force and anchor; a force into the ground ends there, others pull up."""
+    frame = paper.frame
+    size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
+    largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
+    start = (arrow.x_m, arrow.y_m)
+    words = name_member(arrow.member), show_with_unit("max_kN", size)
+    if size <= _SLACK * largest:
+        return _draw_anchor(sketch, paper, start, _aim(frame, start), words)
+    along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
+    length = frame.unit * max(LONGEST_ARROW * size / largest, _SHORTEST_ARROW)
+    tip = move(start, along, length)
+    into_ground = along[1] < 0
+    label = Label(*words, paper.at(tip))
+    if not into_ground:
+        label = _draw_anchor(sketch, paper, start, along, words)
+    sketch.arrow(paper.at(start), paper.at(tip))
+    return label
+
+
+def _aim(frame: Frame, start: Point) -> Point:
+    """Direction from an anchor to the head."""
+    target = frame.drawing.head_m
+    length = math.dist(start, target)
+    return (target[0] - start[0]) / length, (target[1] - start[1]) / length
+
+
+def _draw_anchor(
+    sketch: Sketch, paper: Paper, start: Point, along: Point, words: tuple[str, str]
+) -> Label:
+    """Rod in the ground, against the pull; its label hangs at its end."""
+    rod = move(start, along, -ROD * paper.frame.unit)
+    sketch.line(paper.all_at([start, rod]), stroke=INK, width=1.8)
+    sketch.dot(paper.at(start), 1.8)
+    return Label(*words, paper.at(rod))

@@ -1,0 +1,100 @@
+"""Frame of the section drawing: the slope's axes turned upright, on paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from netdesign.report.drawing.plain_svg import WIDTH
+from netdesign.study.records import Drawing
+
+Point = tuple[float, float]
+
+# Symbols are measured in heights of the net's head, room for labels in points.
+LONGEST_ARROW, ROD = 0.46, 0.16
+LABEL = 24.5  # height of a label of two lines
+_LEFT, _RIGHT, _EDGE = 92.0, 108.0, 9.0
+_TALLEST = 274.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """The slope's axes turned so that gravity points down, and what is shown."""
+
+    slope: float  # [rad]
+    drawing: Drawing
+
+    @property
+    def unit(self) -> float:
+        """Height of the head [m]: the measure of all symbols."""
+        return max(self.drawing.head_m[1], 0.1)
+
+    @property
+    def top_end(self) -> float:
+        """Where the snow is cut off uphill [m along the slope]."""
+        return min(self.drawing.uphill_anchor_m[0], 0.0) - 0.45 * self.unit
+
+    @property
+    def low_end(self) -> float:
+        """Where the ground ends downhill [m along the slope]."""
+        drawing = self.drawing
+        lowest = max(drawing.downhill_anchor_m[0], drawing.head_m[0], 0.0)
+        return lowest + 0.45 * self.unit
+
+    def turn(self, point: Point) -> Point:
+        """Point of the slope's axes in upright axes [m]."""
+        x, y = point
+        sin, cos = math.sin(self.slope), math.cos(self.slope)
+        return x * cos + y * sin, y * cos - x * sin
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Paper:
+    """A frame on paper: metres of the slope become points, y downwards."""
+
+    frame: Frame
+    scale: float  # points per metre
+    height: float  # of the paper [pt]
+    left: float  # upright x at the left edge [m]
+    top: float  # upright y at the upper edge [m]
+
+    def at(self, point: Point) -> Point:
+        """Place of a point of the slope's axes."""
+        x, y = self.frame.turn(point)
+        return (x - self.left) * self.scale, (self.top - y) * self.scale
+
+    def all_at(self, points: Sequence[Point]) -> list[Point]:
+        """Places of several points."""
+        return [self.at(point) for point in points]
+
+
+def move(start: Point, along: Point, length: float) -> Point:
+    """Point at ``length`` from ``start`` in the direction ``along``."""
+    return start[0] + along[0] * length, start[1] + along[1] * length
+
+
+def fit_paper(frame: Frame) -> Paper:
+    """Fit paper and drawing to each other."""
+    drawing, unit = frame.drawing, frame.unit
+    corners = [
+        (frame.top_end, 0.0),
+        (frame.top_end, drawing.snow_thickness_m),
+        (frame.low_end, 0.0),
+        (drawing.head_m[0], drawing.head_m[1] + 0.1 * unit),
+        (drawing.post_base_m[0], -(LONGEST_ARROW + 0.1) * unit),
+        (drawing.downhill_anchor_m[0], -(ROD + 0.1) * unit),
+    ]
+    turned = [frame.turn(corner) for corner in corners]
+    xs, ys = [x for x, _ in turned], [y for _, y in turned]
+    wide, tall = max(xs) - min(xs), max(ys) - min(ys)
+    room_x = WIDTH - _LEFT - _RIGHT
+    room_y = _TALLEST - 2 * _EDGE - LABEL
+    scale = min(room_x / wide, room_y / tall)
+    return Paper(
+        frame=frame,
+        scale=scale,
+        height=tall * scale + 2 * _EDGE + LABEL,
+        left=min(xs) - (_LEFT + (room_x - wide * scale) / 2) / scale,
+        top=max(ys) + _EDGE / scale,
+    )

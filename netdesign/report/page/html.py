@@ -1,0 +1,159 @@
+"""Study -> one self-contained page: no script, no other file, ready for A4."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Literal
+
+from netdesign.edge.given_files import make_printable
+from netdesign.report.drawing.envelope_figure import draw_envelope
+from netdesign.report.drawing.envelope_maps import (
+    draw_drivers,
+    draw_lines,
+    draw_maps,
+    split_members,
+)
+from netdesign.report.drawing.head_figure import draw_head
+from netdesign.report.drawing.monitoring_figure import (
+    describe_monitoring,
+    draw_monitoring,
+)
+from netdesign.report.drawing.section_figure import draw_section
+from netdesign.report.language import Words, load_words
+from netdesign.report.page.render import build_environment, load_style
+from netdesign.report.translation import Translate, show_study, translate_drawing
+from netdesign.report.view.gate import require_sections
+from netdesign.report.view.whole import ReportView
+from netdesign.study.records import RowStudy, Study
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+Detail = Literal["summary", "full"]
+
+_PAGE_SECTIONS = (
+    "verdict",
+    "identification",
+    "summary",
+    "scope",
+    "assumptions",
+    "ranges",
+    "profile",
+    "notes",
+    "quality",
+    "checklist",
+    "provenance",
+)
+_SUMMARY_SECTIONS = ("drawing", "checks", "changes")
+_ROW_SECTIONS = (
+    *_SUMMARY_SECTIONS,
+    "worked",
+    "uncertainty",
+    "envelope",
+    "extremes",
+    "failed",
+    "support",
+    "independent",
+    "inputs",
+)
+
+
+def render_html(
+    study: Study,
+    words: Words | None = None,
+    detail: Detail = "full",
+    view: ReportView | None = None,
+) -> str:
+    """Page of a study: complete, or an error.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    words : Words, optional
+        Language; English if not given.
+    detail : str
+        ``summary`` leaves out what only a reviewer of a net row needs.
+    view : ReportView, optional
+        Of this study in this language, where it is there already.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers or a section would be missing.
+    """
+    from markupsafe import Markup
+
+    words = words or load_words("en")
+    environment = build_environment(words)
+    environment.filters["subscripts"] = _write_subscripts
+    environment.filters["unbroken"] = _keep_units
+    view = view or show_study(study, words)
+    is_full = detail == "full"
+    page = environment.get_template("report.html").render(
+        view=view,
+        is_full=is_full,
+        language=words.language,
+        css=load_style("report.css"),
+        running_title=Markup(_quote_css(view.running_title)),
+        figures=[
+            _draw_row(row, row_view.anchor, words, is_full=is_full)
+            for row, row_view in zip(study.rows, view.rows, strict=True)
+        ],
+    )
+    require_sections(page, list_sections(view, detail))
+    return make_printable(page)
+
+
+def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
+    """Ids of all sections that a page of ``view`` must have."""
+    wanted = _ROW_SECTIONS if detail == "full" else _SUMMARY_SECTIONS
+    of_rows = [f"{row.anchor}-{name}" for row in view.rows for name in wanted]
+    return [*_PAGE_SECTIONS, *of_rows]
+
+
+def _draw_row(
+    row: RowStudy, anchor: str, words: Translate, *, is_full: bool
+) -> dict[str, Markup]:
+    """Drawings of a net row by name; "" where there is nothing to draw."""
+    from markupsafe import Markup, escape
+
+    record = row.envelope if is_full else None
+    members = split_members(record) if record else []
+    drawn = {
+        "section": draw_section(row.drawing, anchor) if row.drawing else "",
+        "envelope": draw_envelope(row) if is_full and not record else "",
+        "maps": "".join(map(draw_maps, members)),
+        "lines": "".join(map(draw_lines, members)),
+        "drivers": "".join(map(draw_drivers, members)),
+        "head": draw_head(row.head) if is_full and len(row.head) > 1 else "",
+        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r") if is_full else "",
+    }
+    figures = {
+        name: Markup(translate_drawing(svg, words)) for name, svg in drawn.items()
+    }
+    measured = bool(drawn["monitoring"])
+    note = escape(words(describe_monitoring(row.monitoring)) if measured else "")
+    return {**figures, "monitoring_note": note}
+
+
+def _write_subscripts(symbols: str) -> Markup:
+    """``E_d`` with a lowered d; everything else is escaped."""
+    from markupsafe import Markup, escape
+
+    lowered = re.sub(r"_(\w)", r"<sub>\1</sub>", str(escape(symbols)))
+    return Markup(lowered)
+
+
+def _keep_units(case: str) -> str:
+    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
+    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
+
+
+def _quote_css(text: str) -> str:
+    """CSS string in which every sign that could end it is a code."""
+    safe = "".join(
+        sign if sign.isascii() and sign.isalnum() else f"\\{ord(sign):06x}"
+        for sign in text
+    )
+    return f'"{safe}"'

@@ -1,0 +1,55 @@
+"""What every page is made with: templates that escape, styles inside the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from netdesign.edge.resources import find_resource
+
+if TYPE_CHECKING:
+    import jinja2
+    from markupsafe import Markup
+
+
+@lru_cache(maxsize=8)
+def build_environment(words: Callable[[str], str] = str) -> jinja2.Environment:
+    """Templates in which all text is escaped and a missing value is an error.
+
+    Kept with what they compile to: a check against several profiles has several pages.
+
+    Parameters
+    ----------
+    words : callable
+        Puts a text of ours into another language; templates call it ``t``.
+    """
+    import jinja2
+
+    def translate(text: str, **gaps: object) -> str:
+        return words(text).format(**gaps) if gaps else words(text)
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(find_resource("templates")),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.globals["t"] = translate
+    return environment
+
+
+def load_style(*names: str) -> Markup:
+    """Style sheets of the templates, one after the other."""
+    from markupsafe import Markup
+
+    folder = find_resource("templates")
+    return Markup("\n".join((folder / n).read_text(encoding="utf-8") for n in names))
+
+
+def mark_safe(svg: str) -> Markup:
+    """Mark a drawing of ours as HTML; nothing that somebody typed may come here."""
+    from markupsafe import Markup
+
+    return Markup(svg)

@@ -1,0 +1,43 @@
+"""Study -> one flat table of all cases, for the engineer's own evaluations."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from netdesign.study.records import Study
+
+if TYPE_CHECKING:
+    import pandas
+
+# Signs that make a spreadsheet program read a text as a formula.
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
+
+
+def build_case_table(study: Study) -> pandas.DataFrame:
+    """All cases of all net rows, one a line; units are part of the column names.
+
+    Missing forces of failed cases stay missing; outcome and reason say why.
+    """
+    import pandas
+
+    lines = []
+    for row in study.rows:
+        for record in row.cases:
+            fields = asdict(record)
+            point = fields.pop("case")
+            lines.append({"net_row": row.id, **point, **fields})
+    return pandas.DataFrame(lines)
+
+
+def render_cases(study: Study) -> bytes:
+    """CSV text of the table, UTF-8; texts never read as formulas."""
+    table = build_case_table(study)
+    for name in ("net_row", "outcome", "reason"):
+        if name in table:
+            table[name] = table[name].map(_disarm)
+    return table.to_csv(index=False, lineterminator="\n").encode()
+
+
+def _disarm(text: str) -> str:
+    return f"'{text}" if text.startswith(_FORMULA_STARTS) else str(text)

@@ -1,0 +1,212 @@
+"""One check in words, and which check of several decides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from netdesign.outcome import Verdict
+from netdesign.report.view.row_tables import describe_widths
+from netdesign.report.words import (
+    MISSING,
+    VERDICTS,
+    VerdictWords,
+    name_case,
+    name_case_short,
+    name_check,
+    show_band,
+    show_number,
+    show_text,
+    show_with_unit,
+)
+from netdesign.study.records import CheckRecord
+
+SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # worst first
+_BAR_UNIT = 100.0  # length of a ratio bar at utilisation 1
+_BAR_END = 150.0  # longer bars are cut here
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bar:
+    """Ratio bar; lengths for an SVG in which 100 is utilisation 1."""
+
+    low: str
+    value: str
+    high: str
+    is_over: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckView:
+    """One check in words."""
+
+    title: str
+    clause: str
+    resistance_type: str
+    resistance_basis: str  # a word of ours
+    resistance_cell: str
+    demand: str
+    resistance: str
+    utilisation: str
+    band: str
+    bar: Bar | None
+    verdict: VerdictWords
+    case: str
+    case_short: str
+    reason: str
+
+    @property
+    def resistance_from(self) -> str:
+        """Type, basis and cell of a resistance: ``GEWI 28, tested, Anchors!E7``."""
+        parts = (self.resistance_type, self.resistance_basis, self.resistance_cell)
+        return show_text(", ".join(part for part in parts if part))
+
+    @property
+    def source(self) -> str:
+        """Clause, and where the resistance comes from."""
+        parts = (self.clause, self.resistance_from)
+        return "; ".join(part for part in parts if part != MISSING) or MISSING
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """One line of a worked calculation: ``symbols = numbers = result``."""
+
+    symbols: str
+    numbers: str
+    result: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Worked:
+    """The calculation of one check with its numbers put in."""
+
+    title: str
+    steps: tuple[Step, ...]
+    needed: str
+
+
+def find_governing(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check that decides the verdict: the worst verdict, then the largest ratio."""
+    return min(checks, key=rank_check, default=None)
+
+
+def rank_check(check: CheckRecord) -> tuple[int, float]:
+    """Sort key: worst verdict first, then the largest utilisation."""
+    return SEVERITY.index(check.verdict), -_ratio(check)
+
+
+def _ratio(check: CheckRecord) -> float:
+    return -1.0 if check.utilisation is None else check.utilisation
+
+
+def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check with the largest utilisation, of those that have one."""
+    known = [check for check in checks if check.utilisation is not None]
+    return max(known, key=_ratio, default=None)
+
+
+def find_utilisation_band(check: CheckRecord) -> tuple[float | None, float | None]:
+    """Utilisation at the low and at the high end of the demand.
+
+    A slack member uses nothing of any resistance, even of one that is not given.
+    """
+    resistance = check.resistance_kN
+    if resistance is None and check.utilisation == 0.0:
+        return 0.0, 0.0
+    if not resistance or check.demand_low_kN is None or check.demand_high_kN is None:
+        return None, None
+    return check.demand_low_kN / resistance, check.demand_high_kN / resistance
+
+
+def view_check(check: CheckRecord) -> CheckView:
+    """Put one check into words."""
+    low, high = find_utilisation_band(check)
+    return CheckView(
+        title=name_check(check),
+        clause=show_text(check.clause),
+        resistance_type=check.resistance_type,
+        resistance_basis=check.resistance_basis,
+        resistance_cell=check.resistance_cell,
+        demand=show_number("demand_kN", check.demand_kN),
+        resistance=show_number("resistance_kN", check.resistance_kN),
+        utilisation=show_number("utilisation", check.utilisation),
+        band=show_band("utilisation", low, high),
+        bar=_build_bar(low, check.utilisation, high),
+        verdict=VERDICTS[check.verdict],
+        case=name_case(check.case),
+        case_short=name_case_short(check.case),
+        reason=show_text(check.reason),
+    )
+
+
+def _build_bar(
+    low: float | None, value: float | None, high: float | None
+) -> Bar | None:
+    if low is None or value is None or high is None:
+        return None
+    lengths = [
+        f"{min(_BAR_UNIT * ratio, _BAR_END):.1f}" for ratio in (low, value, high)
+    ]
+    return Bar(low=lengths[0], value=lengths[1], high=lengths[2], is_over=value > 1)
+
+
+def work_out(check: CheckRecord) -> Worked:
+    """Worked calculation of a check that has a demand and a resistance."""
+    low, high = find_utilisation_band(check)
+    demand = show_with_unit("demand_kN", check.demand_kN)
+    resistance = show_with_unit("resistance_kN", check.resistance_kN)
+    needed = show_with_unit("resistance_kN", check.demand_high_kN)
+    return Worked(
+        title=f"{name_check(check)}: {name_case(check.case)}",
+        steps=(
+            *(
+                Step(symbols=symbols, numbers=numbers, result=result)
+                for symbols, numbers, result in describe_widths(check)
+            ),
+            *_derive_resistance(check),
+            Step(
+                symbols="E_d = γ_E · E_k",
+                numbers=f"{show_number('action_factor', check.action_factor)} · "
+                f"{show_with_unit('action_kN', check.action_kN)}",
+                result=demand,
+            ),
+            Step(
+                symbols="R_d = R_k / γ_R",
+                numbers=_divide(
+                    show_with_unit(
+                        "resistance_characteristic_kN",
+                        check.resistance_characteristic_kN,
+                    ),
+                    show_number("resistance_factor", check.resistance_factor),
+                ),
+                result=resistance,
+            ),
+            Step(
+                symbols="μ = E_d / R_d",
+                numbers=_divide(demand, resistance),
+                result=f"{show_number('utilisation', check.utilisation)} "
+                f"({show_band('utilisation', low, high)})",
+            ),
+        ),
+        needed=f"{VERDICTS[check.verdict].word}. A pass needs R_d of at least "
+        f"{needed}, the high end of the demand. Numbers are rounded for print only.",
+    )
+
+
+def _derive_resistance(check: CheckRecord) -> tuple[Step, ...]:
+    """How the characteristic resistance follows from dimensions or tests."""
+    if not check.resistance_derivation:
+        return ()
+    given = check.resistance_characteristic_kN
+    return (
+        Step(
+            symbols="R_k",
+            numbers=show_text(check.resistance_derivation),
+            result=show_with_unit("resistance_characteristic_kN", given),
+        ),
+    )
+
+
+def _divide(above: str, below: str) -> str:
+    return f"{above} / {below}"

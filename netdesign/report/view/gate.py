@@ -1,0 +1,156 @@
+"""Refuses a report that contradicts its own numbers or lacks a section."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from html.parser import HTMLParser
+
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.view.check_view import find_utilisation_band
+from netdesign.study.records import CheckRecord, Study
+
+_TOLERANCE = 1e-9  # relative; products of two stored numbers differ by rounding only
+_DRAWING = re.compile(r"<svg.*?</svg>", re.DOTALL)
+_HEADINGS = ("h1", "h2", "h3", "h4")
+# Tags that bound neither a section nor a heading: most of a page, and slow to parse.
+_OTHER_TAG = re.compile(r"<(?!/?(?:section|h[1-4])\b)[^>]*>")
+
+
+def require_consistent(study: Study) -> None:
+    """Refuse a study whose verdicts or ratios do not follow from its numbers.
+
+    Raises
+    ------
+    NetDesignError
+        If a verdict is not that of its parts (a pass may be held back as not
+        proven), a pass is not supported by its utilisation, or a design value
+        or a utilisation is not what its parts give.
+    """
+    _require_earned("the study", study.verdict, (row.verdict for row in study.rows))
+    for row in study.rows:
+        place = f"net row {row.id!r}"
+        held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
+        parts = [*(check.verdict for check in row.checks), *held]
+        _require_earned(place, row.verdict, parts)
+        for check in row.checks:
+            _require_sound(f"{place}, check {check.id!r}", check)
+
+
+def _require_earned(place: str, whole: Verdict, parts: Iterable[Verdict]) -> None:
+    merged = merge_verdicts(parts)
+    is_held_back = whole is Verdict.NOT_PROVEN and merged is Verdict.PASS
+    if whole is not merged and not is_held_back:
+        raise NetDesignError(f"{place} says {whole}, but its parts give {merged}")
+
+
+def _require_sound(place: str, check: CheckRecord) -> None:
+    _require_parts(place, check)
+    for name, whole, parts in (
+        ("demand", check.demand_kN, _product(check.action_kN, check.action_factor)),
+        (
+            "resistance",
+            check.resistance_kN,
+            _ratio(check.resistance_characteristic_kN, check.resistance_factor),
+        ),
+        (
+            "utilisation",
+            check.utilisation,
+            _ratio(check.demand_kN, check.resistance_kN),
+        ),
+    ):
+        if whole is None or parts is None:
+            continue
+        if not math.isclose(whole, parts, rel_tol=_TOLERANCE):
+            raise NetDesignError(
+                f"{place}: {name} is {whole!r}, but its parts give {parts!r}"
+            )
+    is_loaded = check.demand_high_kN or check.action_kN
+    if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
+        raise NetDesignError(f"{place}: utilisation is 0, but the member is not slack")
+    _require_sizes(place, check)
+    is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
+    if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
+        _, high = find_utilisation_band(check)
+        if high is None or not high <= 1:
+            raise NetDesignError(
+                f"{place} says pass, but the high end of its utilisation is {high}"
+            )
+
+
+def _require_sizes(place: str, check: CheckRecord) -> None:
+    """Refuse forces below zero, and a demand outside its own band."""
+    ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
+    known = [0.0, *(end for end in ends if end is not None)]
+    sizes = (check.action_kN, check.resistance_characteristic_kN)
+    is_sound = known == sorted(known)
+    is_sound &= all(size is None or size >= 0.0 for size in sizes)
+    if not is_sound:
+        raise NetDesignError(f"{place}: a force lies below zero or outside its band")
+
+
+def _require_parts(place: str, check: CheckRecord) -> None:
+    """Refuse factors that are none, and a resistance that follows from nothing."""
+    divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
+    if not all(one is None or one > 0.0 for one in divisors):
+        raise NetDesignError(f"{place}: a factor or a resistance is not above zero")
+    has_parts = check.resistance_characteristic_kN and check.resistance_factor
+    if check.resistance_kN is not None and not has_parts:
+        raise NetDesignError(f"{place}: a design resistance without its parts")
+
+
+def _is_of_geometry(check: CheckRecord) -> bool:
+    return check.id.startswith("geometry.") and check.action is None
+
+
+def _product(left: float | None, right: float | None) -> float | None:
+    return None if left is None or right is None else left * right
+
+
+def _ratio(above: float | None, below: float | None) -> float | None:
+    return None if above is None or not below else above / below
+
+
+def require_sections(page: str, expected: Iterable[str]) -> None:
+    """Refuse a page in which an expected section is missing or only a heading.
+
+    Raises
+    ------
+    NetDesignError
+        Naming every such section.
+    """
+    reader = _SectionReader()
+    reader.feed(_OTHER_TAG.sub(" ", _DRAWING.sub(" drawing ", page)))
+    missing = [name for name in expected if not reader.words.get(name)]
+    if missing:
+        raise NetDesignError(
+            f"the report is incomplete: nothing in section {', '.join(missing)}"
+        )
+
+
+class _SectionReader(HTMLParser):
+    """Counts the words below the headings of each ``<section id=...>``."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words: dict[str, int] = {}
+        self._open: list[tuple[str, str]] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        name = (dict(attrs).get("id") or "") if tag == "section" else ""
+        self._open.append((tag, name))
+        if name:
+            self.words[name] = 0
+
+    def handle_endtag(self, tag: str) -> None:
+        while self._open and self._open.pop()[0] != tag:
+            pass
+
+    def handle_data(self, data: str) -> None:
+        if any(tag in _HEADINGS for tag, _ in self._open):
+            return
+        for _, name in self._open:
+            if name:
+                self.words[name] += len(data.split())

@@ -1,0 +1,136 @@
+"""Native charts of the workbook: they follow the cells when these are changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE
+from netdesign.report.workbook.writer import Book
+
+_FONT = {"name": "Arial", "size": 9, "color": INK}
+_BARS = "#8A929A"
+_MOST_LINES = 8  # of a chart of cases; more cannot be told apart
+_SHADES = (INK, ACCENT, GREY, "#2A4B6B", "#C9A227", "#4F7A5B", "#8C6BB1", "#A9AFB6")
+_MARKERS = ("circle", "square", "triangle", "diamond")
+
+
+def add_utilisation_chart(
+    book: Book, sheet: Any, rows: tuple[int, int], place: tuple[int, int]
+) -> None:
+    """Largest utilisation of each net row beside the limit, on the summary."""
+    first, last = rows
+    name = book.name("Summary")
+    chart = book.workbook.add_chart({"type": "column"})
+    chart.add_series(
+        {
+            "name": book.words("Largest utilisation"),
+            "categories": [name, first, 1, last, 1],
+            "values": [name, first, 6, last, 6],
+            "fill": {"color": _BARS},
+            "gap": 60,
+        }
+    )
+    limit = book.workbook.add_chart({"type": "line"})
+    limit.add_series(
+        {
+            "name": book.words("Limit"),
+            "categories": [name, first, 1, last, 1],
+            "values": [name, first, 8, last, 8],
+            "line": {"color": ACCENT, "width": 1.5},
+        }
+    )
+    chart.combine(limit)
+    _finish(book, chart, ("Largest utilisation of each net row", "", ""))
+    chart.set_size({"width": 620, "height": 260})
+    sheet.insert_chart(*place, chart, {"object_position": 1})
+
+
+def add_force_chart(
+    book: Book, sheet: Any, rows: tuple[int, int], columns: tuple[int, int, int]
+) -> None:
+    """Largest force of each member of each net row, below its table.
+
+    ``columns`` are those of net row, member and force.
+    """
+    first, last = rows
+    name = book.name("Envelope")
+    row, member, force = columns
+    chart = book.workbook.add_chart({"type": "column"})
+    chart.add_series(
+        {
+            "name": book.words("Maximum"),
+            "categories": [name, first, row, last, member],
+            "values": [name, first, force, last, force],
+            "fill": {"color": _BARS},
+            "gap": 40,
+        }
+    )
+    _finish(book, chart, ("Largest characteristic force per support", "", "kN"))
+    chart.set_legend({"none": True})
+    chart.set_size({"width": 980, "height": 320})
+    _insert_below(sheet, last, chart)
+
+
+def add_case_chart(
+    book: Book, sheet: Any, spans: Sequence[tuple[int, int]], bottom: int
+) -> None:
+    """Force on the foot anchor against density, one series for each net row.
+
+    ``spans`` are first and last line of each net row; its id is in the first column.
+    """
+    name = book.name("Cases")
+    chart = book.workbook.add_chart({"type": "scatter"})
+    for place, (first, last) in enumerate(spans[:_MOST_LINES]):
+        shade = _SHADES[place % len(_SHADES)]
+        chart.add_series(
+            {
+                # its cell, never its text: a text like "x!A1" would be a formula
+                "name": [name, first, 0],
+                "categories": [name, first, 1, last, 1],
+                "values": [name, first, 4, last, 4],
+                "marker": {
+                    "type": _MARKERS[place % len(_MARKERS)],
+                    "size": 6,
+                    "border": {"color": shade},
+                    "fill": {"color": shade},
+                },
+            }
+        )
+    titles = ("Force on the foot anchor in every case", "Density [kg/m³]", "kN")
+    _finish(book, chart, titles)
+    chart.set_size({"width": 820, "height": 360})
+    _insert_below(sheet, bottom, chart)
+
+
+def _insert_below(sheet: Any, bottom: int, chart: Any) -> None:
+    """On a page of its own, so that print does not cut it."""
+    sheet.set_h_pagebreaks([bottom + 2])
+    sheet.insert_chart(bottom + 2, 0, chart, {"object_position": 1})
+
+
+def _finish(book: Book, chart: Any, titles: tuple[str, str, str]) -> None:
+    """Quiet frame; title, then names of the axes."""
+    title, across, up = titles
+    chart.set_title(
+        {
+            "name": book.words(title),
+            "name_font": {**_FONT, "size": 10, "bold": True},
+            "overlay": False,
+        }
+    )
+    for axis, name in ((chart.set_x_axis, across), (chart.set_y_axis, up)):
+        axis(
+            {
+                "name": book.words(name) if name else "",
+                "name_font": {**_FONT, "bold": False},
+                "num_font": _FONT,
+                "line": {"color": GREY},
+                "major_gridlines": {
+                    "visible": axis == chart.set_y_axis,
+                    "line": {"color": PALE, "width": 0.5},
+                },
+            }
+        )
+    chart.set_legend({"position": "bottom", "font": _FONT})
+    chart.set_chartarea({"border": {"color": PALE}})

@@ -1,0 +1,380 @@
+"""Sheet of checks with live formulas: change a cell and the verdict follows.
+
+Each formula is stored with the value of the study, so that viewers which do not
+calculate show the study's numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from netdesign.outcome import Verdict
+from netdesign.quantities import QUANTITIES
+from netdesign.report.translation import translate_view
+from netdesign.report.view.check_formulas import (
+    ROUNDING,
+    compute_rank,
+    write_given_verdict,
+    write_product,
+    write_quotient,
+    write_rank,
+    write_ratio,
+    write_slack,
+    write_unchanged,
+    write_verdict,
+)
+from netdesign.report.view.check_view import (
+    CheckView,
+    find_utilisation_band,
+)
+from netdesign.report.view.table import Cell, Column
+from netdesign.report.view.tables import CASE_COLUMNS
+from netdesign.report.view.whole import ReportView
+from netdesign.report.words import (
+    MISSING,
+    number_format,
+    show_number,
+    show_text,
+)
+from netdesign.report.workbook.writer import A3, Book, count_lines
+from netdesign.study.records import CheckRecord, Study
+
+HEAD_ROW = 3  # zero-based; the first check is one below
+_NOTES = (
+    "Demand E_d = γ_E · E_k, design resistance R_d = R_k / γ_R, utilisation "
+    "μ = E_d / R_d; kN per anchor; low and high are the ends of the numerical band.",
+    "PASS: μ high is at most 1. FAIL: μ low exceeds 1. Otherwise NOT PROVEN. "
+    '"Set by the study": the verdict has another reason than the ratio, see Reason.',
+)
+# Stands in the place of a sentence of the study that no longer holds.
+CHANGED = "Changed after the study: the formulas of this workbook alone decide."
+_WANTED = {True: "A number above zero.", False: "A number of at least zero."}
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """Column of the sheet: letter, key of its quantity, heading, width."""
+
+    letter: str
+    quantity: str
+    heading: str
+    width: float
+
+    @property
+    def index(self) -> int:
+        """Place of the column, from zero."""
+        *tens, ones = (ord(sign) - ord("A") for sign in self.letter)
+        return ones + 26 * sum(ten + 1 for ten in tens)
+
+    @property
+    def column(self) -> Column:
+        return Column(
+            heading=self.heading,
+            quantity=self.quantity,
+            is_number=bool(self.quantity) or self.heading == "No.",
+        )
+
+
+def _field(letter: str, quantity: str, end: str = "") -> _Field:
+    row = QUANTITIES[quantity]
+    unit = f" [{row.unit}]" if row.unit else ""
+    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 8.3)
+
+
+_LEAD = (
+    _Field("A", "", "No.", 4),
+    _Field("B", "", "Net row", 15),
+    _Field("C", "", "Check", 20),
+    _Field("D", "", "Clause", 9),
+)
+_ACTIONS = (
+    _field("E", "action_kN", " low"),
+    _field("F", "action_kN"),
+    _field("G", "action_kN", " high"),
+)
+_ACTION_FACTOR = _field("H", "action_factor")
+_DEMANDS = (
+    _field("I", "demand_kN", " low"),
+    _field("J", "demand_kN"),
+    _field("K", "demand_kN", " high"),
+)
+_RESISTANCE_K = _field("L", "resistance_characteristic_kN")
+_RESISTANCE_FACTOR = _field("M", "resistance_factor")
+_RESISTANCE = _field("N", "resistance_kN")
+_RATIOS = (
+    _field("O", "utilisation", " low"),
+    _field("P", "utilisation"),
+    _field("Q", "utilisation", " high"),
+)
+_SET = _Field("R", "", "Set by the study", 10)
+_VERDICT = _Field("S", "", "Verdict", 13)
+_TAIL = (
+    _Field("W", "", "Resistance from", 18),
+    _Field("X", "", "Reason", 36),
+)
+_CASES = tuple(
+    _Field(letter, column.quantity, column.heading, 8.5)
+    for letter, column in zip("TUV", CASE_COLUMNS, strict=True)
+)
+# Hidden: what the live cells are compared with, and what is sorted by.
+_RANK = _Field("Y", "", "Rank", 8)
+_UNCHANGED = _Field("Z", "", "As in the study", 8)
+_STUDY_TEXTS = (
+    _Field("AA", "", "Study: Resistance from", 8),
+    _Field("AB", "", "Study: Reason", 8),
+)
+_STUDY_VERDICT = _Field("AC", "", "Study: Verdict", 8)
+_STUDY_NUMBERS = (
+    _Field("AD", "utilisation", "Study: μ low", 8),
+    _Field("AE", "utilisation", "Study: μ high", 8),
+    _Field("AF", "resistance_characteristic_kN", "Study: characteristic resistance", 8),
+)
+_SHOWN = (
+    *_LEAD,
+    *_ACTIONS,
+    _ACTION_FACTOR,
+    *_DEMANDS,
+    _RESISTANCE_K,
+    _RESISTANCE_FACTOR,
+    _RESISTANCE,
+    *_RATIOS,
+    _SET,
+    _VERDICT,
+    *_CASES,
+    *_TAIL,
+)
+_HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
+_FIELDS = (*_SHOWN, *_HIDDEN)
+
+
+def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
+    """Sheet "Checks" and the defined names that the summary counts by."""
+    sheet = book.add_sheet("Checks", "Checks", paper=A3)
+    book.link_back(sheet, (0, 3))
+    for line, note in enumerate(_NOTES, 1):
+        sheet.write_string(line, 0, book.words(note), book.text(italic=True))
+    columns = [translate_view(field.column, book.words) for field in _FIELDS]
+    book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
+    for field in _FIELDS:
+        options = {"hidden": field in _HIDDEN}
+        area = f"{field.letter}:{field.letter}"
+        sheet.set_column(area, field.width, None, options)
+    line = HEAD_ROW + 1
+    for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
+        for check, words in zip(row.checks, shown.checks, strict=True):
+            _CheckLine(book, sheet, line).write((number, row.id), check, words)
+            line += 1
+    if line == HEAD_ROW + 1:
+        text = book.words("none: no check was made")
+        sheet.write_string(line, 0, text, book.text())
+    last = max(line, HEAD_ROW + 2)
+    _finish(book, sheet, last)
+
+
+def _finish(book: Book, sheet: Any, last: int) -> None:
+    first = HEAD_ROW + 2
+    named = {
+        "check_net_row_number": _LEAD[0],
+        "check_name": _LEAD[2],
+        "check_utilisation": _RATIOS[1],
+        "check_utilisation_high": _RATIOS[2],
+        "check_verdict": _VERDICT,
+        "check_rank": _RANK,
+        "check_unchanged": _UNCHANGED,
+        **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
+    }
+    for name, field in named.items():
+        area = f"${field.letter}${first}:${field.letter}${last}"
+        book.workbook.define_name(name, f"={book.refer('Checks', area)}")
+    _validate(book, sheet, (first - 1, last - 1))
+    for field, decorate in (
+        (_VERDICT, book.colour_verdicts),
+        (_RATIOS[1], book.add_ratio_bars),
+    ):
+        decorate(sheet, (first - 1, field.index, last - 1, field.index))
+    sheet.autofilter(HEAD_ROW, 0, last - 1, len(_SHOWN) - 1)
+    sheet.freeze_panes(HEAD_ROW + 1, 3)
+    sheet.repeat_rows(HEAD_ROW)
+
+
+def _validate(book: Book, sheet: Any, lines: tuple[int, int]) -> None:
+    """Let a spreadsheet program refuse factors and resistances that cannot be."""
+    first, last = lines
+    given = (_ACTION_FACTOR, _RESISTANCE_K, _RESISTANCE_FACTOR)
+    for field in (*given, *_ACTIONS):
+        rule = {
+            "validate": "decimal",
+            "criteria": ">" if field in given else ">=",
+            "value": 0,
+            "ignore_blank": False,
+            "error_message": book.words(_WANTED[field in given]),
+        }
+        sheet.data_validation(first, field.index, last, field.index, rule)
+
+
+class _CheckLine:
+    """One line of the sheet; ``line`` counts from zero."""
+
+    def __init__(self, book: Book, sheet: Any, line: int) -> None:
+        self._book, self._sheet, self._line = book, sheet, line
+
+    def write(self, row: tuple[int, str], check: CheckRecord, view: CheckView) -> None:
+        """Write texts and inputs as values, everything derived as formulas.
+
+        ``row`` is number and id of the net row, ``view`` the check in words.
+        """
+        number, name = row
+        self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
+        self._write_numbers(check)
+        self._write_verdict(number, check)
+        case = check.case
+        for field in _CASES:
+            self._put_number(field, getattr(case, field.quantity) if case else None)
+        texts = (show_text(name), view.title, view.clause)
+        for field, text in zip(_LEAD[1:], texts, strict=True):
+            self._put(field, Cell(text=text))
+        self._write_study(check, view)
+        self._write_sentences((view.resistance_from, view.reason))
+        fields = (*_LEAD[1:], *_TAIL)
+        shown = (*texts, view.resistance_from, view.reason)
+        lines = count_lines(shown, [field.width for field in fields])
+        self._book.set_height(self._sheet, self._line, lines)
+
+    def _write_numbers(self, check: CheckRecord) -> None:
+        actions, demands = _list_actions(check), _list_demands(check)
+        factor, at = self._at(_ACTION_FACTOR), self._at
+        self._put_number(_ACTION_FACTOR, check.action_factor)
+        for source, target, action, demand in zip(
+            _ACTIONS, _DEMANDS, actions, demands, strict=True
+        ):
+            self._put_number(source, action)
+            self._put_number(target, demand, write_product(at(source), factor))
+        parts = (at(_RESISTANCE_K), at(_RESISTANCE_FACTOR))
+        self._put_number(_RESISTANCE_K, check.resistance_characteristic_kN)
+        self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
+        self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
+        low, high = find_utilisation_band(check)
+        is_slack = write_slack([at(field) for field in _DEMANDS], at(_SET))
+        for field, demand_field, ratio in zip(
+            _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
+        ):
+            live = write_ratio(at(demand_field), at(_RESISTANCE), is_slack, parts)
+            self._put_number(field, ratio, live)
+
+    def _write_verdict(self, number: int, check: CheckRecord) -> None:
+        is_set = decide_by_ratio(*_recalculate_band(check)) is not check.verdict
+        words = {verdict: self._book.word(verdict) for verdict in Verdict}
+        shown, given = words[check.verdict], self._at(_SET)
+        self._put(_SET, Cell(text=shown if is_set else MISSING))
+        ends = [self._at(field) for field in _RATIOS]
+        formula = (
+            write_verdict(ends, given, words)
+            if _is_of_forces(check)
+            else write_given_verdict(given, words)
+        )
+        form = self._book.text(bold=True)
+        self._sheet.write_formula(self._at(_VERDICT), formula, form, shown)
+        rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
+        value = compute_rank(number, check.verdict, check.utilisation)
+        self._sheet.write_formula(self._at(_RANK), rank, None, value)
+
+    def _write_study(self, check: CheckRecord, view: CheckView) -> None:
+        """What the study has, and whether the live cells still show it."""
+        at = self._at
+        for field, text in zip(
+            (*_STUDY_TEXTS, _STUDY_VERDICT),
+            (view.resistance_from, view.reason, self._book.word(check.verdict)),
+            strict=True,
+        ):
+            self._put(field, Cell(text=text))
+        numbers = (*find_utilisation_band(check), check.resistance_characteristic_kN)
+        for field, number in zip(_STUDY_NUMBERS, numbers, strict=True):
+            self._put_number(field, number)
+        live = (_RATIOS[0], _RATIOS[2], _RESISTANCE_K)
+        formula = write_unchanged(
+            [(at(a), at(b)) for a, b in zip(live, _STUDY_NUMBERS, strict=True)],
+            [(at(_VERDICT), at(_STUDY_VERDICT))],
+        )
+        self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
+
+    def _write_sentences(self, texts: tuple[str, str]) -> None:
+        """Sentences of the study, as long as they hold."""
+        form, changed = self._book.text(text_wrap=True), self._book.words(CHANGED)
+        for field, stored, text in zip(_TAIL, _STUDY_TEXTS, texts, strict=True):
+            formula = f'=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},"{changed}")'
+            self._sheet.write_formula(self._at(field), formula, form, text)
+
+    def _at(self, field: _Field) -> str:
+        return f"{field.letter}{self._line + 1}"
+
+    def _put(self, field: _Field, cell: Cell) -> None:
+        place = (self._line, field.index)
+        self._book.write_cell(self._sheet, place, field.column, cell)
+
+    def _put_number(
+        self, field: _Field, value: float | None, formula: str = ""
+    ) -> None:
+        """Write a number; with ``formula``, live and giving "-" without its parts."""
+        if not formula:
+            self._put(
+                field, Cell(text=show_number(field.quantity, value), number=value)
+            )
+            return
+        form = self._book.format(
+            align="right", num_format=number_format(field.quantity)
+        )
+        live = f'=IFERROR({formula},"{MISSING}")'
+        cached = MISSING if value is None else value
+        self._sheet.write_formula(self._at(field), live, form, cached)
+
+
+def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
+    """Verdict of the formula in the sheet: by the band of the utilisation alone."""
+    if low is None or high is None:
+        return Verdict.NOT_PROVEN
+    if high <= 1.0 + ROUNDING:
+        return Verdict.PASS
+    return Verdict.FAIL if low > 1 else Verdict.NOT_PROVEN
+
+
+def _is_of_forces(check: CheckRecord) -> bool:
+    """Whether the verdict follows from a ratio; one that passes without does not."""
+    return check.verdict is not Verdict.PASS or check.utilisation is not None
+
+
+def _recalculate_band(check: CheckRecord) -> tuple[float | None, float | None]:
+    """Band as the sheet calculates it; may differ in the last bit, at exactly 1."""
+    resistance = _divide_resistance(check)
+    if check.demand_high_kN == 0.0:
+        is_named = check.resistance_characteristic_kN and check.resistance_factor
+        return (0.0, 0.0) if resistance or not is_named else (None, None)
+    if resistance is None or check.action_factor is None:
+        return None, None
+    low, _, high = (
+        None if action is None else action * check.action_factor / resistance
+        for action in _list_actions(check)
+    )
+    return low, high
+
+
+def _divide_resistance(check: CheckRecord) -> float | None:
+    above, below = check.resistance_characteristic_kN, check.resistance_factor
+    return above / below if above and below else None
+
+
+def _list_demands(check: CheckRecord) -> tuple[float | None, ...]:
+    return check.demand_low_kN, check.demand_kN, check.demand_high_kN
+
+
+def _list_actions(check: CheckRecord) -> tuple[float | None, ...]:
+    """Characteristic actions whose products with the factor are the demands."""
+    factor = check.action_factor
+    if not factor or check.action_kN is None:
+        return None, check.action_kN, None
+    low, high = check.demand_low_kN, check.demand_high_kN
+    return (
+        None if low is None else low / factor,
+        check.action_kN,
+        None if high is None else high / factor,
+    )

@@ -1,0 +1,179 @@
+"""Study -> workbook: the page's tables as numbers, the checks as live formulas."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import UTC, datetime
+
+from netdesign.errors import NetDesignError
+from netdesign.report.language import Words
+from netdesign.report.translation import show_study, translate_view
+from netdesign.report.view import tables
+from netdesign.report.view.table import Cell, Column, Table
+from netdesign.report.view.whole import ReportView
+from netdesign.report.workbook.charts import add_case_chart, add_force_chart
+from netdesign.report.workbook.check_sheet import add_check_sheet
+from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
+from netdesign.report.workbook.writer import Book
+from netdesign.study.records import Study
+
+_FIRST_LINE = 4  # of a table below its caption and headings, zero-based
+_NO_TIME = datetime(1980, 1, 1)
+SHEETS = (
+    "Summary",
+    "Inputs",
+    "Checks",
+    "Envelope",
+    "Cases",
+    "Changes",
+    "Support",
+    "Guideline",
+    "Quality",
+    "Assumptions",
+    "Profile",
+    "Provenance",
+)
+
+
+def render_workbook(
+    study: Study, words: Words | None = None, view: ReportView | None = None
+) -> bytes:
+    """Workbook of a study; the same study gives the same bytes.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    words : Words, optional
+        Language; English if not given.
+    view : ReportView, optional
+        Of this study in this language, where it is there already.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers.
+    """
+    import xlsxwriter
+
+    words = words or Words()
+    view = view or show_study(study, words)
+    buffer = io.BytesIO()
+    options = {
+        "in_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "strings_to_numbers": False,
+    }
+    with xlsxwriter.Workbook(buffer, options) as workbook:
+        workbook.set_properties(
+            {
+                "title": words("Anchor check of snow nets"),
+                "subject": view.running_title,
+                "author": view.prepared,
+                "created": _read_time(study.provenance.started),
+            }
+        )
+        workbook.set_size(2400, 1400)
+        workbook.set_calc_mode("auto")
+        book = Book(workbook, view.running_title, words)
+        _add_sheets(book, study, view)
+        names = tuple(sheet.get_name() for sheet in workbook.worksheets())
+        if names != tuple(book.name(sheet) for sheet in SHEETS):
+            raise NetDesignError(f"the workbook is incomplete: it has only {names}")
+    return buffer.getvalue()
+
+
+def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
+    add_summary_sheet(book, study, view)
+    _add_inputs(book, view)
+    add_check_sheet(book, study, view)
+    _add_row_tables(book, study, view)
+    book.add_table_sheet("Quality", "Solver quality", [view.quality, view.outcomes])
+    book.add_table_sheet("Assumptions", "Assumptions", [view.assumptions])
+    book.add_table_sheet("Profile", "Limit profile", [view.profile])
+    notes = _list_notes(book, view)
+    book.add_table_sheet("Provenance", "Provenance", [view.provenance, notes])
+    link_sheets(book, SHEETS[1:])
+
+
+def _add_inputs(book: Book, view: ReportView) -> None:
+    inputs = [(book.words("Ranges"), view.ranges)]
+    inputs += [(row.id, row.inputs) for row in view.rows]
+    caption = "As typed and as understood, with the cell"
+    book.add_table_sheet("Inputs", "Inputs", [_stack(book, caption, inputs)])
+
+
+def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
+    """Sheets on which the same table of every net row stands."""
+    cases = [
+        (shown.id, translate_view(tables.build_cases(row), book.words))
+        for row, shown in zip(study.rows, view.rows, strict=True)
+    ]
+    for name, title, parts in (
+        ("Envelope", "Largest force of each member", _list_parts(view, "extremes")),
+        ("Cases", "All cases", cases),
+        ("Changes", "What would flip the checks", _list_parts(view, "changes")),
+        (
+            "Support",
+            "Forces on the ground in the drawn case",
+            _list_parts(view, "anchors"),
+        ),
+        (
+            "Guideline",
+            "Independent check by the guideline",
+            _list_parts(view, "guideline"),
+        ),
+    ):
+        caption = parts[0][1].caption if parts else book.words(title)
+        stacked = _stack(book, caption, parts)
+        sheet = book.add_table_sheet(name, title, [stacked])
+        bottom = _FIRST_LINE + len(stacked.rows) - 1
+        if name == "Envelope" and stacked.rows:
+            add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
+        if name == "Cases" and stacked.rows:
+            add_case_chart(book, sheet, _span(parts), bottom)
+
+
+def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:
+    return [(row.id, getattr(row, table)) for row in view.rows]
+
+
+def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[int, int]]:
+    """First and last line of each net row in a stacked table."""
+    spans, first = [], _FIRST_LINE
+    for _, table in parts:
+        if table.rows:
+            spans.append((first, first + len(table.rows) - 1))
+        first += len(table.rows)
+    return spans
+
+
+def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
+    caption = book.words(caption)
+    heading = Column(heading=book.words("Net row"))
+    if not parts:
+        empty = book.words("none")
+        return Table(caption=caption, columns=(heading,), rows=(), empty=empty)
+    stacked = tables.stack_tables(caption, parts)
+    columns = (heading, *stacked.columns[1:])
+    return replace(stacked, columns=columns, empty=parts[0][1].empty)
+
+
+def _list_notes(book: Book, view: ReportView) -> Table:
+    return Table(
+        caption=book.words("Notes"),
+        columns=(Column(heading=book.words("Note")),),
+        rows=tuple((Cell(text=note),) for note in view.notes),
+        empty=book.words("none"),
+    )
+
+
+def _read_time(started: str) -> datetime:
+    """Start of the study in UTC without a zone, as workbooks store it."""
+    if not started:
+        return _NO_TIME
+    time = datetime.fromisoformat(started)
+    return time.astimezone(UTC).replace(tzinfo=None) if time.tzinfo else time

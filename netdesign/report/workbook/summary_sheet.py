@@ -1,0 +1,279 @@
+"""First sheet of the workbook: verdicts, live over the sheet of checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.view.check_formulas import write_merged
+from netdesign.report.view.check_view import (
+    find_governing,
+    find_highest,
+    find_utilisation_band,
+)
+from netdesign.report.view.table import Cell, Column
+from netdesign.report.view.whole import ReportView, RowView
+from netdesign.report.words import (
+    MISSING,
+    name_heading,
+    number_format,
+)
+from netdesign.report.workbook.charts import add_utilisation_chart
+from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
+from netdesign.report.workbook.writer import Book, count_lines
+from netdesign.study.records import CasePoint, RowStudy, Study
+
+_HEAD_ROW = 4  # zero-based
+_WIDTHS = (4, 14, 18, 10, 12, 9, 13, 11, 8, 21, 23, 12, 32)
+_COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # columns D, E, F
+_RATIO, _LIMIT, _GOVERNING, _CASE = 6, 8, 9, 10
+_HELD, _REASONS = 11, 12
+_STUDY_REASONS, _STUDY_VERDICT = 13, 14  # hidden: what the live cells stand for
+_CASE_DECIMALS = 2
+
+
+def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
+    """Sheet "Summary": overall verdict, net rows, assumed values, signatures."""
+    sheet = book.add_sheet("Summary", "Anchor check of snow nets")
+    sheet.write_string(1, 0, view.running_title or MISSING, book.text())
+    last = _HEAD_ROW + max(len(study.rows), 1)
+    _write_overall(book, sheet, study, last)
+    columns = [
+        Column(heading=book.words(one.heading), is_number=one.is_number)
+        for one in _list_columns(book)
+    ]
+    book.write_head(sheet, _HEAD_ROW, columns, _WIDTHS)
+    for index, width in enumerate(_WIDTHS):
+        sheet.set_column(index, index, width)
+    sheet.set_column(_STUDY_REASONS, _STUDY_VERDICT, None, None, {"hidden": True})
+    if not study.rows:
+        text = book.words("none: the site has no net rows")
+        sheet.write_string(last, 1, text, book.text())
+    first_check = FIRST_CHECK + 2  # line in the sheet of checks, counted from one
+    for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
+        _write_row(book, sheet, number, row, shown)
+        target = book.refer("Checks", f"A{first_check}")
+        book.link(sheet, (_HEAD_ROW + number, 1), target, shown.id)
+        first_check += len(row.checks)
+    book.colour_verdicts(sheet, (2, 2, last, 2))
+    book.add_ratio_bars(sheet, (_HEAD_ROW + 1, _RATIO, last, _RATIO))
+    sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
+    sheet.freeze_panes(_HEAD_ROW + 1, 2)
+    sheet.repeat_rows(_HEAD_ROW)
+    add_utilisation_chart(book, sheet, (_HEAD_ROW + 1, last), (last + 2, _LIMIT + 1))
+    _write_below(book, sheet, view, last + 2)
+
+
+def link_sheets(book: Book, names: Sequence[str]) -> None:
+    """Lead from the summary to every other sheet, in the line above its table."""
+    sheet = book.workbook.get_worksheet_by_name(book.name("Summary"))
+    for column, name in enumerate(names, 1):
+        target = book.refer(name, "A1")
+        book.link(sheet, (_HEAD_ROW - 1, column), target, book.name(name))
+
+
+def _list_columns(book: Book) -> tuple[Column, ...]:
+    ratio = name_heading("utilisation")
+    return (
+        Column(heading="No.", is_number=True),
+        Column(heading="Net row"),
+        Column(heading="Verdict"),
+        *(Column(heading=book.word(v), is_number=True) for v in _COUNTED),
+        Column(heading=f"Largest {ratio.lower()}", is_number=True),
+        Column(heading="Largest high end", is_number=True),
+        Column(heading="Limit", is_number=True),
+        Column(heading="Governing check"),
+        Column(heading="Its case"),
+        Column(heading="Held back by study"),
+        Column(heading="Reasons"),
+    )
+
+
+def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
+    held = study.verdict is not merge_verdicts(row.verdict for row in study.rows)
+    rows = f"C{_HEAD_ROW + 2}:C{last + 1}"
+    form = book.text(bold=True, font_size=12)
+    word = book.word(study.verdict)
+    sheet.write_string(2, 0, book.words("Verdict"), form)
+    counts = {v: f'COUNTIF({rows},"{book.word(v)}")' for v in _COUNTED}
+    formula = write_merged(
+        counts,
+        total=len(study.rows),
+        held=f'"{word if held else MISSING}"',
+        words=_list_words(book),
+    )
+    sheet.write_formula(2, 2, formula, form, word)
+    meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
+    passes, fails, open_ = (book.word(v) for v in Verdict)
+    meaning = (
+        f'=IF(C3="{passes}","{meanings[passes]}",IF(C3="{fails}",'
+        f'"{meanings[fails]}","{meanings[open_]}"))'
+    )
+    sheet.write_formula(2, 3, meaning, book.text(), meanings[word])
+    names = {
+        "overall_verdict": "$C$3",
+        "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
+    }
+    for name, area in names.items():
+        book.workbook.define_name(name, f"={book.refer('Summary', area)}")
+
+
+def _list_words(book: Book) -> dict[Verdict, str]:
+    return {verdict: book.word(verdict) for verdict in Verdict}
+
+
+def _write_row(
+    book: Book, sheet: Any, number: int, row: RowStudy, shown: RowView
+) -> None:
+    index = _HEAD_ROW + number
+    line = index + 1
+    verdicts = [check.verdict for check in row.checks]
+    held = row.verdict is not merge_verdicts(verdicts)
+    sheet.write_number(index, 0, number, book.format(align="right"))
+    formula = write_merged(
+        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEF", strict=True)},
+        total=len(row.checks),
+        held=f"{chr(ord('A') + _HELD)}{line}",
+        words=_list_words(book),
+    )
+    sheet.write_formula(index, 2, formula, book.text(bold=True), shown.verdict.word)
+    for column, verdict in enumerate(_COUNTED, 3):
+        count = (
+            f"=COUNTIFS(check_net_row_number,A{line},"
+            f'check_verdict,"{book.word(verdict)}")'
+        )
+        form = book.format(align="right")
+        sheet.write_formula(index, column, count, form, verdicts.count(verdict))
+    _write_largest(book, sheet, index, row)
+    sheet.write_number(index, _LIMIT, 1, book.format(align="right"))
+    _write_governing(book, sheet, index, row, shown)
+    _write_reasons(book, sheet, index, shown, is_held=held)
+
+
+def _write_governing(
+    book: Book, sheet: Any, index: int, row: RowStudy, shown: RowView
+) -> None:
+    """Name and case of the check that decides now."""
+    mine = f"check_net_row_number,A{index + 1}"
+    line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
+    none = book.words("none: no check was made")
+    first, second, third = (
+        f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
+    )
+    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
+    governing = find_governing(row.checks)
+    form = book.text(text_wrap=True)
+    title = shown.governing.title if shown.governing else none
+    is_there = f"COUNTIFS({mine})>0"
+    sheet.write_formula(
+        index,
+        _GOVERNING,
+        f'=IF({is_there},INDEX(check_name,{line}),"{none}")',
+        form,
+        title,
+    )
+    sheet.write_formula(
+        index,
+        _CASE,
+        f'=IFERROR(IF({is_there},{case},"{MISSING}"),"{MISSING}")',
+        form,
+        _show_case(governing.case if governing else None),
+    )
+
+
+def _show_case(case: CasePoint | None) -> str:
+    """Case as the formula shows it."""
+    if case is None:
+        return MISSING
+    values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
+    first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
+    return f"{first} kg/m³, φ {second}°, θ {third}°"
+
+
+def _write_reasons(
+    book: Book, sheet: Any, index: int, shown: RowView, *, is_held: bool
+) -> None:
+    """Reasons of the study, as long as every check of the row is as it was."""
+    line, reasons = index + 1, _explain(shown)
+    texts = {
+        _HELD: shown.verdict.word if is_held else MISSING,
+        _STUDY_REASONS: reasons,
+        _STUDY_VERDICT: shown.verdict.word,
+    }
+    for column, text in texts.items():
+        cell = Cell(text=text)
+        book.write_cell(sheet, (index, column), Column(heading=""), cell)
+    of_row = f"check_net_row_number,A{line}"
+    formula = (
+        f"=IF(AND(C{line}=O{line},COUNTIFS({of_row},check_unchanged,1)="
+        f'COUNTIFS({of_row})),N{line},"{book.words(CHANGED)}")'
+    )
+    form = book.text(text_wrap=True)
+    sheet.write_formula(index, _REASONS, formula, form, reasons)
+    governing = shown.governing.title if shown.governing else ""
+    fields = ((1, shown.id), (_GOVERNING, governing), (_REASONS, reasons))
+    lines = count_lines([text for _, text in fields], [_WIDTHS[k] for k, _ in fields])
+    book.set_height(sheet, index, lines)
+
+
+def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
+    highest = find_highest(row.checks)
+    known = [find_utilisation_band(check)[1] for check in row.checks]
+    ends = [end for end in known if end is not None]
+    cached = (highest.utilisation if highest else None, max(ends, default=None))
+    form = book.format(align="right", num_format=number_format("utilisation"))
+    for column, (name, value) in enumerate(
+        zip(("check_utilisation", "check_utilisation_high"), cached, strict=True),
+        _RATIO,
+    ):
+        mine = f"check_net_row_number,A{index + 1}"
+        formula = (
+            f'=IF(COUNTIFS({mine},{name},">=0")>0,'
+            f'_xlfn.MAXIFS({name},{mine}),"{MISSING}")'
+        )
+        sheet.write_formula(
+            index, column, formula, form, MISSING if value is None else value
+        )
+
+
+def _explain(shown: RowView) -> str:
+    reasons = list(shown.reasons)
+    if shown.governing and not reasons:
+        reasons.append(shown.governing.reason)
+    return " ".join(reasons) or MISSING
+
+
+def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
+    """Identification, room for signatures, assumed values, under the rows."""
+    head, text = book.text(bold=True, bottom=1), book.text()
+    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
+    signed = (("Prepared", view.prepared), ("Checked", view.checked), ("Approved", ""))
+    blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
+        ("To verify this report", view.verification),
+        ("Identification and sign-off", view.identification),
+        ("Signatures", [(book.words(label), name) for label, name in signed]),
+        ("Assumed: confirm in your copy of the standard", _list_assumed(book, view)),
+    ]
+    for title, pairs in blocks:
+        for column in range(_LIMIT):
+            shown = "" if column else book.words(title)
+            sheet.write_string(top, column, shown, head)
+        for label, value in pairs:
+            top += 1
+            sheet.write_string(top, 0, label, text)
+            sheet.merge_range(top, 2, top, _LIMIT - 1, "", wrapped)
+            sheet.write_string(top, 2, value, wrapped)
+            book.set_height(sheet, top, count_lines([value], [room]))
+        top += 2
+
+
+def _list_assumed(book: Book, view: ReportView) -> Sequence[tuple[str, str]]:
+    return [
+        (
+            f"{book.words('Clause')} {clause.text}",
+            f"{what.text.rstrip('.')}: {value.text} {unit.text}".rstrip(" -"),
+        )
+        for clause, what, value, unit, *_ in view.assumed.rows
+    ] or [(book.words("none"), "")]

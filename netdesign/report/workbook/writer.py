@@ -1,0 +1,237 @@
+"""Common parts of the workbook's sheets: formats, tables, print set-up."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from netdesign.outcome import Verdict
+from netdesign.report.language import Words
+from netdesign.report.translation import translate_view
+from netdesign.report.view.table import Cell, Column, Table
+from netdesign.report.words import VERDICTS, number_format
+
+_FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
+_HEAD = {"bold": True, "bottom": 1, "text_wrap": True, "valign": "bottom"}
+_COLOURS = {
+    "pass": ("#DDEBDD", "#1E4620"),
+    "fail": ("#F3D3CA", "#8C2A14"),
+    "not-proven": ("#F7EBC8", "#5F4B00"),
+}
+_NARROWEST, _WIDEST = 6.0, 50.0  # columns, in characters of the default font
+_CHARACTER = 0.72  # width of one of ours
+_LINE_PT = 12.5  # height of a line of text
+_DECIMAL = re.compile(r"-?\d+(\.\d+)?")
+_LINK = "#2A4B6B"
+_LONGEST_NAME = 31  # of a sheet
+_LONGEST_TEXT = 32000  # a cell holds 32767 characters
+_LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
+
+A4, A3 = 9, 8  # paper numbers of the format
+
+
+def _show_literally(text: str) -> str:
+    """Text for a footer, where ``&`` begins a code and ``&G`` a picture."""
+    return re.sub(r"&([G\[])", r"& \1", text).replace("&", "&&")
+
+
+class Book:
+    """A workbook being written; keeps one format for each set of properties."""
+
+    def __init__(self, workbook: Any, footer: str, words: Words) -> None:
+        self.workbook = workbook
+        self.words = words
+        self.verdicts = {
+            verdict: translate_view(shown, words) for verdict, shown in VERDICTS.items()
+        }
+        self._footer = _show_literally(footer[:120])
+        self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
+        self._forms: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
+
+    def format(self, **properties: Any) -> Any:
+        """Format with the font of the workbook and these properties."""
+        key = tuple(sorted(properties.items()))
+        if key not in self._formats:
+            self._formats[key] = self.workbook.add_format({**_FONT, **properties})
+        return self._formats[key]
+
+    def text(self, **properties: Any) -> Any:
+        """Format of a text; it keeps a distance from a number before it."""
+        return self.format(align="left", indent=1, **properties)
+
+    def set_height(self, sheet: Any, row: int, lines: int) -> None:
+        """Height for wrapped text: not every program finds it on its own."""
+        sheet.set_row(row, _LINE_PT * lines + 3)
+
+    def add_sheet(self, name: str, title: str, *, paper: int = A4) -> Any:
+        """Sheet with a title in its first cell, ready to print on one page width."""
+        sheet = self.workbook.add_worksheet(self.name(name))
+        sheet.hide_gridlines(2)
+        sheet.set_landscape()
+        sheet.set_paper(paper)
+        sheet.fit_to_pages(1, 0)
+        sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.7)
+        sheet.set_footer(f"&L&8 {self._footer}&C&8 &A&R&8 &P / &N")
+        shown = self.words(title)
+        sheet.write_string(0, 0, shown, self.text(bold=True, font_size=13))
+        sheet.set_row(0, 22)
+        return sheet
+
+    def name(self, sheet: str) -> str:
+        """Name of a sheet in the language of the workbook."""
+        return self.words(sheet)[:_LONGEST_NAME]
+
+    def refer(self, sheet: str, area: str) -> str:
+        """Reference to an area of another sheet."""
+        return f"'{self.name(sheet)}'!{area}"
+
+    def link(self, sheet: Any, place: tuple[int, int], target: str, text: str) -> None:
+        """Text that leads to a place of this workbook."""
+        form = self.text(font_color=_LINK, underline=1)
+        sheet.write_url(*place, f"internal:{target}", form, text[:_LONGEST_LINK])
+
+    def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
+        """Lead back to the first sheet."""
+        text = f"← {self.name('Summary')}"
+        self.link(sheet, place, self.refer("Summary", "A1"), text)
+
+    def word(self, verdict: Verdict) -> str:
+        """Word of a verdict in the language of the workbook."""
+        return self.verdicts[verdict].word
+
+    def write_head(
+        self, sheet: Any, row: int, columns: Sequence[Column], widths: Sequence[float]
+    ) -> None:
+        """Headings of a table, in columns of these widths."""
+        for index, column in enumerate(columns):
+            form = self.format(**_HEAD, **_align(column))
+            sheet.write_string(row, index, column.heading, form)
+        headings = [column.heading for column in columns]
+        self.set_height(sheet, row, max(2, count_lines(headings, widths)))
+
+    def write_cell(
+        self,
+        sheet: Any,
+        place: tuple[int, int],
+        column: Column,
+        cell: Cell,
+        *,
+        wraps: bool = True,
+    ) -> None:
+        """Write a number as a number with its format, all else as text."""
+        if cell.number is None or not math.isfinite(cell.number):
+            form = self._form(column, ("text_wrap", wraps))
+            sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
+            return
+        shown = None
+        if column.quantity:
+            shown = ("num_format", number_format(column.quantity))
+        elif _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
+            decimals = len(cell.text.partition(".")[2])
+            shown = ("num_format", f"0.{'0' * decimals}".rstrip("."))
+        sheet.write_number(*place, cell.number, self._form(column, shown))
+
+    def _form(self, column: Column, more: tuple[str, Any] | None) -> Any:
+        """Format of a column's cells, with one more property."""
+        key = (column.is_number, more)
+        if key not in self._forms:
+            properties = {} if more is None else dict([more])
+            self._forms[key] = self.format(**_align(column), **properties)
+        return self._forms[key]
+
+    def write_table(
+        self, sheet: Any, table: Table, top: int, *, is_first: bool = True
+    ) -> int:
+        """Caption, headings and rows, or what stands for none; the next free row."""
+        sheet.write_string(top, 0, table.caption, self.text(italic=True))
+        if not table.rows:
+            sheet.write_string(top + 1, 0, table.empty, self.text())
+            return top + 3
+        widths = find_widths([table])
+        if not is_first:
+            widths[-1] = _LONGEST_TEXT  # not wrapped: it reaches into empty cells
+        self.write_head(sheet, top + 1, table.columns, widths)
+        for row, cells in enumerate(table.rows, top + 2):
+            for index, (column, cell) in enumerate(
+                zip(table.columns, cells, strict=True)
+            ):
+                wraps = is_first or index < len(cells) - 1
+                self.write_cell(sheet, (row, index), column, cell, wraps=wraps)
+            texts = [cell.text for cell in cells]
+            self.set_height(sheet, row, count_lines(texts, widths))
+        return top + 3 + len(table.rows)
+
+    def add_table_sheet(self, name: str, title: str, tables: Sequence[Table]) -> Any:
+        """Sheet of tables one below the other; a single one can be filtered."""
+        sheet = self.add_sheet(name, title)
+        self.link_back(sheet)
+        top = 2
+        for table in tables:
+            top = self.write_table(sheet, table, top, is_first=table is tables[0])
+        for index, width in enumerate(find_widths(tables)):
+            sheet.set_column(index, index, width)
+        sheet.repeat_rows(3)
+        first = tables[0]
+        if len(tables) == 1 and first.rows:
+            sheet.autofilter(3, 0, 3 + len(first.rows), len(first.columns) - 1)
+        sheet.freeze_panes(4, 1)
+        return sheet
+
+    def colour_verdicts(self, sheet: Any, area: tuple[int, int, int, int]) -> None:
+        """Colours for the words of the verdicts in ``area``."""
+        for words in self.verdicts.values():
+            back, front = _COLOURS[words.style]
+            form = self.workbook.add_format({"bg_color": back, "font_color": front})
+            rule = {
+                "type": "cell",
+                "criteria": "==",
+                "value": f'"{words.word}"',
+                "format": form,
+            }
+            sheet.conditional_format(*area, rule)
+
+    def add_ratio_bars(self, sheet: Any, area: tuple[int, int, int, int]) -> None:
+        """Bars behind utilisations, full at 1.5."""
+        rule = {
+            "type": "data_bar",
+            "data_bar_2010": True,
+            "bar_solid": True,
+            "bar_color": "#C9CED4",
+            "min_type": "num",
+            "max_type": "num",
+            "min_value": 0,
+            "max_value": 1.5,
+        }
+        sheet.conditional_format(*area, rule)
+
+
+def _align(column: Column) -> dict[str, Any]:
+    """Numbers to the right; texts keep a distance from a number before them."""
+    return {"align": "right"} if column.is_number else {"align": "left", "indent": 1}
+
+
+def count_lines(texts: Sequence[str], widths: Sequence[float]) -> int:
+    """Lines that the longest of ``texts`` takes in its column."""
+    return max(
+        math.ceil((len(text) * _CHARACTER + 1.5) / width)
+        for text, width in zip(texts, widths, strict=False)
+    )
+
+
+def find_widths(tables: Sequence[Table]) -> list[float]:
+    """Width of each column: its longest cell and the longest word of its head.
+
+    The last columns of all tables but the first do not count.
+    """
+    widths = [_NARROWEST] * max(len(table.columns) for table in tables)
+    for place, table in enumerate(tables):
+        for index, column in enumerate(table.columns):
+            if place and index == len(table.columns) - 1:
+                continue  # a last column may reach into empty cells beside it
+            lengths = [len(row[index].text) for row in table.rows]
+            lengths += [len(word) for word in column.heading.split()]
+            wanted = max(lengths, default=0) * _CHARACTER + 3
+            widths[index] = min(max(widths[index], wanted), _WIDEST)
+    return widths

@@ -1,1 +1,0 @@
-"""One net row against one profile: effects, intervals, what would change it."""

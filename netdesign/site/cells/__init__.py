@@ -1,0 +1,1 @@
+"""Cells of spreadsheets of any format, and what is found wrong in them."""

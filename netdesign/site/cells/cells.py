@@ -1,0 +1,176 @@
+"""What a workbook holds: cells that know where they are, sheets, the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from netdesign.site.cells.findings import Finding, Refusal, Severity
+from netdesign.site.cells.numbers import DecimalMark
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TextFormat:
+    """What is declared of a file's text; empty: found out, or judged cell by cell.
+
+    Attributes
+    ----------
+    delimiter : str
+        Between the columns of a csv file.
+    decimal_mark : str
+        Point or comma, in numbers that are stored as text.
+    """
+
+    delimiter: str = ""
+    decimal_mark: DecimalMark = ""
+
+
+UNDECLARED = TextFormat()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cell:
+    """One cell: where it is and what it holds.
+
+    ``value`` is what the file stores: text, number, truth value, date, or None;
+    of a formula it is the stored result, None where the file has none.
+    """
+
+    file: str
+    sheet: str
+    row: int
+    column: int
+    value: object = None
+    formula: str = ""
+    is_error: bool = False
+    is_percent: bool = False  # the cell's format shows hundredfold
+    is_thousandth: bool = False  # the cell's format shows a thousandth
+    shown_unit: str = ""  # what the cell's format shows beside the number
+    decimal_mark: DecimalMark = ""  # declared for the file; none: judged cell by cell
+
+    @property
+    def address(self) -> str:
+        """Address in its sheet: ``C14``."""
+        return f"{name_column(self.column)}{self.row}"
+
+    @property
+    def place(self) -> str:
+        """Address in its workbook: ``Nets!C14``."""
+        return f"{self.sheet}!{self.address}"
+
+    @property
+    def text(self) -> str:
+        """What was typed: the formula, or the value as text."""
+        if self.formula:
+            return self.formula
+        return "" if self.value is None else str(self.value)
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing but spaces was typed."""
+        return not self.text.strip()
+
+    def finding(
+        self, refusal: Refusal, field: str = "", *, severity: Severity = "error"
+    ) -> Finding:
+        """Say what is wrong with this cell."""
+        return Finding(
+            file=self.file,
+            sheet=self.sheet,
+            cell=self.address,
+            field=field,
+            text=self.text,
+            rule=refusal.rule,
+            accepted=refusal.accepted,
+            severity=severity,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MergedRange:
+    """Merged cells: their range as text, their first and last row and column."""
+
+    text: str  # "B3:C4"
+    row: int
+    column: int
+    last_row: int
+    last_column: int
+
+    @property
+    def size(self) -> int:
+        """Number of its cells."""
+        rows = self.last_row - self.row + 1
+        return rows * (self.last_column - self.column + 1)
+
+    def covers(self, row: int, column: int) -> bool:
+        """Whether a cell belongs to the range."""
+        return (
+            self.row <= row <= self.last_row
+            and self.column <= column <= self.last_column
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sheet:
+    """One sheet; ``rows`` holds the filled cells by row, then column, from 1."""
+
+    file: str
+    name: str
+    rows: Mapping[int, Mapping[int, Cell]]
+    merged: tuple[MergedRange, ...] = ()
+    hidden_rows: frozenset[int] = frozenset()
+    hidden_columns: frozenset[int] = frozenset()
+    is_hidden: bool = False
+    is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
+
+    def cell(self, row: int, column: int) -> Cell:
+        """Cell at a place, blank where nothing is filled in."""
+        blank = Cell(file=self.file, sheet=self.name, row=row, column=column)
+        return self.rows.get(row, {}).get(column, blank)
+
+    def row(self, number: int) -> tuple[Cell, ...]:
+        """Cells of one row that hold more than spaces, from left to right."""
+        cells = self.rows.get(number, {}).values()
+        return tuple(cell for cell in cells if not cell.is_blank)
+
+    def finding(self, refusal: Refusal, *, severity: Severity = "error") -> Finding:
+        """Say what is wrong with the whole sheet."""
+        return Finding(
+            file=self.file,
+            sheet=self.name,
+            rule=refusal.rule,
+            accepted=refusal.accepted,
+            severity=severity,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Workbook:
+    """The wanted sheets of one file, the names of the others, the file's hash."""
+
+    file: str
+    sha256: str
+    sheets: tuple[Sheet, ...]
+    unread: tuple[str, ...]
+    remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
+
+
+def name_column(column: int) -> str:
+    """Letters of a column counted from 1.
+
+    >>> name_column(28)
+    'AB'
+    """
+    letters = ""
+    while column:
+        column, digit = divmod(column - 1, 26)
+        letters = chr(ord("A") + digit) + letters
+    return letters
+
+
+def group_by_row(cells: Iterable[Cell]) -> dict[int, dict[int, Cell]]:
+    """Cells by row, then column, both ascending."""
+    rows: dict[int, dict[int, Cell]] = {}
+    for cell in sorted(cells, key=lambda cell: (cell.row, cell.column)):
+        rows.setdefault(cell.row, {})[cell.column] = cell
+    return rows

@@ -1,0 +1,113 @@
+"""How large a site workbook may be: far above any real one, far below a bomb."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Iterable
+from io import BytesIO
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import Cell, name_column
+from netdesign.site.cells.findings import refuse_file
+
+# A site workbook has tens of kilobytes; whatever is far larger is not one.
+MAX_FILE_BYTES = 8 * 2**20
+MAX_TEXT_BYTES = 4 * 2**20  # of all csv files that are read together
+MAX_EXPANDED_BYTES = 32 * 2**20
+MAX_ENTRIES = 500
+# Elements and attributes of all parts: each costs a parser hundreds of bytes, so the
+# size of a part does not bound its memory. 1000 filled rows of 30 columns have 250,000.
+MAX_MARKS = 300_000
+MAX_RATIO = 200.0
+MAX_ROWS = 2000
+MAX_COLUMNS = 200
+
+# Others unpack a whole block at once, before anything can be counted.
+_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+
+# What zipfile, the XML parsers and openpyxl raise on damaged or hostile files.
+DAMAGE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+_RATIO_COUNTS_ABOVE = 2**20  # small parts may be as regular as they like
+_CHUNK = 2**16
+
+
+def guard_archive(file: str, content: bytes) -> None:
+    """Refuse archives that would expand beyond reason, before any XML is parsed."""
+    with zipfile.ZipFile(BytesIO(content)) as archive:
+        entries = archive.infolist()
+        if len(entries) > MAX_ENTRIES:
+            rule = f"is an archive of {len(entries)} parts"
+            raise refuse_file(file, rule, f"at most {MAX_ENTRIES} parts")
+        if len({entry.filename for entry in entries}) < len(entries):
+            raise refuse_file(file, "holds two parts of the same name", "each once")
+        if sum(entry.file_size for entry in entries) > MAX_EXPANDED_BYTES:
+            raise _refuse_expansion(file)
+        if any(entry.compress_type not in _METHODS for entry in entries):
+            rule = "is packed in a way that spreadsheet programs do not use"
+            raise refuse_file(file, rule, "parts stored or deflated")
+        remaining, marks = MAX_EXPANDED_BYTES, 0
+        for entry in entries:
+            size, marks_here = _expand(archive, entry, remaining, file)
+            remaining -= size
+            marks += marks_here
+            if marks > MAX_MARKS:
+                raise _refuse_expansion(file)
+
+
+def _expand(
+    archive: zipfile.ZipFile, entry: zipfile.ZipInfo, allowed: int, file: str
+) -> tuple[int, int]:
+    """Count bytes and marks that a part really has; its checksum is tested too."""
+    size = marks = 0
+    with archive.open(entry) as part:
+        while chunk := part.read(_CHUNK):
+            size += len(chunk)
+            marks += chunk.count(b"<") + chunk.count(b"=")
+            if size > allowed:
+                raise _refuse_expansion(file)
+    if size > _RATIO_COUNTS_ABOVE and size > MAX_RATIO * entry.compress_size:
+        raise _refuse_expansion(file)
+    return size, marks
+
+
+def _refuse_expansion(file: str) -> SiteDataError:
+    return refuse_file(
+        file,
+        "expands beyond what a site workbook needs",
+        f"at most {MAX_EXPANDED_BYTES / 2**20:g} MiB expanded, no part packed more "
+        f"than {MAX_RATIO:g} to 1, and {MAX_MARKS} elements and attributes; remove "
+        "sheets and formats that are not needed",
+    )
+
+
+def require_rows(file: str, sheet: str, last_row: int) -> None:
+    """Refuse a sheet that is filled far down."""
+    if last_row > MAX_ROWS:
+        rule = f"has cells filled down to row {last_row}"
+        raise refuse_file(file, rule, f"at most {MAX_ROWS} rows", sheet)
+
+
+def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:
+    """Refuse a sheet that is filled far to the right."""
+    require_width(file, sheet, max((cell.column for cell in cells), default=0))
+
+
+def require_width(file: str, sheet: str, last_column: int) -> None:
+    """Refuse a last column far to the right."""
+    if last_column > MAX_COLUMNS:
+        rule = f"has cells filled beyond column {name_column(MAX_COLUMNS)}"
+        raise refuse_file(file, rule, f"at most {MAX_COLUMNS} columns", sheet)

@@ -1,0 +1,121 @@
+"""Numbers from cells: strict, so that no value is ever guessed."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+from netdesign.site.cells.findings import Refusal
+
+DecimalMark = Literal["", ",", "."]
+
+# Digits are capped so that a float holds every number exactly as it was typed.
+_MOST_DIGITS = 15
+_LARGEST = 1e15
+# What separates groups of thousands and nothing else: spaces, also the narrow and
+# the unbreakable ones of French, and the apostrophes of Switzerland.
+_GROUP_SIGNS = " \u00a0\u202f\u2009'\u2019"
+_PLAIN = re.compile(r"([+-]?)([0-9]+)(?:([.,])([0-9]+))?")
+_GROUPED = re.compile(
+    rf"([+-]?)([1-9][0-9]{{0,2}}(?:([.,{_GROUP_SIGNS}])[0-9]{{3}})(?:\3[0-9]{{3}})*)"
+    r"(?:([.,])([0-9]+))?"
+)
+
+_ACCEPTED = "a number cell, or text such as 2.5 or 2,5 without unit"
+
+
+@dataclass(frozen=True, slots=True)
+class _Reading:
+    """One meaning of a text: its digits, and what the marks stand for."""
+
+    sign: str
+    whole: str
+    decimals: str
+    decimal_mark: str
+    separator: str  # of thousands
+
+    @property
+    def text(self) -> str:
+        digits = f"{self.whole}.{self.decimals}" if self.decimals else self.whole
+        return self.sign + digits
+
+    @property
+    def is_short(self) -> bool:
+        return max(len(self.whole), len(self.decimals)) <= _MOST_DIGITS
+
+    def goes_with(self, declared: str) -> bool:
+        return self.decimal_mark in ("", declared) and self.separator != declared
+
+
+def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refusal:
+    """Take the number of a cell, or say why there is none.
+
+    A number cell is taken as it is, however it is displayed. Text is a number
+    only with digits, a sign, one decimal mark and complete groups of thousands.
+
+    Parameters
+    ----------
+    value : object
+        What the cell holds: number, text, truth value or date.
+    decimal_mark : str
+        Point or comma where it was declared for the whole file; then the other
+        one can only separate thousands.
+
+    Returns
+    -------
+    float or Refusal
+        The number in the unit of its column, or the reason against it. Text
+        such as ``1,234`` is refused with both of its readings, unless the mark
+        was declared.
+    """
+    if isinstance(value, bool):
+        return Refusal("is a truth value, not a number", _ACCEPTED)
+    if isinstance(value, int | float):
+        return _check_size(value)
+    if isinstance(value, str):
+        return _parse_text(value.strip(), decimal_mark)
+    return Refusal(
+        "is a date or time, not a number", "a number; give the cell a number format"
+    )
+
+
+def _check_size(value: float) -> float | Refusal:
+    # Written in the positive, so that NaN fails; integers may exceed any float.
+    if -_LARGEST < value < _LARGEST:
+        return float(value)
+    return Refusal("is not a usable number", _ACCEPTED)
+
+
+def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
+    possible = _list_readings(text)
+    readings = [one for one in possible if not declared or one.goes_with(declared)]
+    if len(readings) > 1:
+        return Refusal(
+            f"is ambiguous: {' or '.join(reading.text for reading in readings)}",
+            "a number cell, or text with another count of decimals; or declare the "
+            "decimal mark of the file",
+        )
+    if possible and not readings:
+        rule = f'is not a number with the decimal mark "{declared}"'
+        return Refusal(rule, _ACCEPTED)
+    if readings and readings[0].is_short:
+        return float(readings[0].text)
+    if readings:
+        rule = f"has more than {_MOST_DIGITS} digits in a row"
+        return Refusal(rule, "a number cell, or text with fewer digits")
+    return Refusal("is not a number", _ACCEPTED)
+
+
+def _list_readings(text: str) -> list[_Reading]:
+    """Every number that a text may mean."""
+    readings: list[_Reading] = []
+    if plain := _PLAIN.fullmatch(text):
+        sign, whole, mark, decimals = plain.groups(default="")
+        readings.append(_Reading(sign, whole, decimals, mark, ""))
+    if grouped := _GROUPED.fullmatch(text):
+        sign, whole, separator, mark, decimals = grouped.groups(default="")
+        if mark != separator:
+            whole = whole.replace(separator, "")
+            readings.append(_Reading(sign, whole, decimals, mark, separator))
+    return readings

@@ -1,0 +1,174 @@
+"""Opens a site file of any accepted kind safely: xlsx, xlsm, ods, csv."""
+
+from __future__ import annotations
+
+import hashlib
+import zipfile
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+
+from netdesign.edge.given_files import make_printable, read_bounded
+from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
+from netdesign.site.cells.delimited import read_delimited
+from netdesign.site.cells.findings import Finding, note_file, quote, refuse_file
+from netdesign.site.cells.limits import (
+    DAMAGE,
+    MAX_ENTRIES,
+    MAX_FILE_BYTES,
+    MAX_TEXT_BYTES,
+    guard_archive,
+)
+from netdesign.site.cells.ods import read_ods
+from netdesign.site.cells.xlsx import read_xlsx
+
+_OLE_MAGIC = b"\xd0\xcf\x11\xe0"
+_ZIP_MAGIC = b"PK"
+_ACCEPTED_FILE = "a workbook saved as .xlsx, .xlsm or .ods without password, or csv"
+_TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
+_MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
+
+_Content = tuple[tuple[Sheet, ...], tuple[str, ...], tuple[Finding, ...]]
+
+
+def read_workbook(
+    path: Path,
+    is_wanted: Callable[[str], bool],
+    is_name: Callable[[str], bool] | None = None,
+    is_heading: Callable[[str], bool] = lambda _: False,
+    text_format: TextFormat = UNDECLARED,
+) -> Workbook:
+    """Read the wanted sheets of a workbook, a csv file, or a folder of csv files.
+
+    Parameters
+    ----------
+    path : Path
+        The file. It is read once; guards, hash and content see the same bytes.
+    is_wanted : callable
+        Tells from a sheet's name whether to read it.
+    is_name : callable, optional
+        Tells whether a line alone in its row names a sheet of a csv file, perhaps
+        misspelt; by default, whether the sheet is wanted.
+    is_heading : callable
+        Tells from a cell's text whether it is a known heading; finds the
+        delimiter of a csv file.
+    text_format : TextFormat
+        What is declared of the file's text.
+
+    Returns
+    -------
+    Workbook
+        Filled cells with their addresses.
+
+    Raises
+    ------
+    SiteDataError
+        With one finding, if the file as a whole cannot be read: missing, not a
+        workbook, damaged, hostile or far too large.
+    """
+    is_folder = _is_folder(path)
+    if is_folder or path.suffix.casefold() in _TEXT_SUFFIXES:
+        paths = sorted(path.glob("*.csv")) if is_folder else [path]
+        if not paths:
+            raise refuse_file(path.name, "is a folder without csv files", "Nets.csv")
+        contents = _read_texts(path.name, paths)
+        read = read_delimited(
+            contents,
+            is_wanted,
+            is_name or is_wanted,
+            is_heading,
+            text_format,
+            by_name=is_folder,
+        )
+        content = b"".join(contents.values())
+    else:
+        content = _read_file(path, MAX_FILE_BYTES)
+        read = _read_archive(path.name, content, is_wanted, text_format)
+    return Workbook(
+        file=make_printable(path.name),
+        sha256=hashlib.sha256(content).hexdigest(),
+        sheets=read[0],
+        unread=read[1],
+        remarks=read[2],
+    )
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError as error:  # no file can have that name, or nobody may look there
+        rule = f"cannot be looked for at {path} ({error.strerror})"
+        raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
+
+
+def _read_archive(
+    file: str,
+    content: bytes,
+    is_wanted: Callable[[str], bool],
+    text_format: TextFormat,
+) -> _Content:
+    _refuse_other_kinds(file, content)
+    try:
+        guard_archive(file, content)
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            parts = archive.namelist()
+        if "xl/workbook.bin" in parts:
+            raise refuse_file(file, "is a binary .xlsb workbook", _ACCEPTED_FILE)
+        is_ods = "content.xml" in parts
+        read = (read_ods if is_ods else read_xlsx)(
+            file, content, is_wanted, text_format.decimal_mark
+        )
+    except DAMAGE as error:
+        cause = error.__cause__ or error  # openpyxl wraps what the parser says
+        detail = quote(f"{type(cause).__name__}: {cause}")
+        raise refuse_file(
+            file, f"cannot be read as a workbook ({detail})", _ACCEPTED_FILE
+        ) from error
+    has_macros = any(part.startswith(_MACRO_PARTS) for part in parts)
+    note = note_file(file, "holds macros: they are ignored")
+    return *read, (note,) if has_macros else ()
+
+
+def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
+    """Contents of csv files by name; all together are not larger than one may be."""
+    if len(paths) > MAX_ENTRIES:
+        rule = f"is a folder of {len(paths)} csv files"
+        raise refuse_file(name, rule, f"at most {MAX_ENTRIES} files")
+    contents: dict[str, bytes] = {}
+    remaining = MAX_TEXT_BYTES
+    for path in paths:
+        contents[path.name] = _read_file(path, remaining)
+        remaining -= len(contents[path.name])
+    return contents
+
+
+def _read_file(path: Path, most: int) -> bytes:
+    try:
+        if not path.is_file():
+            raise refuse_file(path.name, f"does not exist at {path}", _ACCEPTED_FILE)
+        return read_bounded(path, most)
+    except OSError as error:
+        rule = f"cannot be opened ({error.strerror})"
+        raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
+    except ValueError:
+        raise refuse_file(
+            path.name,
+            "is too large for a site workbook",
+            f"at most {MAX_FILE_BYTES / 2**20:g} MiB, of csv files "
+            f"{MAX_TEXT_BYTES / 2**20:g} MiB together; remove pictures and sheets that "
+            "are not needed",
+        ) from None
+
+
+def _refuse_other_kinds(file: str, content: bytes) -> None:
+    if content.startswith(_OLE_MAGIC):
+        rule = "is an old .xls workbook or has a password"
+        raise refuse_file(file, rule, _ACCEPTED_FILE)
+    if not content.startswith(_ZIP_MAGIC) and _looks_like_text(content):
+        rule = "is a text file"
+        raise refuse_file(file, rule, "the ending .csv for text with delimiters")
+
+
+def _looks_like_text(content: bytes) -> bool:
+    start = content[:1000]
+    return bool(start.strip()) and not any(byte < 9 for byte in start)

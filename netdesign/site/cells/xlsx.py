@@ -1,0 +1,259 @@
+"""Reads xlsx and xlsm workbooks into sheets of cells."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from string import ascii_uppercase
+from typing import TYPE_CHECKING, Any
+
+from netdesign.errors import NetDesignError
+from netdesign.site.cells.cells import Cell, MergedRange, Sheet, group_by_row
+from netdesign.site.cells.findings import refuse_file
+from netdesign.site.cells.limits import (
+    MAX_COLUMNS,
+    MAX_ROWS,
+    guard_archive,
+    require_columns,
+    require_rows,
+)
+from netdesign.site.cells.number_formats import (
+    find_format_unit,
+    show_percent,
+    show_thousands,
+)
+from netdesign.site.cells.numbers import DecimalMark
+
+if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
+    from openpyxl import Workbook as OpenWorkbook
+
+
+def _open(content: bytes, *, stored_results: bool) -> OpenWorkbook:
+    import openpyxl
+
+    if not openpyxl.DEFUSEDXML:
+        message = "openpyxl runs without defusedxml: install defusedxml"
+        raise NetDesignError(message)
+    return openpyxl.load_workbook(
+        BytesIO(content), read_only=True, data_only=stored_results, keep_links=False
+    )
+
+
+_MOST_MERGED = 100_000
+
+
+def open_for_editing(path: Path) -> OpenWorkbook:
+    """Workbook with its formats and formulas, to be changed and saved; no macros.
+
+    Raises
+    ------
+    SiteDataError
+        If it is too large for that: in this mode every merged cell costs memory.
+    """
+    import openpyxl
+
+    content = path.read_bytes()
+    guard_archive(path.name, content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for sheet in _open(content, stored_results=True).worksheets:
+            layout = _scan_layout(sheet)
+            require_rows(path.name, sheet.title, layout.last_row)
+            if sum(merged.size for merged in layout.merged) > _MOST_MERGED:
+                accepted = f"at most {_MOST_MERGED} cells"
+                raise refuse_file(
+                    path.name, "has too many merged cells", accepted, sheet.title
+                )
+        return openpyxl.load_workbook(BytesIO(content), keep_links=False)
+
+
+def read_xlsx(
+    file: str,
+    content: bytes,
+    is_wanted: Callable[[str], bool],
+    decimal_mark: DecimalMark,
+) -> tuple[tuple[Sheet, ...], tuple[str, ...]]:
+    """Wanted sheets and the names of the others; macros are never looked at."""
+    with warnings.catch_warnings():
+        # openpyxl warns of features that it would drop on saving; nothing is saved.
+        warnings.simplefilter("ignore")
+        stored = _open(content, stored_results=True)
+        names = [sheet.title for sheet in stored.worksheets]
+        layouts = {
+            name: _scan_layout(stored[name]) for name in names if is_wanted(name)
+        }
+        formulas: dict[str, Mapping[tuple[int, int], str]] = {}
+        if any(layout.has_formulas for layout in layouts.values()):
+            # openpyxl shows a formula or its stored result, never both: open it again.
+            typed = _open(content, stored_results=False)
+            formulas = {
+                name: _read_formulas(typed[name], layout)
+                for name, layout in layouts.items()
+            }
+        sheets = tuple(
+            _read_sheet(
+                file, stored[name], layout, formulas.get(name, {}), decimal_mark
+            )
+            for name, layout in layouts.items()
+        )
+    return sheets, tuple(name for name in names if not is_wanted(name))
+
+
+def _read_formulas(typed: Any, layout: _Layout) -> dict[tuple[int, int], str]:
+    return {
+        (cell.row, cell.column): _show_formula(cell.value)
+        for cell in _filled_cells(typed, layout.last_row)
+        if cell.data_type == "f"
+    }
+
+
+def _read_sheet(
+    file: str,
+    stored: Any,
+    layout: _Layout,
+    formulas: Mapping[tuple[int, int], str],
+    decimal_mark: DecimalMark,
+) -> Sheet:
+    require_rows(file, stored.title, layout.last_row)
+    if len(layout.merged) > MAX_ROWS:
+        rule = f"has {len(layout.merged)} merged ranges"
+        raise refuse_file(file, rule, f"at most {MAX_ROWS}", stored.title)
+    # First the formulas alone; those with a stored result are then replaced.
+    cells = {
+        (row, column): Cell(
+            file=file, sheet=stored.title, row=row, column=column, formula=formula
+        )
+        for (row, column), formula in formulas.items()
+    }
+    for cell in _filled_cells(stored, layout.last_row):
+        place = (cell.row, cell.column)
+        cells[place] = _take_cell(file, cell, formulas.get(place, ""), decimal_mark)
+    require_columns(file, stored.title, cells.values())
+    return Sheet(
+        file=file,
+        name=stored.title,
+        rows=group_by_row(cells.values()),
+        merged=layout.merged,
+        hidden_rows=layout.hidden_rows,
+        hidden_columns=layout.hidden_columns,
+        is_hidden=stored.sheet_state != "visible",
+    )
+
+
+def _filled_cells(sheet: Any, last_row: int) -> list[Any]:
+    # The size that a file declares for its sheet may be wrong: do not trust it.
+    sheet.reset_dimensions()
+    rows = sheet.iter_rows(max_row=last_row) if last_row else ()
+    return [cell for row in rows for cell in row if cell.value is not None]
+
+
+def _take_cell(file: str, cell: Any, formula: str, decimal_mark: DecimalMark) -> Cell:
+    return Cell(
+        file=file,
+        sheet=cell.parent.title,
+        row=cell.row,
+        column=cell.column,
+        value=cell.value,
+        formula=formula,
+        is_error=cell.data_type == "e",
+        **_read_format(cell),
+        decimal_mark=decimal_mark,
+    )
+
+
+def _show_formula(value: Any) -> str:
+    # Array formulas come as an object with the text inside.
+    return str(getattr(value, "text", value))
+
+
+def _read_format(cell: Any) -> dict[str, Any]:
+    """What the format of a number shows beside it, for the fields of a `Cell`."""
+    if cell.data_type != "n" or not isinstance(cell.value, int | float):
+        return {}
+    text = str(cell.number_format)
+    return {
+        "is_percent": show_percent(text),
+        "is_thousandth": show_thousands(text),
+        "shown_unit": find_format_unit(text, cell.value),
+    }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Layout:
+    last_row: int
+    merged: tuple[MergedRange, ...]
+    hidden_rows: frozenset[int]
+    hidden_columns: frozenset[int]
+    has_formulas: bool
+
+
+def _scan_layout(sheet: Any) -> _Layout:
+    """Last filled row, merged ranges, what is hidden, and whether formulas are there.
+
+    openpyxl gives merged ranges only in its other mode, which makes one object
+    of every merged cell: a few bytes of XML would exhaust the memory.
+    """
+    from defusedxml.ElementTree import iterparse
+
+    row = last_row = 0
+    merged: list[MergedRange] = []
+    hidden: set[int] = set()
+    hidden_columns: set[int] = set()
+    has_formulas = False
+    with sheet._get_source() as source:
+        for _, element in iterparse(source):
+            tag = element.tag.rpartition("}")[2]
+            if tag == "f":
+                has_formulas = True
+            elif tag == "mergeCell":
+                merged.append(_read_merged_range(element.get("ref", "")))
+            elif tag == "col" and _is_true(element.get("hidden")):
+                first, last = int(element.get("min", 1)), int(element.get("max", 1))
+                hidden_columns.update(range(first, min(last, MAX_COLUMNS) + 1))
+            elif tag == "row":
+                row = _follow_row(element, row)
+                if any(len(cell) for cell in element):
+                    last_row = max(last_row, row)
+                    if _is_true(element.get("hidden")):
+                        hidden.add(row)
+                element.clear()
+    return _Layout(
+        last_row=last_row,
+        merged=tuple(merged),
+        hidden_rows=frozenset(hidden),
+        hidden_columns=frozenset(hidden_columns),
+        has_formulas=has_formulas,
+    )
+
+
+def _follow_row(element: Any, row_before: int) -> int:
+    """Number of a row; an error where a cell would have two contents."""
+    row = int(element.get("r", row_before + 1))
+    if row <= row_before:
+        raise ValueError(f"row {row} comes after row {row_before}")
+    places = [place for cell in element if (place := cell.get("r"))]
+    if len(set(places)) < len(places):
+        raise ValueError(f"row {row} holds a cell twice")
+    if any(place.lstrip(ascii_uppercase) != str(row) for place in places):
+        raise ValueError(f"row {row} holds a cell of another row")
+    return row
+
+
+def _is_true(attribute: str | None) -> bool:
+    return attribute in ("1", "true")
+
+
+def _read_merged_range(text: str) -> MergedRange:
+    from openpyxl.utils import range_boundaries
+
+    column, row, last_column, last_row = range_boundaries(text)
+    return MergedRange(
+        text=text,
+        row=row or 1,
+        column=column or 1,
+        last_row=last_row or MAX_ROWS,
+        last_column=last_column or MAX_COLUMNS,
+    )

@@ -1,0 +1,1 @@
+"""Columns of the workbook: fields, units, headings in each language."""

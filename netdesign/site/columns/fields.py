@@ -1,0 +1,198 @@
+"""What a column of the workbook is: its headings, units, bounds and words."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Literal
+
+from netdesign.site.columns.unit_names import normalise_unit
+
+Kind = Literal["number", "count", "word", "id", "text"]
+Language = Literal["en", "fr", "de"]
+
+LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
+_LONGEST_HEADING = 100
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wording:
+    """How one language calls a field: its heading, other headings, its note."""
+
+    label: str
+    aliases: tuple[str, ...] = ()
+    note: str = ""
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Field:
+    """One quantity of the workbook.
+
+    Attributes
+    ----------
+    key : str
+        Name in the program.
+    label : str
+        Name in headings and reports.
+    aliases : tuple of str
+        Other accepted headings.
+    kind : str
+        ``number``, ``count`` (whole number), ``word``, ``id`` or ``text``.
+    units : tuple of str
+        Units that a heading may give; the first is that of bounds, default and
+        reports.
+    bounds : tuple of float
+        Least and largest accepted value, in the first unit.
+    required : bool
+        Whether the heading and every cell below it must be there.
+    default : float or None
+        Value of an empty cell, in the first unit.
+    words : mapping of str to tuple of str
+        Accepted words, each with its aliases.
+    refers_to : str
+        Sheet that defines the id, for ids of another sheet.
+    note : str
+        What the engineer should know; shown on the heading of the template.
+    wordings : mapping of str to Wording
+        Label, aliases, note and words in the other languages.
+    """
+
+    key: str
+    label: str
+    aliases: tuple[str, ...] = ()
+    kind: Kind = "number"
+    units: tuple[str, ...] = ()
+    bounds: tuple[float, float] = (0.0, 0.0)
+    required: bool = False
+    default: float | None = None
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    refers_to: str = ""
+    note: str = ""
+    wordings: Mapping[str, Wording] = field(default_factory=dict)
+
+    @property
+    def unit(self) -> str:
+        """Unit of bounds, default and reports; empty for words and ids."""
+        return self.units[0] if self.units else ""
+
+    @property
+    def heading(self) -> str:
+        """Label with the unit in brackets, as the template writes it."""
+        return self.heading_in(self.unit)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Accepted headings without unit, normalised."""
+        names = [self.label, *self.aliases]
+        for wording in self.wordings.values():
+            names += [wording.label, *wording.aliases]
+        return frozenset(map(normalise, names))
+
+    @property
+    def spellings(self) -> dict[str, str]:
+        """Word of the table by each of its spellings in every language."""
+        found = {
+            spelling: word
+            for word, aliases in self.words.items()
+            for spelling in (word, *aliases)
+        }
+        for wording in self.wordings.values():
+            for word, names in wording.words.items():
+                found |= dict.fromkeys(names, word)
+        return found
+
+    def wording(self, language: Language) -> Wording:
+        """Texts in a language; English where that language has none."""
+        english = Wording(label=self.label, note=self.note)
+        return self.wordings.get(language, english)
+
+    @property
+    def accepted(self) -> str:
+        """What a cell may hold, as a phrase."""
+        if self.kind in ("number", "count"):
+            low, high = self.bounds
+            whole = "whole numbers, " if self.kind == "count" else ""
+            return f"{whole}{low:g} to {high:g} {self.unit}".rstrip(" -")
+        if self.kind == "word":
+            return ", ".join(self.words)
+        return "text"
+
+    def heading_for(self, language: Language) -> str:
+        """Label in a language, with the unit in brackets."""
+        label = self.wording(language).label
+        return f"{label} [{self.unit}]" if self.unit else label
+
+    def heading_in(self, unit: str) -> str:
+        """Label with another of the accepted units."""
+        return f"{self.label} [{unit}]" if unit else self.label
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SheetPlan:
+    """One sheet: its names, its columns in template order, its alternatives."""
+
+    name: str
+    aliases: tuple[str, ...] = ()
+    fields: tuple[Field, ...]
+    required: bool = False
+    one_of: tuple[str, ...] = ()  # keys of which at least one heading must be there
+    # Headings that may mean any of several fields: refused with their readings.
+    unclear: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)  # by language
+    items: tuple[Field, ...] = ()  # what the lines of a table of items may name
+
+    def matches(self, sheet_name: str) -> bool:
+        """Whether a workbook's sheet of this name is the planned one."""
+        names = (self.name, *self.aliases, *self.names.values())
+        return normalise(sheet_name) in map(normalise, names)
+
+    def name_in(self, language: Language) -> str:
+        """Name of the sheet in a language."""
+        return self.names.get(language, self.name)
+
+    def find_language(self, names: Iterable[str]) -> Language:
+        """Language with the most of these normalised headings; English in a tie."""
+        return max(LANGUAGES, key=lambda one: len(self._names_in(one) & set(names)))
+
+    def _names_in(self, language: Language) -> set[str]:
+        wordings = (field.wording(language) for field in self.fields)
+        return {normalise(n) for one in wordings for n in (one.label, *one.aliases)}
+
+    def find_unclear(self, name: str) -> tuple[Field, ...]:
+        """Fields that a normalised heading may mean, if it is an unclear one."""
+        for heading, keys in self.unclear.items():
+            if normalise(heading) == name:
+                return tuple(one for one in self.fields if one.key in keys)
+        return ()
+
+
+@lru_cache(maxsize=4096)
+def normalise(text: str) -> str:
+    """Fold a name so that case, accents, spaces and punctuation do not count."""
+    decomposed = unicodedata.normalize("NFKD", text.casefold())
+    return "".join(sign for sign in decomposed if sign.isalnum())
+
+
+def split_heading(text: str) -> tuple[str, str]:
+    """Normalised name and unit of a heading; the unit is empty when not given.
+
+    >>> split_heading("Slope angle [deg]")
+    ('slopeangle', 'deg')
+    """
+    heading = text.strip()
+    if len(heading) > _LONGEST_HEADING:
+        return "", ""
+    match = re.fullmatch(r"(.*)[\[(]([^\[\]()]*)[\])]", heading, re.DOTALL)
+    if match is None:
+        return normalise(heading), ""
+    return normalise(match[1]), normalise_unit(match[2])
+
+
+def find_item(text: str, items: Iterable[Field]) -> Field | None:
+    """Field of that name, which may have a unit behind it; None if there is none."""
+    key, _ = split_heading(text)
+    return next((field for field in items if key in field.names), None)

@@ -1,0 +1,90 @@
+"""Sheet Monitoring: measured anchor tension and air temperature against time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from datetime import datetime
+from itertools import pairwise
+
+from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.model import MonitoringSeries
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import Table, read_rows
+
+
+def read_monitoring(
+    table: Table | None, row_ids: Collection[str], findings: list[Finding]
+) -> tuple[MonitoringSeries, ...]:
+    """Series of the sheet, one for each net row and member; none without the sheet.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Monitoring, if there is one.
+    row_ids : collection of str
+        Ids of sheet Nets.
+    findings : list of Finding
+        Appended to: unknown rows, lines without a time or a measurement, times that
+        do not ascend.
+    """
+    series: dict[tuple[str, str], list[tuple[float, Row]]] = {}
+    unknown: set[str] = set()  # told once each, not once a line
+    for line in read_rows(table, findings) if table else ():
+        name, member = line["row"], line["member"]
+        if row_ids and name.word not in {"", *row_ids, *unknown}:
+            unknown.add(name.word)
+            accepted = add_nearest("an id of sheet Nets", name.word, row_ids)
+            refuse(name, "is no id of sheet Nets", accepted, findings)
+        time = _read_time(line, findings)
+        if time is None or not name.word or not member.word:
+            continue
+        if line["tension"].state == line["temperature"].state == "blank":
+            refuse(name, "begins a line without a measurement", _MEASURED, findings)
+        key = (name.word, member.word.replace(" ", "_"))
+        series.setdefault(key, []).append((time, line))
+    return tuple(_build(key, lines, findings) for key, lines in series.items())
+
+
+_MEASURED = "a tension, an air temperature, or both"
+
+
+def _build(
+    key: tuple[str, str], lines: list[tuple[float, Row]], findings: list[Finding]
+) -> MonitoringSeries:
+    first = lines[0][0]
+    for (before, _), (after, line) in pairwise(lines):
+        if after <= before:
+            place = line["time"] if line["time"].state == "given" else line["date"]
+            refuse(place, "is not after the line before", "times ascending", findings)
+    return MonitoringSeries(
+        row_id=key[0],
+        member=key[1],
+        times=tuple(time - first for time, _ in lines),
+        tensions=tuple(_value(line["tension"]) for _, line in lines),
+        air_temperatures=tuple(_value(line["temperature"]) for _, line in lines),
+        source=lines[0][1]["row"].place,
+    )
+
+
+def _value(reading: Reading) -> float | None:
+    return reading.si if reading.state == "given" else None
+
+
+def _read_time(line: Row, findings: list[Finding]) -> float | None:
+    """Time of a line [s], from days or from a date; None with a finding."""
+    time, date = line["time"], line["date"]
+    if "faulty" in (time.state, date.state):
+        return None
+    if (time.state == "given") == (date.state == "given"):
+        rule = "is given beside a date" if date.state == "given" else "has no time"
+        place = time if time.state == "given" else line["row"]
+        refuse(place, rule, "one of time [d] and date and time", findings)
+        return None
+    if time.state == "given":
+        return time.si
+    try:
+        moment = datetime.fromisoformat(date.word)
+    except ValueError:
+        refuse(date, "is no date", "such as 2003-02-18 06:00", findings)
+        return None
+    return (moment.replace(tzinfo=None) - datetime(1970, 1, 1)).total_seconds()

@@ -1,0 +1,183 @@
+"""Gives a site workbook back with its findings: cells coloured, commented, listed.
+
+What the program that wrote the workbook keeps beside its cells (text boxes, macros)
+is not in the copy, and formulas are calculated again when it is opened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from netdesign.edge.given_files import make_printable
+from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat
+from netdesign.site.cells.findings import Finding, quote, refuse_file
+from netdesign.site.cells.limits import DAMAGE
+from netdesign.site.cells.xlsx import open_for_editing
+from netdesign.site.columns.all_tables import FINDINGS_SHEET
+from netdesign.site.reader import read_cells
+from netdesign.site.template.notes_sheet import count_lines
+
+if TYPE_CHECKING:  # slow to import and only needed to write a workbook
+    from openpyxl import Workbook as OpenWorkbook
+
+_AUTHOR = "netdesign"
+_COLOURS = {"error": "FFF4B8A8", "note": "FFFFF2CC"}
+_HEADINGS = (
+    "severity",
+    "sheet",
+    "cell",
+    "quantity",
+    "text",
+    "what is wrong",
+    "accepted",
+)
+_WIDTHS = (10, 16, 8, 28, 24, 60, 60)
+_WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
+_FONT, _LINE = "Arial", 13.5  # height of a line [pt]
+_COMMENT_SIZE = (320, 130)  # [px]
+
+
+def annotate_workbook(
+    path: Path, findings: Sequence[Finding], text_format: TextFormat = UNDECLARED
+) -> bytes:
+    """Xlsx bytes of the same workbook, with every finding at its cell and in a list.
+
+    Parameters
+    ----------
+    path : Path
+        The file that was read; csv and ods become sheets of an xlsx workbook.
+    findings : sequence of Finding
+        As the importer gave them.
+    text_format : TextFormat
+        As for reading.
+
+    Raises
+    ------
+    SiteDataError
+        If the file cannot be read at all, so that there is nothing to give back.
+    """
+    import openpyxl
+
+    cells = read_cells(path, text_format)  # refuses what cannot be read at all
+    if path.suffix.casefold() in _WORKBOOK_SUFFIXES:
+        workbook = _open(path)
+        _remove_old_marks(workbook)
+    else:
+        workbook = openpyxl.Workbook()
+        workbook.remove(workbook.worksheets[0])
+        for sheet in cells.sheets:
+            _copy_sheet(workbook, sheet)
+    for finding in findings:
+        if finding.cell and finding.sheet in workbook.sheetnames:
+            _mark_cell(_find_shown(workbook[finding.sheet], finding.cell), finding)
+    _list_findings(workbook, findings)
+    content = BytesIO()
+    workbook.save(content)
+    return content.getvalue()
+
+
+def _find_shown(sheet: Any, address: str) -> Any:
+    """Cell at an address; of merged cells the first one, the only one that is shown."""
+    for merged in sheet.merged_cells.ranges:
+        if address in merged:
+            return sheet.cell(merged.min_row, merged.min_col)
+    return sheet[address]
+
+
+def _open(path: Path) -> OpenWorkbook:
+    try:
+        return open_for_editing(path)
+    except DAMAGE as error:  # in a part that reading the site does not look at
+        detail = quote(f"{type(error).__name__}: {error}")
+        rule = f"holds something that cannot be copied ({detail})"
+        raise refuse_file(path.name, rule, "a copy saved without it") from error
+
+
+def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
+    copy = workbook.create_sheet(sheet.name)
+    for cells in sheet.rows.values():
+        for cell in cells.values():
+            place = copy.cell(cell.row, cell.column)
+            _write(place, cell.value if cell.value is not None else cell.text)
+            if cell.is_percent:
+                place.number_format = "0.##%"
+            elif cell.shown_unit:  # or the copy would lose what the finding is about
+                unit = cell.shown_unit.replace('"', "")
+                place.number_format = f'General" {unit}"'
+
+
+def _write(cell: Any, value: object) -> None:
+    if isinstance(value, str):
+        value = make_printable(value)  # workbooks cannot hold control characters
+    cell.value = value
+    if isinstance(value, str):
+        cell.data_type = "s"  # text that begins with "=" is no formula of ours
+
+
+def _remove_old_marks(workbook: OpenWorkbook) -> None:
+    """Take away the marks of an earlier copy: what was mended must not stay marked."""
+    from openpyxl.styles import PatternFill
+
+    if FINDINGS_SHEET in workbook.sheetnames:
+        workbook.remove(workbook[FINDINGS_SHEET])
+    for sheet in workbook.worksheets:
+        for row in sheet.iter_rows():
+            for cell in row:
+                if cell.comment is not None and cell.comment.author == _AUTHOR:
+                    cell.comment = None
+                    cell.fill = PatternFill()
+
+
+def _mark_cell(cell: Any, finding: Finding) -> None:
+    from openpyxl.comments import Comment
+    from openpyxl.styles import PatternFill
+
+    lines = [f"{finding.severity}: {finding.rule}"]
+    if finding.accepted:
+        lines.append(f"accepted: {finding.accepted}")
+    text = make_printable("\n".join(lines))
+    if cell.comment is not None:
+        text = f"{cell.comment.text}\n{text}"
+    width, height = _COMMENT_SIZE
+    cell.comment = Comment(text, _AUTHOR, width=width, height=height)
+    cell.fill = PatternFill("solid", start_color=_COLOURS[finding.severity])
+
+
+def _list_findings(workbook: OpenWorkbook, findings: Sequence[Finding]) -> None:
+    from openpyxl.styles import Alignment, Font, PatternFill
+    from openpyxl.utils import get_column_letter
+
+    sheet = workbook.create_sheet(FINDINGS_SHEET, 0)
+    workbook.active = 0
+    for column, (heading, width) in enumerate(
+        zip(_HEADINGS, _WIDTHS, strict=True), start=1
+    ):
+        sheet.cell(1, column, heading).font = Font(name=_FONT, size=10, bold=True)
+        sheet.column_dimensions[get_column_letter(column)].width = width
+    for row, finding in enumerate(findings, start=2):
+        texts = (
+            *(finding.severity, finding.sheet, finding.cell, finding.field),
+            *(finding.text, finding.rule, finding.accepted),
+        )
+        for column, text in enumerate(texts, start=1):
+            cell = sheet.cell(row, column)
+            _write(cell, text)
+            cell.alignment = Alignment(wrap_text=True, vertical="top")
+            cell.font = Font(name=_FONT, size=10)
+        lines = max(map(count_lines, texts, _WIDTHS))
+        sheet.row_dimensions[row].height = _LINE * lines
+        sheet.cell(row, 1).fill = PatternFill(
+            "solid", start_color=_COLOURS[finding.severity]
+        )
+        if finding.cell and finding.sheet in workbook.sheetnames:
+            target = finding.sheet.replace("'", "''")
+            sheet.cell(row, 3).hyperlink = f"#'{target}'!{finding.cell}"
+            sheet.cell(row, 3).font = Font(name=_FONT, size=10, underline="single")
+    sheet.freeze_panes = "A2"
+    sheet.print_title_rows = "1:1"
+    sheet.page_setup.orientation = "landscape"
+    sheet.page_setup.fitToHeight = 0
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True

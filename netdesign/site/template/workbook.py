@@ -1,0 +1,286 @@
+"""Writes the input workbook: headings, units, notes, drop-downs, an example."""
+
+from __future__ import annotations
+
+import datetime
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from netdesign.checks import list_standards
+from netdesign.edge.output import require_free, write_files
+from netdesign.edge.resources import find_resource
+from netdesign.site.columns.all_tables import (
+    PROJECT,
+    PROJECT_ITEMS,
+    RANGE_QUANTITIES,
+    RANGES,
+    SHEETS,
+)
+from netdesign.site.columns.fields import Field, Language, SheetPlan
+from netdesign.site.columns.languages import load_text
+from netdesign.site.template.notes_sheet import (
+    count_lines,
+    describe_accepted,
+    describe_field,
+    write_notes,
+)
+
+if TYPE_CHECKING:  # slow to import and only needed to write a workbook
+    from xlsxwriter.format import Format
+    from xlsxwriter.workbook import Workbook
+    from xlsxwriter.worksheet import Worksheet
+
+EXAMPLE_FILE = "example_site.toml"
+
+# The same program writes the same bytes: no clock goes into the file.
+_CREATED = datetime.datetime(2000, 1, 1)
+_LAST_ROW = 200  # drop-downs and bounds reach down to this line
+_PRINTED_ROWS = 24  # of an empty form; a longer table is printed to its end
+_COLUMN_WIDTH = 12.5
+_TEXT_WIDTH = 30
+_NOTE_WIDTH = 40  # characters in a line of a note on a heading
+_A4 = 9
+_HEADING_LINE = 15.5  # [pt]
+_WIDEST_PAGE = 14  # columns; more go on two pages, each with the first column
+_INK, _SOFT, _REQUIRED, _HEADING = "#1b1e22", "#9aa2ab", "#fff8dc", "#e6edf4"
+_OPTIONS = {
+    "strings_to_formulas": False,
+    "strings_to_numbers": False,
+    "strings_to_urls": False,
+    "in_memory": True,
+}
+# Every office has it or its double, so that widths are the same in all programs.
+_FONT = {"font_name": "Arial", "font_size": 10}
+
+_Lines = Sequence[Mapping[str, object]]  # of one sheet, by field key
+
+
+@dataclass(frozen=True, slots=True)
+class _Book:
+    """The workbook while it is written: its language and its formats."""
+
+    workbook: Workbook
+    language: Language
+    formats: Mapping[str, Format]
+
+    @property
+    def texts(self) -> Mapping[str, str]:
+        return load_text(self.language)
+
+
+def write_site_workbook(
+    path: Path,
+    *,
+    example: bool = False,
+    overwrite: bool = False,
+    language: Language = "en",
+) -> None:
+    """Write an input workbook to fill in, or the built-in example site.
+
+    Parameters
+    ----------
+    path : Path
+        The xlsx file to write.
+    example : bool
+        Fill in the example site; otherwise only the names of project items and
+        ranges are there.
+    overwrite : bool
+        Replace a file that exists.
+    language : str
+        Of sheets, headings, words and notes: ``en``, ``fr`` or ``de``. The importer
+        reads all three.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and may not be replaced, or cannot be written.
+    """
+    import xlsxwriter
+
+    require_free([path], overwrite=overwrite)
+    lines = load_example() if example else _starting_lines()
+    content = BytesIO()
+    # a copy of the font: XlsxWriter writes into what it is given
+    options = {**_OPTIONS, "default_format_properties": dict(_FONT)}
+    workbook = xlsxwriter.Workbook(content, options)
+    title = load_text(language)["title"]
+    workbook.set_properties({"title": title, "created": _CREATED})
+    book = _Book(workbook, language, _add_formats(workbook))
+    write_notes(workbook, language)
+    for plan in SHEETS:
+        _write_sheet(book, plan, lines.get(plan.name, ()))
+    workbook.close()
+    write_files({path: content.getvalue()}, overwrite=overwrite)
+
+
+def load_example() -> dict[str, _Lines]:
+    """Load the lines of the example site: by sheet, then line, then field key."""
+    file = find_resource("templates") / EXAMPLE_FILE
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def _starting_lines() -> dict[str, _Lines]:
+    """Give the lines of which only the numbers are the engineer's."""
+    return {
+        PROJECT.name: [{"item": field.label} for field in PROJECT_ITEMS],
+        RANGES.name: [
+            {"quantity": field.label, "unit": field.unit} for field in RANGE_QUANTITIES
+        ],
+    }
+
+
+def _add_formats(workbook: Workbook) -> dict[str, Format]:
+    """Cells to fill in have thin borders; required ones a wash of colour."""
+    head = {"bold": True, "text_wrap": True, "valign": "top", "font_color": _INK}
+    cell = {"border": 1, "border_color": _SOFT}
+    return {
+        "heading": workbook.add_format(
+            {**head, "bg_color": _HEADING, "bottom": 2, "border_color": _INK}
+        ),
+        "text": workbook.add_format({**cell, "num_format": "@"}),
+        "number": workbook.add_format(cell),
+        "required text": workbook.add_format(
+            {**cell, "num_format": "@", "bg_color": _REQUIRED}
+        ),
+        "required number": workbook.add_format({**cell, "bg_color": _REQUIRED}),
+    }
+
+
+def _write_sheet(book: _Book, plan: SheetPlan, lines: _Lines) -> None:
+    sheet = book.workbook.add_worksheet(plan.name_in(book.language))
+    last_row = max(_PRINTED_ROWS, len(lines))
+    if plan in (PROJECT, RANGES):
+        last_row = len(lines)
+    _set_up_page(sheet, book, plan, last_row)
+    headings = [field.heading_for(book.language) for field in plan.fields]
+    widths = [
+        _TEXT_WIDTH if field.kind == "text" else _fit_words(heading)
+        for field, heading in zip(plan.fields, headings, strict=True)
+    ]
+    lines_high = max(map(count_lines, headings, widths))
+    sheet.set_row(0, _HEADING_LINE * lines_high + _HEADING_LINE / 4)
+    for column, field in enumerate(plan.fields):
+        sheet.set_column(column, column, widths[column])
+        sheet.write_string(0, column, headings[column], book.formats["heading"])
+        if note := describe_field(field, book.language):
+            sheet.write_comment(0, column, note, _size_note(note))
+        if rule := _validation(field, book):
+            sheet.data_validation(1, column, _LAST_ROW, column, rule)
+        for row in range(1, last_row + 1):
+            sheet.write_blank(row, column, None, _choose_format(field, book))
+    for row, line in enumerate(lines, start=1):
+        _write_line(sheet, book, plan, row, line)
+    if plan is PROJECT:
+        _offer_profiles(sheet, lines)
+    if plan is RANGES:
+        _offer_quantities(sheet, book)
+
+
+def _size_note(note: str) -> dict[str, Any]:
+    """Box of a note on a heading, high enough for its text."""
+    lines = sum(count_lines(line, _NOTE_WIDTH) for line in note.split("\n"))
+    return {"x_scale": 2.2, "height": max(104, 17 * lines + 10), "author": ""}
+
+
+def _fit_words(heading: str) -> float:
+    """Width of a column that breaks no word of its heading, which is bold."""
+    longest = max(len(word) for word in heading.split())
+    return max(_COLUMN_WIDTH, 1.2 * longest + 1)
+
+
+def _set_up_page(sheet: Worksheet, book: _Book, plan: SheetPlan, last_row: int) -> None:
+    texts = book.texts
+    sheet.freeze_panes(1, 1)
+    sheet.set_paper(_A4)
+    sheet.set_landscape()
+    sheet.fit_to_pages(1 if len(plan.fields) <= _WIDEST_PAGE else 2, 0)
+    sheet.repeat_columns(0)
+    sheet.set_margins(left=0.5, right=0.5, top=0.8, bottom=0.7)
+    sheet.repeat_rows(0)
+    sheet.print_area(0, 0, last_row, len(plan.fields) - 1)
+    name = plan.name_in(book.language)
+    sheet.set_header(f"&L&B{texts['title']}&R{name}".replace("'", "’"))
+    sheet.set_footer(f"&L&F&R{texts['page']} &P {texts['of']} &N")
+
+
+def _choose_format(field: Field, book: _Book) -> Format:
+    # Text cells keep an id such as 007, or a revision 1/2, as it is typed.
+    kind = "number" if field.kind in ("number", "count") else "text"
+    return book.formats[f"required {kind}" if field.required else kind]
+
+
+def _write_line(
+    sheet: Worksheet,
+    book: _Book,
+    plan: SheetPlan,
+    row: int,
+    line: Mapping[str, object],
+) -> None:
+    columns = {field.key: column for column, field in enumerate(plan.fields)}
+    for key, value in line.items():
+        column = columns[key]
+        style = _choose_format(plan.fields[column], book)
+        if isinstance(value, str):
+            word = _translate(plan.fields[column], value, book.language)
+            sheet.write_string(row, column, word, style)
+        else:
+            sheet.write_number(row, column, value, style)
+
+
+def _translate(field: Field, value: str, language: Language) -> str:
+    """Word, project item or quantity in a language; ids and names stay."""
+    words = field.wording(language).words
+    if value in words:
+        return words[value][0]
+    for known in {"item": PROJECT_ITEMS, "quantity": RANGE_QUANTITIES}.get(
+        field.key, ()
+    ):
+        if known.label == value:
+            return known.wording(language).label
+    return value
+
+
+def _validation(field: Field, book: _Book) -> dict[str, Any] | None:
+    """Rule that the spreadsheet program applies while the engineer types."""
+    if field.words:
+        words = [_translate(field, word, book.language) for word in field.words]
+        return {"validate": "list", "source": words}
+    if field.refers_to:
+        # A warning only: the type may be defined afterwards.
+        plan = next(plan for plan in SHEETS if plan.name == field.refers_to)
+        ids = f"='{plan.name_in(book.language)}'!$A$2:$A${_LAST_ROW + 1}"
+        return {"validate": "list", "source": ids, "error_type": "warning"}
+    low, high = field.bounds
+    if low == high:  # ends of ranges: their bounds depend on the line
+        return None
+    accepted = describe_accepted(field, book.language)
+    return {
+        "validate": "integer" if field.kind == "count" else "decimal",
+        "criteria": "between",
+        "minimum": low,
+        "maximum": high,
+        # A warning only: the heading may be given another unit.
+        "error_type": "warning" if len(field.units) > 1 else "stop",
+        "error_title": book.texts["out_of_range"],
+        "error_message": f"{field.wording(book.language).label}: {accepted}",
+    }
+
+
+def _offer_profiles(sheet: Worksheet, lines: _Lines) -> None:
+    """Offer the limit profiles beside the item that names one; others are folders."""
+    ids = list(list_standards())
+    profiles = {"validate": "list", "source": ids, "error_type": "warning"}
+    for row, line in enumerate(lines, start=1):
+        if line["item"] == "standard":
+            sheet.data_validation(row, 1, row, 1, profiles)
+
+
+def _offer_quantities(sheet: Worksheet, book: _Book) -> None:
+    names = [field.wording(book.language).label for field in RANGE_QUANTITIES]
+    units = list(dict.fromkeys(u for field in RANGE_QUANTITIES for u in field.units))
+    sheet.data_validation(1, 0, _LAST_ROW, 0, {"validate": "list", "source": names})
+    sheet.data_validation(1, 1, _LAST_ROW, 1, {"validate": "list", "source": units})

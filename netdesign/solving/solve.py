@@ -1,0 +1,48 @@
+"""One entry for every kind of scene and every method."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from netdesign.coupling.history.clock import Clock
+from netdesign.coupling.history.staggered import StaggeredSettings, solve_staggered
+from netdesign.coupling.history.transient import TransientSettings, solve_transient
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.snow.wall import Wall
+
+Settings = SolverSettings | TransientSettings | StaggeredSettings
+
+
+def solve_scene(
+    scene: Scene, settings: Settings | None = None, clock: Clock | None = None
+) -> Solution | WallSolution | FailedSolution:
+    """Snow against the scene's net or wall; the settings choose the method.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net or wall.
+    settings : SolverSettings, TransientSettings or StaggeredSettings, optional
+        Of the steady state (default), of a history, or of the paper's exchange.
+    clock : Clock, optional
+        Temperature of the snow against time; of histories only.
+    """
+    if isinstance(settings, TransientSettings):
+        return solve_transient(scene, settings, clock=clock)
+    if isinstance(settings, StaggeredSettings):
+        return solve_staggered(scene, settings)
+    if isinstance(scene.net, Wall):
+        return solve_rigid(scene, settings)
+    return solve_steady(scene, settings)
+
+
+def method_of(settings: Settings) -> Literal["steady", "transient", "staggered"]:
+    """Name of the method that the settings choose."""
+    if isinstance(settings, TransientSettings):
+        return "transient"
+    if isinstance(settings, StaggeredSettings):
+        return "staggered"
+    return "steady"

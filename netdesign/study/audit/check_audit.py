@@ -1,0 +1,183 @@
+"""Checks against the largest forces, the profile's factors and their own bands."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from netdesign.checks.check import judge
+from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
+from netdesign.outcome import Verdict
+from netdesign.site.model import MEMBER_MODES
+from netdesign.structure.row_position import compute_lateral_factor
+from netdesign.study.audit.comparing import SAME, Pair, is_same, tell_unequal
+from netdesign.study.audit.envelope_audit import is_complete, same_point
+from netdesign.study.records import CheckRecord, ExtremeRecord, ProfileRecord, RowStudy
+
+# Whose largest force a member carries too; that of a base is a part of its post's.
+_CARRIES = {
+    "uphill_anchor": "uphill_guy",
+    "downhill_anchor": "downhill_guy",
+    "post_base": "post",
+}
+_PUSHED = ("post", "post_base")
+_OPENINGS = {
+    Verdict.PASS: ("The demand stays within", "The member is slack"),
+    Verdict.FAIL: ("The demand exceeds",),
+    Verdict.NOT_PROVEN: ("Not proven: ",),
+}
+
+
+def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[str]:
+    """Sentences on what cannot be true of a row's checks."""
+    place = f"net row {row.id!r}"
+    counts = Counter(check.id for check in row.checks)
+    yield from (f"{place}: check {name!r} twice" for name, n in counts.items() if n > 1)
+    wanted = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
+    if lost:
+        yield f"{place}: no check {', '.join(lost)}"
+    factors = {value.id: value.value for value in profile.values}
+    clauses = {value.id: value.clause for value in profile.values}
+    for check in row.checks:
+        where = f"{place}, check {check.id!r}"
+        if check.id != f"{check.member}.{check.mode}" and check.member != "net":
+            yield f"{where}: is of {check.member}, {check.mode}"
+        if check.member != "net":
+            yield from _audit_factors(where, check, factors, clauses)
+            yield from _audit_action(where, check, row, factors)
+            yield from _audit_verdict(where, check, complete=is_complete(row))
+            yield from _audit_spreads(where, check)
+
+
+def _audit_factors(
+    place: str,
+    check: CheckRecord,
+    factors: dict[str, float],
+    clauses: dict[str, str],
+) -> Iterator[str]:
+    keys = (f"resistance.{check.mode}.{check.resistance_basis}",
+            f"resistance.{check.mode}")  # fmt: skip
+    key = next((one for one in keys if one in factors), "")
+    yield from tell_unequal(
+        place,
+        [
+            ("action_factor", check.action_factor, factors.get(ACTION_FACTOR)),
+            ("resistance_factor", check.resistance_factor, factors.get(key)),
+        ],
+    )
+    if check.clause != clauses.get(key, "-"):
+        yield f"{place}: clause {check.clause!r}, but its factor is of another"
+    has_parts = check.resistance_characteristic_kN and check.resistance_factor
+    if (check.resistance_kN is None) is not (not has_parts):
+        yield f"{place}: a design resistance without its parts, or the reverse"
+
+
+def _audit_action(
+    place: str, check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> Iterator[str]:
+    """Follow the largest force of the cases to the demand."""
+    record, extreme = check.action, _find_extreme(check, row)
+    if extreme is None or record is None:
+        if check.action_kN is not None or (extreme is None) is not (record is None):
+            yield f"{place}: an action without a largest force, or the reverse"
+        return
+    is_part = check.member == "post_base"
+    lateral = 1.0
+    if check.member not in _PUSHED:
+        lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
+    on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
+    on_force = on_row * (check.action_factor or 0.0)
+    pairs: list[Pair] = [
+        ("lateral_factor", record.lateral_factor, lateral),
+        ("action_kN", check.action_kN, record.solved_kN * on_row),
+    ]
+    if not is_part:
+        pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
+        if check.action_factor is not None:
+            low = extreme.low_kN * on_force
+            pairs.append(("demand_low_kN", check.demand_low_kN, low))
+            yield from _audit_high_end(place, check, extreme, on_force)
+        if not same_point(check.case, extreme.case):
+            yield f"{place}: stands at another case than its largest force"
+    elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
+        yield f"{place}: more on the base than in the post"
+    yield from tell_unequal(place, pairs)
+    width, spacing = record.loaded_width_m, record.post_spacing_m
+    expected = "intermediate" if is_same(width, spacing) else "edge"
+    if width < spacing * (1.0 - SAME) or record.position != expected:
+        yield f"{place}: {record.position} support with {width!r} of {spacing!r} m"
+
+
+def _audit_high_end(
+    place: str, check: CheckRecord, extreme: ExtremeRecord, on_force: float
+) -> Iterator[str]:
+    """The high end: of a search exactly, of a grid with what is estimated between."""
+    high, least = check.demand_high_kN, extreme.high_kN * on_force
+    if extreme.upper_bound_kN is not None:
+        yield from tell_unequal(place, [("demand_high_kN", high, least)])
+    elif high is None or high < least * (1.0 - SAME):
+        yield f"{place}: demand_high_kN is {high!r}, but at least {least!r} follows"
+
+
+def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
+    extremes = {extreme.quantity: extreme for extreme in row.extremes}
+    drawing = row.drawing
+    is_shared = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
+    if check.member == "uphill_anchor" and is_shared:
+        return extremes.get("foot_anchor")  # one anchor carries both, (S7)
+    return extremes.get(_CARRIES.get(check.member, check.member))
+
+
+def _audit_verdict(place: str, check: CheckRecord, *, complete: bool) -> Iterator[str]:
+    """The verdict from the band, as ``checks.check`` gives it."""
+    resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
+    low, high = check.demand_low_kN, check.demand_high_kN
+    is_known = low is not None and high is not None and check.demand_kN is not None
+    if check.action_kN == 0.0 and not check.demand_high_kN and complete:
+        verdict = Verdict.PASS
+        if check.utilisation != 0.0:
+            yield f"{place}: is slack, but its utilisation is {check.utilisation!r}"
+    elif resistance and low is not None and high is not None:
+        verdict = judge(
+            low / resistance, high / resistance,
+            least=0.0, most=1.0, is_complete=complete,
+        )  # fmt: skip
+    if bool(resistance and is_known) and check.utilisation is None:
+        yield f"{place}: no utilisation, though demand and resistance are there"
+    if check.verdict is not verdict and not is_held_back(check):
+        yield f"{place} says {check.verdict}, but its numbers give {verdict}"
+    if not check.reason.startswith(_OPENINGS[check.verdict]):
+        yield f"{place} says {check.verdict}, but its reason does not"
+
+
+def is_held_back(check: CheckRecord) -> bool:
+    """Whether a check that would pass is not proven for a reason beside its numbers.
+
+    Such as a fault of the program in a solve that the check does not rest on.
+    """
+    high, resistance = check.demand_high_kN, check.resistance_kN
+    is_met = high is not None and bool(resistance) and high <= (resistance or 0.0)
+    is_told = check.reason.startswith(_OPENINGS[Verdict.NOT_PROVEN])
+    return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
+
+
+def _audit_spreads(place: str, check: CheckRecord) -> Iterator[str]:
+    """Parts of the interval that count in the verdict make up its band."""
+    counted = [spread for spread in check.spreads if spread.in_verdict]
+    used, resistance = check.utilisation, check.resistance_kN
+    if not counted:
+        if used and resistance:
+            yield f"{place}: no part of its interval is told"
+        return
+    ends = [(one.low, one.high) for one in counted]
+    if not resistance or used is None or any(None in pair for pair in ends):
+        yield f"{place}: parts of an interval without numbers"
+        return
+    low = min(used, *(one or 0.0 for one, _ in ends))
+    high = used + sum((one or 0.0) - used for _, one in ends)
+    bands = (check.demand_low_kN or 0.0, check.demand_high_kN or 0.0)
+    pairs: list[Pair] = [("low end of its parts", low, bands[0] / resistance)]
+    if check.member != "post_base":
+        pairs.append(("high end of its parts", high, bands[1] / resistance))
+    yield from tell_unequal(place, pairs)

@@ -1,0 +1,186 @@
+"""A study against its site: what was given, and all that is judged from forces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from netdesign.checks import Band, Standard, check_member
+from netdesign.envelope.grid import Case, build_cases
+from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
+from netdesign.study.audit.check_audit import is_held_back
+from netdesign.study.audit.comparing import is_of_steady_states, is_same
+from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.check_site import (
+    is_calibrated,
+    list_case_notes,
+    list_notes,
+    list_row_notes,
+)
+from netdesign.study.effects import find_effects, load_guideline
+from netdesign.study.members import (
+    record_geometry,
+    record_point,
+    record_result,
+)
+from netdesign.study.record_guideline import compare_case
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.values import compare_values
+from netdesign.units import newton_from_kilonewton
+
+_UNKNOWN_GAP = "cases are missing"  # whatever it is: nothing passes with one
+_MOST = 5  # places of one row that are named
+
+
+def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[str]:
+    """Sentences on where a study is not that of its site file.
+
+    Parameters
+    ----------
+    study : Study
+        As stored.
+    site : Site
+        From the file with the study's hash.
+    standard : Standard or None
+        The profile with the study's hash; without it no check is judged again.
+    """
+    law, is_steady = _find_law(study), is_of_steady_states(study)
+    stored = [row.id for row in study.rows]
+    given = [row.id for row in site.rows]
+    if stored != given:
+        yield f"the study has net rows {stored}, its site file {given}"
+    parts = (
+        ("project", study.project, site.project),
+        ("ranges", study.range_inputs, list(site.range_inputs)),
+        ("notes", study.notes, list_notes(site, law)),
+        ("site_file", study.provenance.site_file, site.file_name),
+    )
+    for name, one, other in parts:
+        for found in compare_values({name: one}, {name: other})[:_MOST]:
+            yield f"the site file says otherwise: {found}"
+    rows = {row.id: row for row in site.rows}
+    is_known = standard is not None and standard.sha256 == study.profile.sha256
+    for row in study.rows:
+        if row.id in rows:
+            yield from _audit_row(row, rows[row.id], site, law)
+            if standard is not None and is_known:
+                yield from _audit_judgement(
+                    row, rows[row.id], site, standard, is_steady=is_steady
+                )
+
+
+def _find_law(study: Study) -> CreepLaw:
+    name = study.provenance.settings.get("creep law", "").partition(" ")[0]
+    return CREEP_LAWS.get(name, BOUTILLIER_2004)
+
+
+def _audit_row(
+    row: RowStudy, given: NetRow, site: Site, law: CreepLaw
+) -> Iterator[str]:
+    place = f"net row {row.id!r}"
+    for found in compare_values(row.inputs, list(given.inputs))[:_MOST]:
+        yield f"{place}: the site file says otherwise: inputs.{found}"
+    if site.ranges.is_grid:
+        points = [record_point(case) for case in build_cases(site.ranges)]
+        if [case.case for case in row.cases] != points:
+            yield f"{place}: its cases are not those of the grid"
+    for case in row.cases:
+        known = is_calibrated(law, given, case.case.density_kg_m3)
+        if case.is_calibrated is not known:
+            yield f"{place}: {case.case}: is_calibrated is {case.is_calibrated}"
+    drawing = row.drawing
+    if drawing is not None:
+        drawn = (drawing.slope_deg, drawing.snow_thickness_m)
+        wanted = (math.degrees(given.slope_angle), given.snow_thickness)
+        if any(compare_values(drawn, wanted)):
+            yield f"{place}: its section is drawn for {drawn}, not for {wanted}"
+
+
+def _audit_judgement(
+    row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
+) -> Iterator[str]:
+    """Judge every check again from its action, as if that had just been solved."""
+    effects = find_effects(given, standard)
+    members = [
+        _judge_again(row, check, resistance, standard)
+        for check, resistance in zip(row.checks, given.resistances, strict=False)
+    ]
+    expected = [*members, *record_geometry(given, site.ranges, standard)]
+    stored, again = (
+        [_leave_out_solves(check) for check in checks]
+        for checks in (row.checks, expected)
+    )
+    place = f"net row {row.id!r}"
+    for found in compare_values(stored, again)[:_MOST]:
+        yield f"{place}: judged again, its checks differ: {found}"
+    notes = [*list_row_notes(given, effects), *list_case_notes(row.cases)]
+    # of histories more is noted, behind these
+    shown = row.notes if is_steady else row.notes[: len(notes)]
+    for found in compare_values(shown, notes)[:_MOST]:
+        yield f"{place}: its notes differ: {found}"
+    for check in row.checks:
+        if check.action is not None:
+            width = effects.record(check.member, _hold(check.action.solved_kN))
+            for found in compare_values(check.action, width):
+                yield f"{place}, check {check.id!r}: its loaded width: {found}"
+    yield from _audit_guideline(row, given)
+
+
+def _judge_again(
+    row: RowStudy, check: CheckRecord, given: Resistance, standard: Standard
+) -> CheckRecord:
+    factor = check.action_factor
+    ends = (check.demand_low_kN, check.demand_high_kN)
+    action = None
+    if check.action_kN is not None:
+        low, high = (
+            check.action_kN if end is None or not factor else end / factor
+            for end in ends
+        )
+        sizes = sorted((low, check.action_kN, high))
+        low, middle, high = map(newton_from_kilonewton, sizes)
+        action = Band(low=low, value=middle, high=high)
+    is_whole = is_complete(row) and not is_held_back(check)
+    gap = "" if is_whole else _UNKNOWN_GAP
+    again = record_result(check_member(action, given, standard, gap=gap), given)
+    # a gap in its own words is one
+    return again if is_whole else replace(again, reason=check.reason)
+
+
+def _leave_out_solves(check: CheckRecord) -> CheckRecord:
+    """Check without what only a solve can tell."""
+    return replace(check, case=None, action=None, spreads=[], changes=[])
+
+
+def _hold(force_kN: float) -> Band:
+    force = newton_from_kilonewton(force_kN)
+    return Band(low=force, value=force, high=force)
+
+
+def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[str]:
+    """The comparison with the guideline, from the forces that it states."""
+    stored = row.guideline
+    if stored is None or stored.sha256 != load_guideline().sha256:
+        return
+    point = stored.case
+    case = Case(
+        density=point.density_kg_m3,
+        friction_angle=math.radians(point.friction_deg),
+        inclination=math.radians(point.inclination_deg),
+    )
+    again = compare_case(
+        given,
+        case,
+        load=newton_from_kilonewton(stored.solved_load_kN_per_m),
+        foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
+    )
+    for found in compare_values(stored, again)[:_MOST]:
+        yield f"net row {row.id!r}: its comparison with the guideline: {found}"
+    largest = find_largest(row, "foot_anchor")
+    if largest is not None and not (
+        same_point(point, largest.case)
+        and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)
+    ):
+        yield f"net row {row.id!r}: the guideline stands beside another case"

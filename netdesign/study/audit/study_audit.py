@@ -1,0 +1,130 @@
+"""All that can be said of a stored study without solving anything again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict
+
+from netdesign.checks import Standard
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.site.model import Site
+from netdesign.study.audit.check_audit import audit_checks
+from netdesign.study.audit.comparing import is_of_steady_states
+from netdesign.study.audit.envelope_audit import Spans, audit_envelope
+from netdesign.study.audit.support_audit import audit_support
+from netdesign.study.records import RowStudy, Study
+
+_AXES = {
+    "density": "density_kg_m3",
+    "friction angle": "friction_deg",
+    "net inclination": "inclination_deg",
+}
+
+
+def audit_study(
+    study: Study, standard: Standard | None = None, site: Site | None = None
+) -> list[str]:
+    """Contradictions of a study, each in a sentence that names the place.
+
+    Parameters
+    ----------
+    study : Study
+        As stored.
+    standard : Standard, optional
+        The limit profile of that id, where it is at hand.
+    site : Site, optional
+        What the site file holds, where it is at hand. Files whose hash is not that of
+        the study are left out: they say nothing about it.
+
+    Returns
+    -------
+    list of str
+        Empty where everything follows from everything else. That the forces are those
+        of the site's snow and nets is what only a new solve shows.
+
+    Verified by
+    -----------
+    tests/study/audit/test_alterations.py
+    """
+    found = [*_audit_profile(study, standard)]
+    spans = _read_spans(study)
+    is_steady = is_of_steady_states(study)
+    tolerance = _read_number(study, "balance tolerance") if is_steady else math.inf
+    for row in study.rows:
+        found += audit_envelope(row, spans, tolerance)
+        found += audit_checks(row, study.profile)
+        found += audit_support(row, study.profile, is_steady=is_steady)
+        found += _audit_verdict(row)
+    if site is not None and site.sha256 == study.provenance.site_sha256:
+        from netdesign.study.audit.site_audit import audit_site
+
+        found += audit_site(study, site, standard)
+    verdict = merge_verdicts(row.verdict for row in study.rows)
+    if study.verdict is not verdict:
+        found.append(f"the study says {study.verdict}, but its rows give {verdict}")
+    return found
+
+
+def _audit_profile(study: Study, standard: Standard | None) -> Iterator[str]:
+    """Values of the profile against its files, where these are the ones of the hash."""
+    ids = [value.id for value in study.profile.values]
+    if len(set(ids)) < len(ids):
+        yield "profile: a value stands there twice"
+    if standard is None or standard.sha256 != study.profile.sha256:
+        return
+    from netdesign.study.check_site import record_profile
+
+    again = record_profile(standard)
+    stored = {value.id: asdict(value) for value in study.profile.values}
+    listed = {value.id: asdict(value) for value in again.values}
+    for name in dict.fromkeys((*stored, *listed)):
+        if stored.get(name) != listed.get(name):
+            yield f"profile: {name} is not that of the files with this hash"
+    for key in ("id", "title", "edition", "version", "choice"):
+        if getattr(study.profile, key) != getattr(again, key):
+            yield f"profile: {key} is not that of the files with this hash"
+
+
+def _audit_verdict(row: RowStudy) -> Iterator[str]:
+    """Verdict and reasons of a row from its checks and independent checks."""
+    place = f"net row {row.id!r}"
+    held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
+    verdict = merge_verdicts([*(check.verdict for check in row.checks), *held])
+    if row.verdict is not verdict:
+        yield f"{place} says {row.verdict}, but its parts give {verdict}"
+    reasons = [
+        f"{check.id}: {check.reason}"
+        for check in row.checks
+        if check.verdict is not Verdict.PASS
+    ]
+    reasons += [
+        f"The independent check {law.name} is not met."
+        for law in row.independent
+        if not law.is_met
+    ]
+    if row.reasons != reasons:
+        yield f"{place}: its reasons are not those of its checks"
+
+
+def _read_spans(study: Study) -> Spans:
+    """Ranges as they were understood, by the keys of a case."""
+    spans = {}
+    for name, key in _AXES.items():
+        ends = [
+            echo.value
+            for end in ("low", "high")
+            for echo in study.range_inputs
+            if echo.label == f"{name}, {end}"
+        ]
+        if len(ends) == 2 and all(isinstance(end, float) for end in ends):
+            spans[key] = (float(ends[0]), float(ends[1]))
+    return spans
+
+
+def _read_number(study: Study, setting: str) -> float:
+    """Number of a setting; nothing is known without it."""
+    try:
+        return float(study.provenance.settings.get(setting, math.inf))
+    except ValueError:
+        return math.inf

@@ -1,0 +1,230 @@
+"""The drawn case: its forces on head, anchors and drawing, and the laws it obeys."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
+from netdesign.checks.schema import LATERAL_SHARE
+from netdesign.outcome import Outcome
+from netdesign.structure.head import HeadForces, compute_head_forces
+from netdesign.structure.layout import SupportPoints
+from netdesign.study.audit.comparing import Pair, tell_unequal
+from netdesign.study.audit.envelope_audit import (
+    find_largest,
+    list_solved,
+    read_force,
+    same_point,
+)
+from netdesign.study.records import (
+    AnchorRecord,
+    CasePoint,
+    CaseRecord,
+    Drawing,
+    HeadForce,
+    IndependentRecord,
+    ProfileRecord,
+    RowStudy,
+)
+
+_ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
+_BROUGHT_BY = ("net", "uphill_guy", "downhill_guy", "post")
+_LAWS = ("global_balance", "friction_excess", "end_direction", "tension_share")
+_END_SHARE = 0.005  # of the chord: the drawn points are rounded to a tenth of a mm
+_BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
+_CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are lost
+
+
+def audit_support(
+    row: RowStudy, profile: ProfileRecord, *, is_steady: bool
+) -> Iterator[str]:
+    """Sentences on what cannot be true of the drawn case of a row.
+
+    Forces of a history are its largest ones, and need not be of one instant: then
+    ``is_steady`` is false, and less is known.
+    """
+    place, drawing = f"net row {row.id!r}", row.drawing
+    parts = (row.anchors, row.head, row.independent)
+    if drawing is None:
+        if any(parts) or list_solved(row):
+            yield f"{place}: no drawing of a case that has a result"
+        return
+    drawn = next((one for one in row.cases if same_point(one.case, drawing.case)), None)
+    if drawn is None or drawn.outcome is not Outcome.CONVERGED or not all(parts):
+        yield f"{place}: the drawn case has no result, or no forces"
+        return
+    if not same_point(drawing.case, _find_governing(row)):
+        yield f"{place}: another case is drawn than the governing one"
+    share = next((v.value for v in profile.values if v.id == LATERAL_SHARE), 0.0)
+    yield from _audit_anchors(place, row.anchors, drawing, share)
+    if is_steady:
+        yield from _audit_sizes(place, row.anchors, drawing, drawn)
+    yield from _audit_head(place, row, drawing)
+    yield from _audit_ends(place, row, drawing)
+    yield from _audit_laws(place, row, drawn, is_steady=is_steady)
+
+
+def _find_governing(row: RowStudy) -> CasePoint | None:
+    """Case that has to be drawn: of the largest utilisation, or of the foot's force."""
+    rated = [one for one in row.checks if one.utilisation is not None and one.case]
+    if rated:
+        return max(rated, key=lambda check: check.utilisation or 0.0).case
+    largest = find_largest(row, "foot_anchor")
+    return largest.case if largest else None
+
+
+def _audit_anchors(
+    place: str, anchors: list[AnchorRecord], drawing: Drawing, share: float
+) -> Iterator[str]:
+    named = tuple((one.anchor, one.member) for one in anchors)
+    if named != tuple(zip(_ANCHORS, _BROUGHT_BY, strict=True)):
+        yield f"{place}: forces on {[one.anchor for one in anchors]}"
+        return
+    points = (
+        (0.0, 0.0),
+        drawing.uphill_anchor_m,
+        drawing.downhill_anchor_m,
+        drawing.post_base_m,
+    )
+    if len(drawing.arrows) != len(anchors):
+        yield f"{place}: {len(drawing.arrows)} arrows for {len(anchors)} forces"
+        return
+    for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
+        where = f"{place}, {one.anchor}"
+        lateral = 0.0 if one.member == "post" else share * one.size_kN
+        size = math.hypot(one.force_x_kN, one.force_y_kN)
+        turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
+        if arrow.member != one.anchor.replace("post_base", "post"):
+            yield f"{where}: drawn as {arrow.member}"
+        yield from tell_unequal(
+            where,
+            [
+                ("size_kN", one.size_kN, size),
+                ("direction_deg", one.direction_deg, turn if size else None),
+                ("lateral_kN", one.lateral_kN, lateral),
+                ("drawn x", arrow.force_x_kN, one.force_x_kN),
+                ("drawn y", arrow.force_y_kN, one.force_y_kN),
+                ("drawn place, x", arrow.x_m, point[0]),
+                ("drawn place, y", arrow.y_m, point[1]),
+            ],
+        )
+
+
+def _audit_sizes(
+    place: str, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
+) -> Iterator[str]:
+    """Forces on the ground against those of the case; one anchor may carry two."""
+    if len(anchors) != len(_ANCHORS):
+        return
+    foot, uphill, downhill, post = (one.size_kN for one in anchors)
+    is_shared = drawing.uphill_anchor_m == (0.0, 0.0)
+    sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
+    members = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
+    yield from tell_unequal(
+        f"{place}, drawn case",
+        [(m, s, read_force(drawn, m)) for m, s in zip(members, sizes, strict=True)],
+    )
+
+
+def _audit_head(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
+    """Members that hold the net's pull on the head, from (S1) to (S4)."""
+    pull, *others = row.head
+    if pull.member != "net" or len(row.anchors) != len(_ANCHORS):
+        yield f"{place}: no pull of the net on the post head"
+        return
+    points = SupportPoints(
+        net_foot=(0.0, 0.0),
+        head=drawing.head_m,
+        post_base=drawing.post_base_m,
+        uphill_anchor=drawing.uphill_anchor_m,
+        downhill_anchor=drawing.downhill_anchor_m,
+    )
+    held = compute_head_forces((pull.x_kN, pull.y_kN), points)
+    if not isinstance(held, HeadForces):
+        yield f"{place}: nothing holds the net's pull on the post head: {held.reason}"
+        return
+    _, uphill, downhill, base = row.anchors
+    sizes = (
+        ("post", base, held.post_compression),
+        ("uphill_guy", uphill, held.uphill_guy_tension),
+        ("downhill_guy", downhill, held.downhill_guy_tension),
+    )
+    within = _CLOSE * math.hypot(pull.x_kN, pull.y_kN)
+    for member, anchor, force in sizes:
+        if abs(anchor.size_kN - force) > within:
+            yield f"{place}: {member} has {anchor.size_kN!r} kN, but {force!r} follows"
+    expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
+    yield from _compare_head(place, others, expected)
+
+
+def _audit_ends(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
+    """A net pulls on its ends along itself, as far as its drawing shows that."""
+    foot, pull = row.anchors[0], row.head[0]
+    for name, points, force in (
+        ("foot", drawing.net_m, (foot.force_x_kN, foot.force_y_kN)),
+        ("head", drawing.net_m[::-1], (pull.x_kN, pull.y_kN)),
+    ):
+        angle = _find_angle(points, force)
+        if angle is None or angle > _BESIDE_NET:
+            yield f"{place}: the net does not pull along itself on its {name}"
+
+
+def _find_angle(
+    points: Sequence[tuple[float, float]], force: tuple[float, float]
+) -> float | None:
+    """Angle between a force and the curve that leaves the first point [rad]."""
+    (x0, y0), (x1, y1) = points[0], points[-1]
+    least = _END_SHARE * math.hypot(x1 - x0, y1 - y0)
+    for x, y in points[1:]:
+        if math.hypot(x - x0, y - y0) >= least:
+            turn = math.atan2(y - y0, x - x0) - math.atan2(force[1], force[0])
+            return abs(math.remainder(turn, 2.0 * math.pi))
+    return None
+
+
+def _compare_head(
+    place: str, others: list[HeadForce], expected: list[tuple[str, float, float]]
+) -> Iterator[str]:
+    if [one.member for one in others] != [member for member, _, _ in expected]:
+        yield f"{place}: other members on the post head than on the ground"
+        return
+    for one, (member, x, y) in zip(others, expected, strict=True):
+        pairs = [("x_kN", one.x_kN, x), ("y_kN", one.y_kN, y)]
+        yield from tell_unequal(f"{place}, head, {member}", pairs)
+
+
+def _audit_laws(
+    place: str, row: RowStudy, drawn: CaseRecord, *, is_steady: bool
+) -> Iterator[str]:
+    wanted = {*_LAWS, *(["capstan_ratio"] if is_steady else [])}
+    wanted |= {"head_balance"} if len(row.head) > 1 else set()
+    named = [law.name for law in row.independent]
+    if len(set(named)) < len(named) or not wanted <= set(named):
+        yield f"{place}: independent checks {named}, wanted are {sorted(wanted)}"
+    for law in row.independent:
+        where = f"{place}, independent check {law.name}"
+        if law.is_met is not is_law_met(law.name, law.value, law.limit):
+            yield f"{where}: is_met is {law.is_met}, but its value says otherwise"
+        yield from tell_unequal(where, _list_law_pairs(law, row, drawn))
+
+
+def _list_law_pairs(
+    law: IndependentRecord, row: RowStudy, drawn: CaseRecord
+) -> list[Pair]:
+    """What is known of a law's numbers without the solved case."""
+    if law.name == "end_direction":
+        errors = DIRECTION_ERRORS * (drawn.error_percent or 0.0) / 100.0
+        return [("limit", law.limit, max(DIRECTION, errors))]
+    if law.name not in LIMITS:
+        return []
+    pairs: list[Pair] = [("limit", law.limit, LIMITS[law.name])]
+    if law.name == "global_balance":
+        pairs.append(("value", law.value, drawn.balance_residual))
+    if law.name == "head_balance":
+        open_part = math.hypot(
+            sum(one.x_kN for one in row.head), sum(one.y_kN for one in row.head)
+        )
+        largest = max(math.hypot(one.x_kN, one.y_kN) for one in row.head)
+        pairs.append(("value", law.value, open_part / largest if largest else None))
+    return pairs

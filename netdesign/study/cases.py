@@ -1,0 +1,251 @@
+"""The cases of a site: a grid of them, or a search of the worst; its histories."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+from typing import Literal
+
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.edge.progress import Phase
+from netdesign.envelope.adaptive import SearchSettings
+from netdesign.envelope.confirm import (
+    build_history_settings,
+    confirm_envelopes,
+    confirm_rows,
+)
+from netdesign.envelope.grid import Case, Ranges, build_cases
+from netdesign.envelope.parameters import Box
+from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.search import (
+    RowEnvelope,
+    RowTask,
+    Wave,
+    refine_settings,
+    search_rows,
+)
+from netdesign.errors import ModelError
+from netdesign.site.model import NetRow, Site
+from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
+from netdesign.study.probe import build_scene
+from netdesign.study.record_monitoring import follow_monitoring
+from netdesign.study.records import MonitoringRecord
+
+# Solves of a row, usual and at most, as --dry-run and progress expect them. A search
+# has a limit of its own, and a row so many members. Beside the envelope a row that
+# passes took 3, one that fails 2 to 184, 38 in the median (130 random sites).
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 250)
+HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
+_REPORTS_S = 1.5  # time that the reports of one profile take
+_CLOSEST_GAP = 1e-3  # however accurate the cases are
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckRun:
+    """How a site is to be solved."""
+
+    settings: SolverSettings
+    method: Literal["steady", "transient"] = "steady"
+    creep_law: CreepLaw = BOUTILLIER_2004
+    jobs: int = 1
+    command: str = "netdesign check"
+    started: str = ""  # ISO 8601, UTC; given, so that equal input gives equal bytes
+
+
+def count_cases(site: Site) -> int:
+    """Number of cases of a grid; about that of a search, which nobody knows yet."""
+    if site.ranges.is_grid:
+        return len(site.rows) * len(build_cases(site.ranges))
+    return len(site.rows) * _SEARCH[0]
+
+
+def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
+    """What a check of a site does, in its order, with about so many solves."""
+    rows = len(site.rows)
+    ids = {row.id for row in site.rows}
+    measured = sum(one.row_id in ids for one in site.monitoring)
+    histories = rows if run.method == "transient" else 0
+    checks = sum(len(row.resistances) for row in site.rows)
+    phases = [
+        _plan_envelope(site, run),
+        Phase(
+            key="histories",
+            words="histories of the governing cases",
+            cases=histories * _HISTORIES[0],
+            most=histories * _HISTORIES[1],
+            cost=HISTORY / run.jobs,
+        ),
+        Phase(
+            key="measured",
+            words="histories beside measured series",
+            cases=measured,
+            most=measured,
+            cost=HISTORY,
+        ),
+        Phase(
+            key="checks",
+            words="other creep laws, and what would turn a check",
+            cases=profiles * rows * _BESIDE[0],
+            most=profiles * rows * _BESIDE[1],
+            pieces=profiles * checks,
+        ),
+        Phase(key="reports", words="reports", cases=0, seconds=_REPORTS_S * profiles),
+    ]
+    return [one for one in phases if one.most or one.seconds]
+
+
+def _plan_envelope(site: Site, run: CheckRun) -> Phase:
+    """The grid, or the search with its confirmations."""
+    cases, cost = count_cases(site), 1.0 / run.jobs
+    if site.ranges.is_grid:
+        words, most = "cases of the grid", cases
+    else:
+        words = "largest forces and their confirmation"
+        most = len(site.rows) * _SEARCH[1]
+    return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
+
+
+def search_site(
+    site: Site,
+    run: CheckRun,
+    runner: Runner | None = None,
+    on_wave: Callable[[Wave], None] = lambda _: None,
+) -> list[RowEnvelope]:
+    """Search the largest forces of all net rows; no limit profile is needed for it.
+
+    Parameters
+    ----------
+    site : Site
+        What the engineer gives.
+    run : CheckRun
+        Settings; their accuracy is the gap that is asked for, too.
+    runner : Runner, optional
+        Where cases are solved and kept; this process unless told otherwise.
+    on_wave : callable, optional
+        Called after each wave of cases.
+
+    Returns
+    -------
+    list of RowEnvelope
+        One a row, each with its upper bounds and governing cases confirmed, on finer
+        meshes and, where the run asks for it, by histories.
+    """
+    runner = runner or Runner()
+    tasks = [_build_search(row, site.ranges, run) for row in site.rows]
+    envelopes = search_rows(tasks, runner, on_wave)
+    if run.method == "steady":
+        return envelopes
+    return confirm_envelopes(envelopes, build_history_settings(run.settings), runner)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _LayeredScenes:
+    """Scenes of layered snow, whose layers follow the density of a case."""
+
+    row: NetRow
+    law: CreepLaw
+
+    def __call__(self, case: Case) -> Scene:
+        return build_scene(self.row, case, self.law)
+
+
+def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
+    return RowTask(
+        scene=_find_scene(row, ranges, run.creep_law),
+        box=Box(
+            intervals=(
+                ("density", ranges.density),
+                ("friction_angle", ranges.friction_angle),
+                ("inclination", ranges.inclination),
+            )
+        ),
+        layout=row.layout,
+        settings=run.settings,
+        search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
+        confirmed_by=refine_settings(run.settings),
+        build=_LayeredScenes(row=row, law=run.creep_law) if row.layers else None,
+    )
+
+
+def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
+    """Scene of the first corner of the ranges that the model accepts.
+
+    Raises
+    ------
+    ModelError
+        If it refuses every corner.
+    """
+    spans = (ranges.density, ranges.friction_angle, ranges.inclination)
+    refusals: dict[str, None] = {}
+    for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
+        case = Case(density=density, friction_angle=friction, inclination=inclination)
+        try:
+            return build_scene(row, case, law)
+        except ModelError as error:
+            refusals.setdefault(f"net row {row.id}: {error}")
+    raise ModelError("\n".join(refusals))
+
+
+def solve_site(
+    site: Site, run: CheckRun, runner: Runner | None = None
+) -> list[list[CaseResult]]:
+    """Solve all cases of all net rows; no limit profile is needed for it.
+
+    Parameters
+    ----------
+    site : Site
+        What the engineer gives.
+    run : CheckRun
+        Settings.
+    runner : Runner, optional
+        Where cases are solved and kept; this process unless told otherwise.
+
+    Returns
+    -------
+    list of list of CaseResult
+        For each row its cases in the order of the grid; failed ones are named.
+    """
+    cases = build_cases(site.ranges)
+    tasks = [_build_tasks(row, cases, run) for row in site.rows]
+    results = run_cases([task for of_row in tasks for task in of_row], runner)
+    count = len(cases)
+    by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
+    if run.method == "steady":
+        return by_row
+    return confirm_rows(tasks, by_row, build_history_settings(run.settings), runner)
+
+
+def follow_site(
+    site: Site, run: CheckRun, runner: Runner | None = None
+) -> dict[str, list[MonitoringRecord]]:
+    """Measured series by net row, each beside a history of the middle of the ranges.
+
+    Nothing is solved for rows without a measurement; the runner, if there is one,
+    remembers the faults of the program, and tells of each series.
+    """
+    runner = runner or Runner()
+    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
+    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
+    middle = Case(
+        density=density, friction_angle=friction_angle, inclination=inclination
+    )
+    found = {}
+    for row in site.rows:
+        series = [one for one in site.monitoring if one.row_id == row.id]
+        if series:
+            (task,) = _build_tasks(row, [middle], run)
+            on_fault = partial(runner.keep_fault, row_id=row.id)
+            found[row.id] = follow_monitoring(task, series, on_fault)
+            for record in found[row.id]:
+                runner.on_done(record)
+    return found
+
+
+def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:
+    def build(case: Case) -> Scene:
+        return build_scene(row, case, run.creep_law)
+
+    return [build_task(case, build, row.layout, run.settings) for case in cases]

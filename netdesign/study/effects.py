@@ -1,0 +1,119 @@
+"""What turns a solved force into that of the worst support of a row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from netdesign.checks import Band, CheckResult, Standard, load_standard
+from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
+from netdesign.guideline.comparison import find_glide_factor
+from netdesign.guideline.load_model import read_end_effect
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow
+from netdesign.structure.row_position import (
+    LoadedWidth,
+    compute_edge_width,
+    compute_lateral_factor,
+    find_governing_width,
+)
+from netdesign.study.records import ActionRecord
+from netdesign.units import kilonewton_from_newton
+
+GUIDELINE = "swiss-guideline-2007"
+_PUSHED = ("post", "post_base")  # carries nothing along the row
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEffects:
+    """Loaded width and lateral load of the support that carries most.
+
+    Attributes
+    ----------
+    post_spacing : float
+        [m].
+    width : LoadedWidth
+        Of the governing support.
+    lateral_share : float
+        Share of a pulled member's force along the row [-].
+    missing : str
+        What the profile does not say; "" if nothing.
+    """
+
+    post_spacing: float
+    width: LoadedWidth
+    lateral_share: float
+    missing: str
+
+    def factor(self, member: str) -> float:
+        """Force on the governing support over the solved one [-]."""
+        ratio = self.width.width / self.post_spacing
+        return ratio * self.lateral_factor(member)
+
+    def lateral_factor(self, member: str) -> float:
+        """Part of the factor that the load along the row brings [-]."""
+        if member in _PUSHED:
+            return 1.0
+        return compute_lateral_factor(self.lateral_share)
+
+    def record(self, member: str, solved: Band) -> ActionRecord:
+        """The effects on one member, for the worked calculation."""
+        return ActionRecord(
+            solved_kN=kilonewton_from_newton(solved.value),
+            post_spacing_m=self.post_spacing,
+            position=self.width.position,
+            loaded_width_m=self.width.width,
+            end_factor=self.width.end_factor,
+            end_length_m=self.width.end_length,
+            lateral_factor=self.lateral_factor(member),
+        )
+
+
+@lru_cache(maxsize=1)
+def load_guideline() -> Standard:
+    """Load the guideline's profile that comes with the program, once."""
+    return load_standard(GUIDELINE)
+
+
+def find_row_glide_factor(row: NetRow) -> float:
+    """Glide factor of a row [-]; on a free ground the guideline's largest."""
+    table = load_guideline().find_table(GLIDE_FACTORS)
+    largest = max((value for _, _, value in table.rows), default=1.0) if table else 1.0
+    return find_glide_factor(row.ground, row.snow_thickness, largest)
+
+
+def find_effects(row: NetRow, standard: Standard) -> RowEffects:
+    """Effects of the row's ends and of the load along the row, by the profile."""
+    spacing = row.layout.post_spacing
+    rule, share = read_end_effect(standard), standard.find(LATERAL_SHARE)
+    edge = None
+    if rule is not None:
+        edge = compute_edge_width(
+            rule,
+            post_spacing=spacing,
+            net_height=row.net_height,
+            gap=row.gap,
+            glide_factor=find_row_glide_factor(row),
+        )
+    lacks = ["end effect (end.*)"] if rule is None else []
+    lacks += [f"lateral load ({LATERAL_SHARE})"] if share is None else []
+    return RowEffects(
+        post_spacing=spacing,
+        width=find_governing_width(spacing, edge),
+        lateral_share=share.value if share else 0.0,
+        missing=" and no ".join(lacks),
+    )
+
+
+def check_ends(effects: RowEffects) -> CheckResult | None:
+    """Not proven where the profile does not say how the ends of a row are loaded."""
+    if not effects.missing:
+        return None
+    return CheckResult(
+        id="geometry.ends",
+        clause="-",
+        member="net",
+        mode="ends of the row",
+        verdict=Verdict.NOT_PROVEN,
+        reason=f"Not proven: the profile has no {effects.missing}.",
+    )

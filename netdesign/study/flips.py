@@ -1,0 +1,390 @@
+"""What would make a check pass, or fail: solved, never guessed.
+
+Proportions (resistance, post spacing) are exact. Density, snow height and friction
+angle are roots of the coupled solve: found for the case that governs, then confirmed
+for every case whose force came near to governing; a case that still fails takes over,
+and so on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+
+from netdesign.envelope.curvature import AXES
+from netdesign.envelope.grid import Case, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.site.model import NetRow
+from netdesign.study.effects import RowEffects
+from netdesign.study.probe import Probe
+from netdesign.study.records import ChangeRecord
+from netdesign.units import degree_from_radian, radian_from_degree
+
+CLOSE = 0.9  # utilisation from which a passing check is told where it flips
+_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
+_LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
+_STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
+_MOST_ROUNDS, _MOST_STEPS = 4, 14
+_RIVAL = 0.9  # share of the governing force from which a case may take over
+_BESIDE = 0.13  # of every range: an eighth, and its rounding
+_NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """One check as a function of a solved case.
+
+    Attributes
+    ----------
+    row, ranges : NetRow, Ranges
+        What is checked, and over what.
+    member : str
+        Whose force.
+    scale : float
+        Utilisation for each N of the upper end of the solved force [1/N].
+    governing : Case
+        Case of the largest force.
+    results : sequence of CaseResult
+        Of the whole grid, or of the search.
+    """
+
+    row: NetRow
+    ranges: Ranges
+    member: str
+    scale: float
+    governing: Case
+    results: Sequence[CaseResult]
+
+    def utilisation(self, result: CaseResult) -> float | None:
+        """Upper end of the utilisation in a case [-]; None if it has no result."""
+        if not result.is_converged:
+            return None
+        return self.scale * result.member_forces[self.member].high
+
+
+Build = Callable[[float, Case], tuple[NetRow, Case]]
+
+
+def find_spacing_change(effects: RowEffects, utilisation: float) -> ChangeRecord:
+    """Largest post spacing at which a check passes: every force is in proportion."""
+    allowed = effects.width.width / utilisation
+    ends = effects.width.end_factor * effects.width.end_length
+    widest = min(allowed, 2.0 * (allowed - ends)) if ends else allowed
+    bound = math.floor(100.0 * widest + 1e-9) / 100.0
+    return ChangeRecord(
+        quantity="post spacing",
+        unit="m",
+        now=effects.post_spacing,
+        bound=bound if bound > 0.0 else None,
+        sense="at most",
+        solves=0,
+        note="" if bound > 0.0 else "the end effect alone is too much",
+    )
+
+
+def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
+    """Largest snow density at which a check passes."""
+
+    def build(value: float, case: Case) -> tuple[NetRow, Case]:
+        return target.row, replace(case, density=value)
+
+    bound, solves, note = _search(
+        target,
+        probe,
+        build,
+        start=target.ranges.density.high,
+        limits=_DENSITIES,
+        step=_STEPS["density"],
+        power=1.5,
+    )
+    if bound is not None and not _lighter_snow_passes(target, bound):
+        bound, note = None, "lighter snow of the range does not pass either"
+    if bound is not None and bound < target.ranges.density.low:
+        note = "below the range that was given"
+    return ChangeRecord(
+        quantity="snow density",
+        unit="kg/m3",
+        now=target.ranges.density.high,
+        bound=bound,
+        sense="at most",
+        solves=solves,
+        note=note,
+    )
+
+
+def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
+    """Largest snow thickness, normal to the slope, at which a check passes."""
+
+    def build(value: float, case: Case) -> tuple[NetRow, Case]:
+        return replace(target.row, snow_thickness=value), case
+
+    thickness = target.row.snow_thickness
+    bound, solves, note = _search(
+        target,
+        probe,
+        build,
+        start=thickness,
+        limits=(_LEAST_SHARE * thickness, target.row.net_height),
+        step=_STEPS["thickness"],
+        power=2.0,
+    )
+    return ChangeRecord(
+        quantity="snow thickness",
+        unit="m",
+        now=thickness,
+        bound=bound,
+        sense="at most",
+        solves=solves,
+        note=note,
+    )
+
+
+def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
+    """Friction angle from or up to which a failing check passes.
+
+    Within the range that was given; None where the check passes all over it. The
+    force is not monotonic in the friction angle: the part of the range beside the
+    governing case is told, between the nearest sample that passes and the one that
+    does not.
+    """
+    samples = _list_friction_angles(target)
+    worst = [_worst_at(target, angle) for angle in samples]
+    if all(one is not None and one <= 1.0 for one in worst):
+        return None
+    place = samples.index(target.governing.friction_angle)
+    passing = [k for k, one in enumerate(worst) if one is not None and one <= 1.0]
+    now = degree_from_radian(samples[place])
+    if not passing or place in passing:
+        return ChangeRecord(
+            quantity="friction angle",
+            unit="deg",
+            now=now,
+            bound=None,
+            sense="at most",
+            solves=0,
+            note="at no friction angle of the range all cases pass",
+        )
+    nearest = min(passing, key=lambda k: abs(k - place))
+    beside = nearest + (1 if place > nearest else -1)
+    before = probe.count
+    bound = _bisect_friction(target, probe, samples[nearest], samples[beside])
+    degrees = degree_from_radian(bound)
+    step = _STEPS["friction"]
+    is_upper = place > nearest
+    rounding = math.floor if is_upper else math.ceil
+    return ChangeRecord(
+        quantity="friction angle",
+        unit="deg",
+        now=now,
+        bound=round(rounding(degrees / step) * step, 6),
+        sense="at most" if is_upper else "at least",
+        solves=probe.count - before,
+    )
+
+
+def _list_friction_angles(target: Target) -> list[float]:
+    """Angles that stand for the whole of the other ranges, and the governing one.
+
+    A search solves some angles at a few cases only; an angle counts where the corners
+    of density and inclination were solved.
+    """
+    density, inclination = target.ranges.density, target.ranges.inclination
+    corners = set(
+        product((density.low, density.high), (inclination.low, inclination.high))
+    )
+    solved: dict[float, set[tuple[float, float]]] = {}
+    for result in target.results:
+        case = result.case
+        at = solved.setdefault(case.friction_angle, set())
+        at.add((case.density, case.inclination))
+    whole = {angle for angle, cases in solved.items() if cases >= corners}
+    return sorted(whole | {target.governing.friction_angle})
+
+
+def _bisect_friction(
+    target: Target, probe: Probe, passes: float, fails: float
+) -> float:
+    """Friction angle up to which every case passes, between two samples [rad]."""
+    cases = {
+        replace(case, friction_angle=target.governing.friction_angle): case
+        for case in _list_rivals(target, lambda _, case: (target.row, case), 0.0)
+    }
+    tolerance = radian_from_degree(_STEPS["friction"])
+    while abs(fails - passes) > tolerance:
+        middle = 0.5 * (passes + fails)
+        is_met = all(
+            _is_met(target, probe.solve(target.row, _at_friction(case, middle)))
+            for case in sorted(cases, key=lambda c: c != target.governing)
+        )
+        passes, fails = (middle, fails) if is_met else (passes, middle)
+    return passes
+
+
+def _at_friction(case: Case, angle: float) -> Case:
+    return replace(case, friction_angle=angle)
+
+
+def _is_met(target: Target, result: CaseResult) -> bool:
+    utilisation = target.utilisation(result)
+    return utilisation is not None and utilisation <= 1.0
+
+
+def _worst_at(target: Target, angle: float) -> float | None:
+    """Largest utilisation at a friction angle; None if a case there failed."""
+    known = [
+        target.utilisation(result)
+        for result in target.results
+        if result.case.friction_angle == angle
+    ]
+    numbers = [one for one in known if one is not None]
+    return max(numbers) if len(numbers) == len(known) and numbers else None
+
+
+def _lighter_snow_passes(target: Target, density: float) -> bool:
+    return all(
+        _is_met(target, result)
+        for result in target.results
+        if result.case.density <= density
+    )
+
+
+def _search(
+    target: Target,
+    probe: Probe,
+    build: Build,
+    *,
+    start: float,
+    limits: tuple[float, float],
+    step: float,
+    power: float,
+) -> tuple[float | None, int, str]:
+    """Largest value at which every case passes, solves, and a remark."""
+    before = probe.count
+    active = target.governing
+    value = start
+    for _ in range(_MOST_ROUNDS):
+        found = _find_root(target, probe, build, active, value, limits, power)
+        if isinstance(found, str):
+            return None, probe.count - before, found
+        value = round(math.floor(found / step + 1e-9) * step, 6)
+        worst = _find_violator(target, probe, build, value)
+        if worst is None:
+            at_end = "passes up to the end of the search" if found == limits[1] else ""
+            return value, probe.count - before, at_end
+        if isinstance(worst, str):
+            return None, probe.count - before, worst
+        active = worst
+    return None, probe.count - before, "the search did not settle"
+
+
+def _find_violator(
+    target: Target, probe: Probe, build: Build, value: float
+) -> Case | str | None:
+    """Rival case that still fails most at a value; a text if one is unsolved."""
+    worst, largest = None, 1.0
+    rivals = _list_rivals(target, build, value)
+    results = probe.solve_all([(*build(value, case), probe.law) for case in rivals])
+    for case, result in zip(rivals, results, strict=True):
+        utilisation = target.utilisation(result)
+        if utilisation is None:
+            return f"a case has no result at {value:g}: {result.reason}"
+        if utilisation > largest:
+            worst, largest = case, utilisation
+    return worst
+
+
+def _list_rivals(target: Target, build: Build, value: float) -> list[Case]:
+    """Cases near to governing at the given value, each scene once."""
+    forces = {
+        result.case: result.member_forces[target.member].high
+        for result in target.results
+        if result.is_converged
+    }
+    least = _RIVAL * max(forces.values())
+    rivals = [case for case in forces if forces[case] >= least]
+    if not target.ranges.is_grid:
+        rivals = _thin_out(sorted(rivals, key=lambda c: (-forces[c], c)), target.ranges)
+    scenes = {build(value, case)[1]: case for case in rivals}
+    return list(scenes.values())
+
+
+def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
+    """Cases without those close beside an earlier one.
+
+    A search crowds its cases around the largest force; what lies between those that
+    are left is in the margin of the target.
+    """
+    spans = {axis: getattr(ranges, axis) for axis in AXES}
+    kept: list[Case] = []
+    for case in cases:
+        is_beside = any(
+            all(
+                abs(getattr(case, axis) - getattr(other, axis))
+                <= _BESIDE * (span.high - span.low)
+                for axis, span in spans.items()
+            )
+            for other in kept
+        )
+        if not is_beside:
+            kept.append(case)
+    return kept
+
+
+def _find_root(
+    target: Target,
+    probe: Probe,
+    build: Build,
+    case: Case,
+    start: float,
+    limits: tuple[float, float],
+    power: float,
+) -> float | str:
+    """Largest value at which one case passes, by secants of the logarithms.
+
+    The force grows about like a power of the value; ``power`` is the first guess. A
+    bracket keeps every step between a value that passes and one that fails.
+    """
+    passes, fails = limits[0], limits[1]
+    known_pass, known_fail = False, False
+    value, last = min(max(start, passes), fails), None
+    for _ in range(_MOST_STEPS):
+        utilisation = target.utilisation(probe.solve(*build(value, case)))
+        if utilisation is None:
+            return f"the case has no result at {value:g}"
+        if utilisation <= 0.0:
+            return "the member is slack"
+        if 1.0 - _NEAR <= utilisation <= 1.0:
+            return value
+        if utilisation <= 1.0:
+            passes, known_pass = value, True
+            if value == limits[1]:
+                return value
+        else:
+            fails, known_fail = value, True
+            if value == limits[0]:
+                return f"not even {value:g} passes"
+        if known_pass and known_fail and fails - passes < 1e-3 * fails:
+            return passes
+        point = (math.log(value), math.log(utilisation))
+        if last is not None and point[0] != last[0]:
+            slope = (point[1] - last[1]) / (point[0] - last[0])
+            power = slope if slope > 0.2 else power
+        last = point
+        aim = value * math.exp((math.log(1.0 - 0.5 * _NEAR) - point[1]) / power)
+        value = _keep_inside(aim, passes, fails, known_pass, known_fail)
+    return "the search did not settle"
+
+
+def _keep_inside(
+    aim: float, passes: float, fails: float, known_pass: bool, known_fail: bool
+) -> float:
+    """Aim, unless it leaves the bracket: then its middle, or its unproven end."""
+    if passes < aim < fails:
+        return aim
+    if aim >= fails and not known_fail:
+        return fails
+    if aim <= passes and not known_pass:
+        return passes
+    return 0.5 * (passes + fails)

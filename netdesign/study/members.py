@@ -1,0 +1,326 @@
+"""All checks of one net row as records: interval, effects, what would change them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import (
+    Band,
+    CheckResult,
+    RowGeometry,
+    Standard,
+    check_geometry,
+    check_member,
+)
+from netdesign.envelope.curvature import EnvelopeGap, estimate_gap
+from netdesign.envelope.extremes import (
+    Extreme,
+    describe_gap,
+    find_extreme,
+    find_extremes,
+)
+from netdesign.envelope.grid import Case, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.search import RowEnvelope
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.study.effects import RowEffects, check_ends, find_effects
+from netdesign.study.flips import (
+    CLOSE,
+    Target,
+    find_density_change,
+    find_friction_change,
+    find_height_change,
+    find_spacing_change,
+)
+from netdesign.study.probe import Probe
+from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.stronger_types import find_type_change
+from netdesign.units import degree_from_radian, kilonewton_from_newton
+
+# A program that fails beside the cases of a check is not trusted in them.
+_FAULT_BESIDE = (
+    "the program itself failed in a solve beside the cases of the ranges, please "
+    "report it"
+)
+_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowTask:
+    """One net row under one profile.
+
+    ``probe`` is None where nothing beyond the envelope is to be solved; ``envelope``
+    where the results are a grid; ``on_check`` is called after each check of a force.
+    """
+
+    site: Site
+    row: NetRow
+    results: Sequence[CaseResult]
+    standard: Standard
+    probe: Probe | None
+    envelope: RowEnvelope | None = None
+    on_check: Callable[[], None] = lambda: None
+
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces at the cases, by member."""
+        if self.envelope is None:
+            return find_extremes(self.results)
+        return self.envelope.extremes
+
+    @property
+    def gap(self) -> str:
+        """Why the extremes do not cover every case; "" if they do."""
+        if self.envelope is None:
+            return describe_gap(self.results)
+        return self.envelope.gap
+
+    def estimate_between(self, extreme: Extreme) -> EnvelopeGap:
+        """What may hide between the cases: bounded by a search, else estimated."""
+        if self.envelope is None:
+            return estimate_gap(extreme, self.results)
+        return EnvelopeGap(size=self.envelope.hidden(extreme.member), unknown=())
+
+    @property
+    def ranges(self) -> Ranges:
+        """Of the envelope."""
+        return self.site.ranges
+
+
+def check_row(task: RowTask) -> list[CheckRecord]:
+    """Every check of a row: each member in each mode, then the geometry."""
+    extremes = task.extremes
+    effects = find_effects(task.row, task.standard)
+    checks = []
+    for given in task.row.resistances:
+        checks.append(_check_one(task, given, extremes, effects))
+        task.on_check()
+    return [*checks, *record_geometry(task.row, task.ranges, task.standard)]
+
+
+def record_geometry(
+    row: NetRow, ranges: Ranges, standard: Standard
+) -> list[CheckRecord]:
+    """Checks of a row that no force enters."""
+    geometry = [*check_geometry(read_geometry(row, ranges), standard)]
+    ends = check_ends(find_effects(row, standard))
+    return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
+
+
+def record_point(case: Case) -> CasePoint:
+    """Case in engineer's units."""
+    return CasePoint(
+        density_kg_m3=case.density,
+        friction_deg=round(degree_from_radian(case.friction_angle), _ANGLE_DECIMALS),
+        inclination_deg=round(degree_from_radian(case.inclination), _ANGLE_DECIMALS),
+    )
+
+
+def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
+    """What a row's checks of geometry need."""
+    return RowGeometry(
+        inclination_low=ranges.inclination.low,
+        inclination_high=ranges.inclination.high,
+        slope_angle=row.slope_angle,
+        snow_thickness=row.snow_thickness,
+        net_height=row.net_height,
+        upslope_length=row.upslope_length,
+        gap=row.gap,
+    )
+
+
+def _check_one(
+    task: RowTask,
+    given: Resistance,
+    extremes: Mapping[str, Extreme],
+    effects: RowEffects,
+) -> CheckRecord:
+    extreme = extremes.get(given.member)
+    gap = task.gap
+    if extreme is None:
+        return record_result(check_member(None, given, task.standard, gap=gap), given)
+    between = task.estimate_between(extreme)
+    factor = effects.factor(given.member)
+    action = _widen(extreme.force, between).times(factor)
+    result = check_member(action, given, task.standard, gap=gap)
+    before = task.probe.faults if task.probe else 0
+    spreads = _list_spreads(task, extreme, between, result)
+    changes = _list_changes(task, given, extreme, effects, result, between)
+    if task.probe and task.probe.faults > before and not gap:
+        result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
+    return replace(
+        record_result(result, given),
+        case=record_point(extreme.governing.case),
+        action=effects.record(given.member, extreme.force),
+        spreads=spreads,
+        changes=changes,
+    )
+
+
+def _widen(force: Band, between: EnvelopeGap) -> Band:
+    return Band(low=force.low, value=force.value, high=force.high + between.size)
+
+
+def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
+    """Check in engineer's units, without what stands behind its action."""
+    demand, utilisation = result.demand, result.utilisation
+    return CheckRecord(
+        id=result.id,
+        clause=result.clause,
+        member=result.member,
+        mode=result.mode,
+        demand_kN=_kilonewton(demand.value if demand else None),
+        demand_low_kN=_kilonewton(demand.low if demand else None),
+        demand_high_kN=_kilonewton(demand.high if demand else None),
+        resistance_kN=_kilonewton(result.design_resistance),
+        utilisation=utilisation.value if utilisation else None,
+        verdict=result.verdict,
+        case=None,
+        reason=result.reason,
+        action_kN=_kilonewton(result.action.value if result.action else None),
+        action_factor=result.action_factor,
+        resistance_characteristic_kN=_kilonewton(result.resistance),
+        resistance_factor=result.resistance_factor,
+        resistance_basis=given.basis if given else "",
+        resistance_type=given.type_id if given else "",
+        resistance_cell=given.source if given else "",
+        resistance_derivation=_describe_derivation(given, result),
+    )
+
+
+def _describe_derivation(given: Resistance | None, result: CheckResult) -> str:
+    if given is None or given.tests is None or result.resistance is None:
+        return given.derivation if given else ""
+    tests = given.tests
+    return (
+        f"least of mean {kilonewton_from_newton(tests.mean):g} kN and least "
+        f"{kilonewton_from_newton(tests.least):g} kN of {tests.count} tests, each over "
+        "its correlation factor"
+    )
+
+
+def _list_spreads(
+    task: RowTask, extreme: Extreme, between: EnvelopeGap, result: CheckResult
+) -> list[SpreadRecord]:
+    """Parts of the interval of a utilisation, the creep law's for comparison."""
+    used = result.utilisation
+    if used is None or extreme.force.value == 0.0:
+        return []
+    scale = used.value / extreme.force.value
+    unknown = ", ".join(axis.replace("_", " ") for axis in between.unknown)
+    spreads = [
+        SpreadRecord(
+            source="numerical error",
+            low=extreme.force.low * scale,
+            high=extreme.force.high * scale,
+            in_verdict=True,
+        ),
+        SpreadRecord(
+            source="between the cases",
+            low=used.value,
+            high=used.value + between.size * scale,
+            in_verdict=True,
+            note=f"unknown along {unknown}: two samples or a failed neighbour"
+            if unknown
+            else "",
+        ),
+    ]
+    if task.probe is not None and used.value > 0.0:
+        spreads += _list_creep_laws(task.probe, task.row, extreme, scale)
+    return spreads
+
+
+def _list_creep_laws(
+    probe: Probe, row: NetRow, extreme: Extreme, scale: float
+) -> Iterable[SpreadRecord]:
+    laws = {k: law for k, law in CREEP_LAWS.items() if k != probe.law.name}
+    results = probe.solve_all(
+        [(row, extreme.governing.case, law) for law in laws.values()]
+    )
+    for name, result in zip(laws, results, strict=True):
+        force = result.member_forces.get(extreme.member)
+        yield SpreadRecord(
+            source=f"creep law {name}",
+            low=force.low * scale if force else None,
+            high=force.high * scale if force else None,
+            in_verdict=False,
+            note=result.reason if force is None else "in the governing case",
+        )
+
+
+def _list_changes(
+    task: RowTask,
+    given: Resistance,
+    extreme: Extreme,
+    effects: RowEffects,
+    result: CheckResult,
+    between: EnvelopeGap,
+) -> list[ChangeRecord]:
+    """Changes that flip a failing, unproven or close check."""
+    if result.demand is None or result.demand.high == 0.0:
+        return []
+    used = result.utilisation
+    is_close = used is not None and used.high >= CLOSE
+    gap = task.gap
+    if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
+        return []  # a case without result is not mended by any change
+    changes = _list_resistance_changes(task, given, result)
+    if used is None or result.design_resistance is None:
+        return changes
+    changes.append(find_spacing_change(effects, used.high))
+    if gap:
+        note = "as far as the solved cases go"
+        return [replace(change, note=note) for change in changes]
+    if task.probe is None:
+        return changes
+    at_cases = find_extreme(given.member, task.results).force.high
+    margin = (extreme.force.high + between.size) / at_cases
+    on_force = effects.factor(given.member) * (result.action_factor or math.nan)
+    target = Target(
+        row=task.row,
+        ranges=task.ranges,
+        member=given.member,
+        scale=on_force * margin / result.design_resistance,
+        governing=extreme.governing.case,
+        results=task.results,
+    )
+    found = (
+        find_density_change(target, task.probe),
+        find_height_change(target, task.probe),
+        find_friction_change(target, task.probe),
+    )
+    return [*changes, *(change for change in found if change is not None)]
+
+
+def _list_resistance_changes(
+    task: RowTask, given: Resistance, result: CheckResult
+) -> list[ChangeRecord]:
+    """Characteristic resistance that is needed, and the type that has it."""
+    factor, note = result.resistance_factor, ""
+    if factor is None:  # nothing is given, and so no basis: suppose a test
+        found = task.standard.find_resistance_factor(given.mode, "tested")
+        factor = found.value_si if found else None
+        note = "on the basis of tests on the site"
+    if factor is None or result.demand is None:
+        return []
+    needed = result.demand.high * factor
+    shown = math.ceil(kilonewton_from_newton(needed) * 10.0 - 1e-9) / 10.0
+    change = ChangeRecord(
+        quantity="characteristic resistance",
+        unit="kN",
+        now=_kilonewton(result.resistance),
+        bound=shown,
+        sense="at least",
+        solves=0,
+        note=note,
+    )
+    kind = find_type_change(task.site, given, result.demand.high, task.standard)
+    return [change, kind] if kind else [change]
+
+
+def _kilonewton(value: float | None) -> float | None:
+    return None if value is None else kilonewton_from_newton(value)

@@ -1,0 +1,280 @@
+"""A row's envelope in the engineer's units, as the documents show it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from netdesign.envelope.adaptive import RESOLVED_SHARE, Addition
+from netdesign.envelope.grid import Case
+from netdesign.envelope.parameters import PARAMETERS, Box
+from netdesign.envelope.search import Confirmation, RowEnvelope
+from netdesign.envelope.sensitivity import (
+    Sensitivity,
+    find_crossings,
+    follow_axis,
+    measure_sensitivity,
+    measure_unexplained,
+)
+from netdesign.study.records import (
+    AdditionRecord,
+    AxisRecord,
+    BoundRecord,
+    ConfirmationRecord,
+    DriverRecord,
+    EnvelopeRecord,
+    FlipRecord,
+    LineRecord,
+    MapRecord,
+)
+from netdesign.units import degree_from_radian, kilonewton_from_newton
+
+_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
+_LINE_POINTS = 25
+_MAP_POINTS = 9
+_MAPS = 3
+_DRAWN_DECIMALS = 4  # of kN
+
+Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N]
+
+
+def show_parameter(name: str, value: float) -> float:
+    """Value of a parameter in the unit of its key."""
+    if PARAMETERS[name].key.endswith("_deg"):
+        return round(degree_from_radian(value), _ANGLE_DECIMALS)
+    return value
+
+
+def record_case(case: Case, box: Box) -> dict[str, float]:
+    """Every quantity of a case under its key: the three usual ones, and the box's."""
+    usual = ("density", "friction_angle", "inclination")
+    values = {name: getattr(case, name) for name in usual} | dict(case.others)
+    names = [*usual, *(name for name, _ in box.intervals if name not in usual)]
+    return {PARAMETERS[name].key: show_parameter(name, values[name]) for name in names}
+
+
+def record_envelope(
+    envelope: RowEnvelope, members: Sequence[str], levels: Levels | None = None
+) -> EnvelopeRecord:
+    """Record of an envelope.
+
+    Parameters
+    ----------
+    envelope : RowEnvelope
+        End of a search.
+    members : sequence of str
+        Those that are reported.
+    levels : mapping, optional
+        For each member the forces at which a check of it flips, with the check's id.
+    """
+    maxima, task = envelope.maxima, envelope.task
+    shown = [member for member in members if member in envelope.members]
+    answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
+    return EnvelopeRecord(
+        axes=[
+            AxisRecord(
+                key=PARAMETERS[name].key,
+                low=show_parameter(name, span.low),
+                high=show_parameter(name, span.high),
+            )
+            for name, span in task.box.intervals
+        ],
+        is_per_metre=task.layout is None,
+        is_closed=maxima.is_closed,
+        gap_asked_percent=100.0 * task.search.gap,
+        certainty=task.search.certainty,
+        resolved_share=RESOLVED_SHARE,
+        cases=len(envelope.results),
+        skipped=envelope.skipped,
+        skips_tested=envelope.skips_tested,
+        failed=sum(not result.is_converged for result in envelope.results),
+        bounds=[
+            _record_bound(
+                envelope, member, shown, (levels or {}).get(member, ()), found
+            )
+            for member, found in zip(shown, answers, strict=True)
+        ],
+        log=[_record_addition(envelope, one) for one in maxima.log],
+    )
+
+
+def _record_bound(
+    envelope: RowEnvelope,
+    member: str,
+    shown: Sequence[str],
+    levels: Sequence[tuple[str, float]],
+    answers: Sequence[Sensitivity],
+) -> BoundRecord:
+    place = envelope.members.index(member)
+    maxima = envelope.maxima
+    governing = envelope.governing(member)
+    return BoundRecord(
+        quantity=member,
+        max_kN=kilonewton_from_newton(envelope.force(member).value),
+        upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
+        case=record_case(governing.case, envelope.task.box),
+        coincident_kN={
+            other: kilonewton_from_newton(governing.member_forces[other].value)
+            for other in shown
+            if other != member
+        },
+        unexplained=measure_unexplained(maxima, place),
+        drivers=_record_drivers(envelope.task.box.axes, answers),
+        flips=_find_flips(envelope, place, levels),
+        lines=_record_lines(envelope, place),
+        maps=_record_maps(envelope, place),
+        confirmation=_record_confirmation(envelope, member),
+    )
+
+
+def _record_drivers(
+    axes: Sequence[str], answers: Sequence[Sensitivity]
+) -> list[DriverRecord]:
+    return [
+        DriverRecord(
+            key=PARAMETERS[axes[one.axis]].key,
+            at_low_kN=kilonewton_from_newton(one.at_low),
+            at_high_kN=kilonewton_from_newton(one.at_high),
+            least_kN=kilonewton_from_newton(one.low),
+            most_kN=kilonewton_from_newton(one.high),
+            first_order=one.first_order,
+            total=one.total,
+        )
+        for one in answers
+    ]
+
+
+def _find_flips(
+    envelope: RowEnvelope, place: int, levels: Sequence[tuple[str, float]]
+) -> list[FlipRecord]:
+    box = envelope.task.box
+    forces = [level for _, level in levels]
+    crossings = {
+        name: find_crossings(envelope.maxima, place, axis, *forces)
+        for axis, name in enumerate(box.axes)
+    }
+    return [
+        FlipRecord(
+            check=check,
+            key=PARAMETERS[name].key,
+            value=show_parameter(name, _value(box, name, share)),
+        )
+        for number, (check, _) in enumerate(levels)
+        for name in box.axes
+        for share in crossings[name][number]
+    ]
+
+
+def _value(box: Box, name: str, share: float) -> float:
+    span = dict(box.intervals)[name]
+    return (1.0 - share) * span.low + share * span.high
+
+
+def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
+    maxima, box = envelope.maxima, envelope.task.box
+    if maxima.surrogate is None:
+        return []
+    through = maxima.points[maxima.governing[place]]
+    found = []
+    for axis, name in enumerate(box.axes):
+        shares, force, claim = follow_axis(
+            maxima.surrogate, through, axis, place, _LINE_POINTS
+        )
+        bound = force + envelope.task.search.certainty * claim
+        found.append(
+            LineRecord(
+                key=PARAMETERS[name].key,
+                values=[show_parameter(name, _value(box, name, s)) for s in shares],
+                force_kN=_show_drawn(force),
+                bound_kN=_show_drawn(bound),
+            )
+        )
+    return found
+
+
+def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
+    """Maps over density and friction; none where one of the two does not range."""
+    maxima, box = envelope.maxima, envelope.task.box
+    axes = box.axes
+    if maxima.surrogate is None or not {"density", "friction_angle"} <= set(axes):
+        return []
+    governing = maxima.points[maxima.governing[place]]
+    tilted = axes.index("inclination") if "inclination" in axes else None
+    levels = [k / (_MAPS - 1) for k in range(_MAPS)] if tilted is not None else [None]
+    density, friction = axes.index("density"), axes.index("friction_angle")
+    shares = [k / (_MAP_POINTS - 1) for k in range(_MAP_POINTS)]
+    found = []
+    for level in levels:
+        through = list(governing)
+        if tilted is not None and level is not None:
+            through[tilted] = level
+        at = np.tile(through, (_MAP_POINTS**2, 1))
+        at[:, friction] = np.repeat(shares, _MAP_POINTS)
+        at[:, density] = np.tile(shares, _MAP_POINTS)
+        (force,) = maxima.surrogate.evaluate(at, place)
+        values = box.place(through)
+        inclination = values.get("inclination", envelope.results[0].case.inclination)
+        found.append(
+            MapRecord(
+                inclination_deg=show_parameter("inclination", inclination),
+                density_kg_m3=[_value(box, "density", s) for s in shares],
+                friction_deg=[
+                    show_parameter("friction_angle", _value(box, "friction_angle", s))
+                    for s in shares
+                ],
+                force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),
+            )
+        )
+    return found
+
+
+def _show_drawn(force: NDArray[np.float64]) -> Any:
+    """Modelled forces in kN, as lists, to what a drawing shows."""
+    return (kilonewton_from_newton(1.0) * force).round(_DRAWN_DECIMALS).tolist()
+
+
+def _record_confirmation(
+    envelope: RowEnvelope, member: str
+) -> ConfirmationRecord | None:
+    one = next((c for c in envelope.confirmations if c.member == member), None)
+    return None if one is None else _show_confirmation(one)
+
+
+def _show_confirmation(one: Confirmation) -> ConfirmationRecord:
+    screened, confirmed = one.screened.solution, one.confirmed.solution
+    difference = one.difference
+    forces = one.confirmed.member_forces
+    return ConfirmationRecord(
+        method=confirmed.method if confirmed else "",
+        screened_kN=kilonewton_from_newton(
+            one.screened.member_forces[one.member].value
+        ),
+        confirmed_kN=(
+            kilonewton_from_newton(forces[one.member].value) if forces else None
+        ),
+        difference_percent=None if difference is None else 100.0 * difference,
+        elements=confirmed.elements if confirmed else None,
+        screened_elements=screened.elements if screened else 0,
+        reason=one.confirmed.reason,
+    )
+
+
+def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
+    def show(value: float) -> float | None:
+        return kilonewton_from_newton(value) if math.isfinite(value) else None
+
+    values = envelope.task.box.place(one.point)
+    names = envelope.quantities
+    return AdditionRecord(
+        round=one.round,
+        reason=one.reason,
+        quantity=names[one.quantity] if names else "",
+        case={PARAMETERS[k].key: show_parameter(k, v) for k, v in values.items()},
+        predicted_kN=show(one.predicted),
+        claimed_kN=show(one.claimed),
+        found_kN=show(one.found),
+    )

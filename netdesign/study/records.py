@@ -1,0 +1,514 @@
+"""The study as a document: one value that feeds every output.
+
+All numbers of this module's values are in engineer's units (kN, degrees, m,
+kg/m3), named in each field, exactly as the JSON document shows them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from pathlib import Path
+from typing import ClassVar, Literal
+
+from netdesign.edge.given_files import list_faults, read_bounded
+from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
+from netdesign.errors import StudyError
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import InputEcho, Project
+
+SCHEMA: Literal["netdesign.study/1"] = "netdesign.study/1"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CasePoint:
+    """One point of the ranges."""
+
+    density_kg_m3: float
+    friction_deg: float
+    inclination_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaseRecord:
+    """One solved case of a net row: per-anchor forces, characteristic."""
+
+    case: CasePoint
+    outcome: Outcome
+    reason: str  # "" when converged
+    foot_anchor_kN: float | None
+    uphill_guy_kN: float | None
+    downhill_guy_kN: float | None
+    post_kN: float | None
+    error_percent: float | None  # estimated, of the worst of the four
+    balance_residual: float | None  # relative to the weight
+    is_calibrated: bool = True  # the creep law is given for this density
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExtremeRecord:
+    """Largest value of one member force over all cases, characteristic."""
+
+    quantity: str  # "foot_anchor", "uphill_guy", "downhill_guy", "post"
+    max_kN: float
+    low_kN: float  # band: numerical error
+    high_kN: float
+    case: CasePoint
+    coincident_kN: dict[str, float]  # the other members in that case
+    upper_bound_kN: float | None = None  # None for a grid, which has no bound
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxisRecord:
+    """One quantity that ranges; unit in its key."""
+
+    key: str  # "density_kg_m3"
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriverRecord:
+    """How one force answers to one quantity that ranges."""
+
+    key: str
+    at_low_kN: float  # the others as in the governing case
+    at_high_kN: float
+    least_kN: float
+    most_kN: float
+    first_order: float  # Sobol index
+    total: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlipRecord:
+    """A value at which a check flips, the others as in the governing case."""
+
+    check: str  # id of the check
+    key: str
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineRecord:
+    """Force along one quantity through the governing case."""
+
+    key: str
+    values: list[float]
+    force_kN: list[float]
+    bound_kN: list[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MapRecord:
+    """Force over density and friction at one inclination; rows are frictions."""
+
+    inclination_deg: float
+    density_kg_m3: list[float]
+    friction_deg: list[float]
+    force_kN: list[list[float]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConfirmationRecord:
+    """The governing case solved again by another fidelity."""
+
+    method: str
+    screened_kN: float
+    confirmed_kN: float | None
+    difference_percent: float | None
+    elements: int | None
+    screened_elements: int
+    reason: str  # why there is no confirmation; "" if there is one
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoundRecord:
+    """Largest value of one force anywhere in the ranges.
+
+    Per anchor; per metre of width where the envelope says so.
+    """
+
+    quantity: str
+    max_kN: float
+    upper_bound_kN: float  # with what may hide between the cases
+    case: dict[str, float]
+    coincident_kN: dict[str, float]
+    unexplained: float | None  # error of the Sobol indices: share of the variance
+    drivers: list[DriverRecord]
+    flips: list[FlipRecord]
+    lines: list[LineRecord]
+    maps: list[MapRecord]
+    confirmation: ConfirmationRecord | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AdditionRecord:
+    """One line of the densification log."""
+
+    round: int
+    reason: str
+    quantity: str
+    case: dict[str, float]
+    predicted_kN: float | None
+    claimed_kN: float | None  # one standard error of the prediction
+    found_kN: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnvelopeRecord:
+    """How the largest forces of a net row were found, and what may hide."""
+
+    axes: list[AxisRecord]
+    is_per_metre: bool
+    is_closed: bool  # every gap is within the one asked for
+    gap_asked_percent: float
+    certainty: float  # standard errors in an upper bound
+    resolved_share: float  # narrower features may hide, as a share of a range
+    cases: int
+    skipped: int  # known without a solve, since the snow stuck with less friction
+    skips_tested: int
+    failed: int
+    bounds: list[BoundRecord]
+    log: list[AdditionRecord]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ActionRecord:
+    """How the characteristic force of a support follows from that of the solve."""
+
+    solved_kN: float  # of a support inside a row, over the envelope
+    post_spacing_m: float
+    position: str  # "intermediate" or "edge": which of the two carries more
+    loaded_width_m: float
+    end_factor: float  # f_R, 0 inside a row
+    end_length_m: float
+    lateral_factor: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpreadRecord:
+    """One part of the interval of a utilisation."""
+
+    source: str  # "numerical error", "between the cases", "creep law zwinger-2007"
+    low: float | None  # None where there is no number; ``note`` says why
+    high: float | None
+    in_verdict: bool
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChangeRecord:
+    """The smallest change of one quantity that flips a check, or where it flips."""
+
+    quantity: str  # "characteristic resistance", "post spacing", "density", ...
+    unit: str
+    now: float | None
+    bound: float | None  # None where no value in reach flips the check
+    sense: str  # "at least" or "at most"
+    solves: int  # coupled solves that it took; 0 for an exact proportion
+    note: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckRecord:
+    """One check. Demand and resistance are design values.
+
+    The six numbers are None where they do not exist: a geometry check has no
+    force; a missing resistance gives no utilisation (and never a pass).
+    """
+
+    id: str  # e.g. "foot_anchor.tendon", "geometry.inclination"
+    clause: str
+    member: str
+    mode: str
+    demand_kN: float | None
+    demand_low_kN: float | None
+    demand_high_kN: float | None
+    resistance_kN: float | None
+    utilisation: float | None
+    verdict: Verdict
+    case: CasePoint | None
+    reason: str  # one sentence, always there
+    action_kN: float | None = None  # characteristic action
+    action_factor: float | None = None
+    resistance_characteristic_kN: float | None = None
+    resistance_factor: float | None = None
+    resistance_basis: str = ""  # "tested", "computed", "declared"
+    resistance_type: str = ""  # id of the anchor, rope or post type
+    resistance_cell: str = ""  # "Anchors!B4"
+    resistance_derivation: str = ""  # how it follows from dimensions or tests
+    action: ActionRecord | None = None
+    spreads: list[SpreadRecord] = field(default_factory=list)
+    changes: list[ChangeRecord] = field(default_factory=list)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arrow:
+    """A force drawn at a point of the section; per anchor."""
+
+    member: str
+    x_m: float
+    y_m: float
+    force_x_kN: float  # what the structure does to the ground
+    force_y_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing:
+    """Section of the governing case, in the slope's axes [m]."""
+
+    case: CasePoint
+    slope_deg: float
+    snow_thickness_m: float
+    net_m: list[tuple[float, float]]  # foot to head, under load
+    sticks: list[bool]  # per net point: the snow sticks there
+    mesh_edges_m: list[tuple[float, float, float, float]]
+    head_m: tuple[float, float]
+    post_base_m: tuple[float, float]
+    uphill_anchor_m: tuple[float, float]
+    downhill_anchor_m: tuple[float, float]
+    arrows: list[Arrow]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MonitoringRecord:
+    """What was measured at one member, and the model's history beside it.
+
+    Missing readings are None; without a history its lists are empty and
+    ``model_reason`` says why.
+    """
+
+    member: str
+    source: str  # "Monitoring!A2"
+    times_d: list[float]  # since the first reading
+    tensions_kN: list[float | None]
+    air_temperatures_C: list[float | None]
+    model_times_d: list[float]
+    model_kN: list[float]
+    model_start: str
+    model_reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnchorRecord:
+    """Force of the structure on the ground at one point, in the drawn case."""
+
+    anchor: str  # "foot_anchor", "uphill_anchor", "downhill_anchor", "post_base"
+    member: str  # what brings it: "net", "uphill_guy", "downhill_guy", "post"
+    force_x_kN: float  # downslope
+    force_y_kN: float  # out of the ground
+    lateral_kN: float  # along the row, either way; share of the profile
+    size_kN: float  # in the section
+    direction_deg: float | None  # 0 downslope, 90 out of the ground; None if slack
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadForce:
+    """One force on the post head; those of a head sum up to zero."""
+
+    member: str
+    x_kN: float
+    y_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineCase:
+    """One load case of the guideline on this row; characteristic, inside a row."""
+
+    name: str
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float | None
+    glide_factor: float | None
+    rigid_kN_per_m: float | None  # S'_N on a rigid wall
+    load_kN_per_m: float | None  # along the slope on the net, with the prism
+    foot_anchor_kN: float | None
+    uphill_guy_kN: float | None
+    post_kN: float | None
+    load_difference_percent: float | None  # of the coupled solve against this
+    foot_difference_percent: float | None
+    reason: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineRecord:
+    """Independent check of a row by the guideline's load model."""
+
+    profile: str  # whose numbers
+    sha256: str
+    case: CasePoint  # of the coupled solve
+    solved_load_kN_per_m: float  # along the slope on the net
+    solved_foot_anchor_kN: float
+    cases: list[GuidelineCase]
+    sentence: str  # why the two differ
+
+
+@dataclass(frozen=True, kw_only=True)
+class IndependentRecord:
+    """One law that the drawn case must obey whatever the mesh."""
+
+    name: str  # "global_balance", "end_direction", "capstan_ratio", ...
+    value: float | None  # a share or a ratio [-]
+    limit: float | None  # None where nothing bounds it
+    is_met: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class RowStudy:
+    """Everything about one net row."""
+
+    id: str
+    verdict: Verdict
+    checks: list[CheckRecord]
+    extremes: list[ExtremeRecord]
+    cases: list[CaseRecord]
+    inputs: list[InputEcho]
+    drawing: Drawing | None  # None when no case converged
+    reasons: list[str]  # why the row is not proven, or what failed; may be empty
+    monitoring: list[MonitoringRecord] = field(default_factory=list)
+    anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
+    head: list[HeadForce] = field(default_factory=list)  # in the drawn case
+    guideline: GuidelineRecord | None = None
+    notes: list[str] = field(default_factory=list)
+    independent: list[IndependentRecord] = field(default_factory=list)
+    envelope: EnvelopeRecord | None = None  # None for a grid of cases
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProfileValue:
+    """One value of the limit profile, with where it comes from."""
+
+    id: str
+    clause: str
+    text: str
+    value: float
+    unit: str
+    status: str  # "read", "secondary", "assumed", "user"
+    source: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProfileRecord:
+    """The limit profile that was used."""
+
+    id: str
+    title: str
+    edition: str
+    sha256: str
+    values: list[ProfileValue]
+    version: str = ""
+    choice: str = ""  # set of factors in force; "" where the profile has none
+
+
+@dataclass(frozen=True, kw_only=True)
+class Provenance:
+    """How this study was made; enough to repeat it."""
+
+    version: str
+    command: str
+    started: str  # ISO 8601, UTC
+    site_file: str
+    site_sha256: str
+    settings: dict[str, str]
+    libraries: dict[str, str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """One study of one site under one profile."""
+
+    # Read by pydantic, for this class and all values in it.
+    __pydantic_config__: ClassVar = {
+        "extra": "forbid",
+        "strict": True,
+        "allow_inf_nan": False,
+    }
+
+    schema: Literal["netdesign.study/1"]
+    verdict: Verdict
+    project: Project
+    profile: ProfileRecord
+    rows: list[RowStudy]
+    range_inputs: list[InputEcho]
+    notes: list[str]
+    provenance: Provenance
+    digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
+
+
+def compute_digest(study: Study) -> str:
+    """SHA-256 of a study without its own digest.
+
+    It shows that a document is the one whose digest is printed in a report, or that it
+    was altered by somebody who did not think of it. Who alters a document on purpose
+    can compute it again: only a new solve shows that the numbers are true.
+    """
+    # 2 and 2.0 are one number, and become one when a document is read
+    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
+
+
+def write_document(study: Study) -> str:
+    """JSON text of a study, with its digest.
+
+    Numbers stand in full, keys in the order of the fields.
+    """
+    return write_json(replace(study, digest=compute_digest(study)))
+
+
+def read_document(text: str) -> Study:
+    """Study from its JSON text.
+
+    Raises
+    ------
+    StudyError
+        Naming every key that is missing, unknown or of the wrong kind; of a large
+        document those of the first faulty member of each list.
+    """
+    from pydantic import ValidationError
+
+    try:
+        study: Study = read_json(Study, text)
+        _require_sense(study)
+    except ValidationError as error:
+        faults = [
+            f"{'.'.join(str(part) for part in fault['loc']) or 'document'}: "
+            f"{fault['msg']}"
+            for fault in error.errors(include_input=False, include_url=False)
+        ]
+        message = f"not a study of schema {SCHEMA}:\n{list_faults(faults)}"
+        raise StudyError(message) from None
+    except ValueError as error:
+        raise StudyError(f"not a study of schema {SCHEMA}: {error}") from None
+    return study
+
+
+def _require_sense(study: Study) -> None:
+    """Refuse what has the right kind and is impossible all the same."""
+    counts = Counter(row.id for row in study.rows)
+    twice = [name for name, count in counts.items() if count > 1]
+    if twice:
+        raise ValueError(f"rows: the id {twice[0]!r:.60} is used twice")
+    started = study.provenance.started
+    try:
+        datetime.fromisoformat(started or "1980-01-01")
+    except ValueError:
+        raise ValueError(f"provenance.started: {started!r:.60} is no date") from None
+
+
+def load_study(path: Path) -> Study:
+    """Study from a stored file.
+
+    Raises
+    ------
+    StudyError
+        If the file cannot be read, or is no study.
+    """
+    try:
+        text = read_bounded(path, MAX_JSON_BYTES).decode()
+    except (OSError, ValueError) as error:
+        raise StudyError(f"{path}: cannot be read: {error}") from None
+    return read_document(text)

@@ -1,0 +1,76 @@
+"""The weakest type that would do: of the workbook, or a rope of the catalogue."""
+
+from __future__ import annotations
+
+import math
+
+from netdesign.checks import Standard, find_characteristic
+from netdesign.resistance.catalogue import find_rope_factor, find_termination
+from netdesign.resistance.steel import compute_rope_resistance
+from netdesign.site.model import Resistance, Site
+from netdesign.study.records import ChangeRecord
+from netdesign.units import kilonewton_from_newton
+
+_CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
+_DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
+
+
+def find_type_change(
+    site: Site, given: Resistance, demand: float, standard: Standard
+) -> ChangeRecord | None:
+    """Type whose design resistance reaches the design ``demand`` [N].
+
+    First the weakest type of the workbook, as far as any net row uses it; else, for
+    ropes, a diameter of the catalogue. None where the type that is there does, or
+    nothing is known that would.
+    """
+    enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
+    for row in site.rows:
+        for other in row.resistances:
+            if other.mode != given.mode:
+                continue
+            factor = standard.find_resistance_factor(other.mode, other.basis)
+            value, lack = find_characteristic(other, standard)
+            if value is None or lack or factor is None:
+                continue
+            if value / factor.value_si >= demand:
+                enough[other.type_id] = (value / factor.value_si, value)
+    if given.type_id in enough:
+        return None
+    if enough:
+        name = min(enough, key=lambda key: (enough[key], key))
+        return _record(f"type {name} of the workbook", enough[name][1], given)
+    factor = standard.find_resistance_factor(given.mode, "declared")
+    if given.mode != "rope" or factor is None:
+        return None
+    return _find_rope(demand * factor.value_si, given)
+
+
+def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
+    factor = find_rope_factor(_CONSTRUCTION, "K")
+    loss = find_termination(_TERMINATION)
+    for diameter in _DIAMETERS_MM:
+        value = compute_rope_resistance(
+            diameter=diameter / 1e3,
+            grade=_GRADE,
+            breaking_factor=factor.value,
+            termination=loss.value,
+        )
+        if value >= needed:
+            name = (
+                f"rope {diameter} mm {_CONSTRUCTION}, {_GRADE / 1e6:.0f} MPa, "
+                f"{_TERMINATION} ({loss.status})"
+            )
+            return _record(name, value, given)
+    return None
+
+
+def _record(name: str, value: float, given: Resistance) -> ChangeRecord:
+    return ChangeRecord(
+        quantity=name,
+        unit="kN",
+        now=kilonewton_from_newton(given.value) if given.value is not None else None,
+        bound=math.floor(kilonewton_from_newton(value) * 10.0) / 10.0,
+        sense="has",
+        solves=0,
+    )

@@ -1,0 +1,97 @@
+"""Every value of a study by its place, so that two studies can be compared whole."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, is_dataclass
+from enum import Enum
+from typing import Any
+
+from netdesign.edge.json_text import list_fields
+
+SAME = 1e-6  # relative; other machines differ in the last digits only
+# Absolute, of residuals, shares and small differences, which are rounding themselves.
+_NOISE = 1e-6
+_PERCENT = "_percent"  # end of the name of a difference or an error
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Difference:
+    """One value that two studies do not share; None where one has none."""
+
+    place: str  # "rows.R1.checks.foot_anchor.tendon.demand_kN"
+    stored: Any
+    again: Any
+
+    def __str__(self) -> str:
+        """``rows.R1.verdict: stored 'pass', again 'fail'``."""
+        return f"{self.place}: stored {self.stored!r}, again {self.again!r}"
+
+
+def list_values(part: object) -> dict[str, Any]:
+    """Values of a study, or of a part of one, by their places.
+
+    Members of a list stand under their ids, if each has its own; the order of these
+    is a value too.
+    """
+    return dict(_flatten(part, ""))
+
+
+def compare_values(
+    stored: object, again: object, *, is_exact: bool = False
+) -> list[Difference]:
+    """Places at which two parts differ, in the order of the first.
+
+    Parameters
+    ----------
+    stored, again : object
+        Studies, or the same part of each.
+    is_exact : bool
+        Numbers count as different in their last digit already; otherwise by more than
+        a millionth, which other machines and libraries do not reach.
+    """
+    old, new = list_values(stored), list_values(again)
+    places = dict.fromkeys((*old, *new))
+    return [
+        Difference(place=place, stored=old.get(place), again=new.get(place))
+        for place in places
+        if place not in old
+        or place not in new
+        or not _is_same(old[place], new[place], 0.0 if is_exact else _find_noise(place))
+    ]
+
+
+def _flatten(value: Any, place: str) -> Iterator[tuple[str, Any]]:
+    if is_dataclass(value):
+        value = list_fields(value)
+    if not isinstance(value, dict | list | tuple):
+        yield place, str(value) if isinstance(value, Enum) else value
+        return
+    if not value:
+        yield place, type(value)()
+    ids = [] if isinstance(value, dict) else _list_ids(value)
+    if ids:
+        yield f"{place}.order".removeprefix("."), ", ".join(ids)
+    names = list(value) if isinstance(value, dict) else ids or range(len(value))
+    parts = value.values() if isinstance(value, dict) else value
+    for name, part in zip(names, parts, strict=True):
+        yield from _flatten(part, f"{place}.{name}".removeprefix("."))
+
+
+def _list_ids(members: Sequence[Any]) -> list[str]:
+    """Ids of the members of a list; none if one lacks it or two share it."""
+    ids = [str(getattr(one, "id", "")) for one in members]
+    return ids if all(ids) and len(set(ids)) == len(ids) else []
+
+
+def _find_noise(place: str) -> float:
+    """Absolute difference that counts as none; two forces make a difference in %."""
+    return 100.0 * _NOISE if place.endswith(_PERCENT) else _NOISE
+
+
+def _is_same(old: Any, new: Any, noise: float) -> bool:
+    if all(isinstance(one, float) or type(one) is int for one in (old, new)):
+        tolerance = SAME if noise else 0.0
+        return math.isclose(old, new, rel_tol=tolerance, abs_tol=noise)
+    return type(old) is type(new) and bool(old == new)

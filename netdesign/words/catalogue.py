@@ -1,0 +1,77 @@
+"""Texts of each language by key, and messages rendered in them.
+
+A language is a folder of TOML files, one for each area, whose tables give the first
+part of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistance``. A
+gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace.
+Every language has every key with the same gaps; a test says so.
+"""
+
+from __future__ import annotations
+
+import string
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any, Literal, get_args
+
+from netdesign.words.message import Message
+
+Language = Literal["en", "fr", "de"]
+LANGUAGES: tuple[Language, ...] = get_args(Language)
+
+
+def render(message: Message, language: Language) -> str:
+    """Text of a message in a language.
+
+    Raises
+    ------
+    KeyError
+        If no text has this key, or an argument lacks: a fault of the program.
+    """
+    return _Gaps(language).vformat(
+        load_texts(language)[message.key], (), message.arguments
+    )
+
+
+class _Gaps(string.Formatter):
+    """Fills the gaps of one language's text."""
+
+    def __init__(self, language: Language) -> None:
+        self.language = language
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        """An argument as text: words of ours in the language of the whole."""
+        if isinstance(value, Message):
+            return render(value, self.language)
+        if isinstance(value, tuple):
+            return ", ".join(render(one, self.language) for one in value)
+        return str(super().format_field(value, format_spec))
+
+
+@lru_cache(maxsize=len(LANGUAGES))
+def load_texts(language: Language) -> Mapping[str, str]:
+    """All texts of a language by key."""
+    folder = files(__package__) / language
+    texts: dict[str, str] = {}
+    for file in sorted(folder.iterdir(), key=lambda one: one.name):
+        for key, text in _list_texts(tomllib.loads(file.read_text(encoding="utf-8"))):
+            if key in texts:
+                raise ValueError(f"two texts have the key {key} in {language}")
+            texts[key] = text
+    return MappingProxyType(texts)
+
+
+def _list_texts(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
+    for name, value in table.items():
+        key = f"{above}.{name}" if above else name
+        if isinstance(value, str):
+            yield key, value
+        else:
+            yield from _list_texts(value, key)
+
+
+def list_gaps(text: str) -> frozenset[str]:
+    """Names of the arguments that a text asks for."""
+    return frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name)

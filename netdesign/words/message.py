@@ -1,0 +1,56 @@
+"""A text as data: its key and its arguments, until somebody reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TypeAlias
+
+Argument: TypeAlias = "str | int | float | Message | tuple[Message, ...]"
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What is to be said, in no language yet.
+
+    Attributes
+    ----------
+    key : str
+        Key of the text in ``words/LANGUAGE/AREA.toml``, as ``check.no_resistance``.
+    arguments : mapping of str to Argument
+        What stands in the gaps of the text. Somebody's own words are ``str``; words of
+        ours are a `Message`, rendered in the same language; a tuple is a list of them.
+
+    Examples
+    --------
+    >>> str(say("unit.count_cases", count=3))
+    '3 cases'
+    """
+
+    key: str
+    arguments: Mapping[str, Argument] = field(
+        default_factory=lambda: MappingProxyType({})
+    )
+
+    def __str__(self) -> str:
+        """The text in English, for logs and for whoever uses the package in Python."""
+        from netdesign.words.catalogue import render
+
+        return render(self, "en")
+
+    def __hash__(self) -> int:
+        return hash((self.key, tuple(sorted(self.arguments))))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """The plain values: a mapping that cannot be changed is not pickled."""
+        return _restore, (self.key, dict(self.arguments))
+
+
+def say(key: str, /, **arguments: Argument) -> Message:
+    """Message with the arguments that the text of this key asks for."""
+    return Message(key, MappingProxyType(arguments))
+
+
+def _restore(key: str, arguments: dict[str, Argument]) -> Message:
+    return say(key, **arguments)

@@ -1,0 +1,76 @@
+"""Less slack pulls more: over random scenes, and the ladder of tautened nets."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.steady import bound
+from netdesign.coupling.steady.bound import bound_by_less_slack
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.errors import ModelError
+from netdesign.evidence.benchmark.random_scenes import draw_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.outcome import Outcome
+from netdesign.snow.wall import Wall
+
+ROUGH = SolverSettings(accuracy=0.05)
+
+
+def test_less_slack_pulls_more():
+    compared = 0
+    for number in range(60):
+        try:
+            scene = build_tables(draw_scene(23, number))
+        except ModelError:
+            continue
+        slack = scene.net.slack
+        if slack < 0.01 or scene.snowpack.layers:
+            continue
+        tauter = replace(scene, net=replace(scene.net, slack=0.75 * slack))
+        pair = [solve_steady(one, ROUGH) for one in (scene, tauter)]
+        if not all(isinstance(one, Solution) for one in pair):
+            continue
+        own, more = pair
+        assert more.foot.size + more.foot.error > own.foot.size - own.foot.error
+        assert more.head.size + more.head.error > own.head.size - own.head.error
+        assert more.foot.size > own.foot.size
+        compared += 1
+    assert compared > 8
+
+
+def test_the_most_slack_that_is_solved_is_taken(monkeypatch, a_scene, solved):
+    tried = []
+
+    def solve(scene, _settings):
+        tried.append(scene.net.slack)
+        if scene.net.slack > 0.3 * slack:
+            return FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason="folds")
+        return solved()
+
+    scene = a_scene()
+    slack = 0.0731
+    scene = replace(scene, net=replace(scene.net, slack=slack))
+    monkeypatch.setattr(bound, "solve_steady", solve)
+    found = bound_by_less_slack(scene, ROUGH)
+    assert found is not None
+    assert found.slack == 0.25 * slack
+    assert tried == [0.75 * slack, 0.5 * slack, 0.25 * slack]
+
+
+def test_nothing_bounds_a_taut_net_or_a_wall(a_scene):
+    scene = a_scene()
+    taut = replace(scene, net=replace(scene.net, slack=0.0))
+    assert bound_by_less_slack(taut, ROUGH) is None
+    wall = replace(scene, net=Wall(height_normal=scene.net.height_normal))
+    assert bound_by_less_slack(wall, ROUGH) is None
+
+
+@pytest.mark.parametrize("slack", [0.0731])
+def test_nothing_bounds_what_fails_taut_too(monkeypatch, a_scene, slack):
+    failed = FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason="folds")
+    monkeypatch.setattr(bound, "solve_steady", lambda *_: failed)
+    scene = a_scene()
+    scene = replace(scene, net=replace(scene.net, slack=slack))
+    assert bound_by_less_slack(scene, ROUGH) is None

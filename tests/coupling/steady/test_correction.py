@@ -1,0 +1,70 @@
+"""Steps of rounds that gain too little alone."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.steady import correction
+from netdesign.coupling.steady.correction import Round, correct_round
+from netdesign.snow.linear import SingularError
+
+CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
+
+
+def a_round(curve, image):
+    hanging = SimpleNamespace(cable=None, forces=None, lengths=None)
+    flow = SimpleNamespace(state=None)
+    return Round(curve=curve, mesh=None, flow=flow, hanging=hanging, image=image)
+
+
+PROBLEM = SimpleNamespace(law=None, stiffness=None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_step_ends_where_a_linear_round_stays(monkeypatch, seed):
+    """Also where the round alone circles round its fixed point or flees from it."""
+    rng = np.random.default_rng(seed)
+    matrix, still = rng.normal(0.0, 2.0, (6, 6)), rng.normal(size=6)
+    monkeypatch.setattr(
+        correction, "linearise_round", lambda *_: matrix.reshape(2, 3, 2, 3)
+    )
+    image = (still + matrix @ (CURVE.ravel() - still)).reshape(2, 3)
+    found = correct_round(PROBLEM, a_round(CURVE, image), None)
+    np.testing.assert_allclose(found.target.ravel(), still, atol=1e-10)
+
+
+def test_a_round_that_made_things_worse_is_half_taken_back(monkeypatch):
+    monkeypatch.setattr(
+        correction, "linearise_round", lambda *_: np.zeros((2, 3, 2, 3))
+    )
+    first = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
+    worse = a_round(first.target, first.target + 0.03)
+    second = correct_round(PROBLEM, worse, first)
+    np.testing.assert_allclose(second.target, CURVE + 0.005, atol=1e-15)
+    better = a_round(first.target, first.target + 0.002)
+    third = correct_round(PROBLEM, better, first)
+    np.testing.assert_allclose(third.target, first.target + 0.002, atol=1e-15)
+
+
+def test_a_step_is_not_halved_for_ever(monkeypatch):
+    monkeypatch.setattr(
+        correction, "linearise_round", lambda *_: np.zeros((2, 3, 2, 3))
+    )
+    found = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
+    for _ in range(20):
+        if not found.may_halve:
+            break
+        found = correct_round(PROBLEM, a_round(CURVE, CURVE + 1.0), found)
+    assert not found.may_halve
+    on = correct_round(PROBLEM, a_round(CURVE + 0.5, CURVE + 1.0), found)
+    np.testing.assert_array_equal(on.curve, CURVE + 0.5)
+
+
+def test_without_a_derivative_the_step_is_a_damped_round(monkeypatch):
+    def fail(*_):
+        raise SingularError("nothing holds the snow")
+
+    monkeypatch.setattr(correction, "linearise_round", fail)
+    found = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
+    np.testing.assert_allclose(found.target, CURVE + 0.005, atol=1e-15)

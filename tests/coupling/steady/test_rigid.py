@@ -1,0 +1,152 @@
+"""Outcomes of a wall. Truth: tests/verification/test_rigid_wall.py and the pack."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling import interface
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution, WallSolution
+from netdesign.coupling.steady import glide_factor as glide
+from netdesign.coupling.steady.glide_factor import measure_glide_factor
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from netdesign.snow.wall import Wall
+
+COARSE = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
+PRESSED = {"ground": "no-slip", "inclination_deg": 0.0}
+
+
+def walled(a_scene, friction_angle=None, inclination=0.0, **given):
+    wall = Wall(
+        height_normal=4.0, inclination=inclination, friction_angle=friction_angle
+    )
+    return replace(a_scene(**given), net=wall)
+
+
+def press(*arguments, settings=COARSE, **given) -> WallSolution:
+    solution = solve_rigid(walled(*arguments, **given), settings)
+    assert isinstance(solution, WallSolution)
+    assert solution.balance.relative_residual < 1e-8
+    return solution
+
+
+@pytest.mark.parametrize("inclination", [0.0, 0.5])
+@pytest.mark.parametrize("friction_angle", [0.05, 0.2])
+def test_friction_is_within_its_limit(a_scene, friction_angle, inclination):
+    solution = press(a_scene, friction_angle, inclination, ground="no-slip")
+    assert solution.balance.friction_excess <= 1e-8
+    normal = np.array([math.cos(inclination), -math.sin(inclination)])
+    along = np.array([math.sin(inclination), math.cos(inclination)])
+    pressure, shear = (part @ solution.wall_forces[:, 1:] for part in (normal, along))
+    slips = solution.wall_slides[1:]
+    assert slips.any()
+    limit = math.tan(friction_angle) * np.maximum(pressure, 0.0)
+    scale = pressure.max()
+    np.testing.assert_allclose(np.abs(shear[slips]), limit[slips], atol=1e-8 * scale)
+    assert (np.abs(shear) <= limit + 1e-8 * scale).all()
+
+
+def test_more_friction_ends_in_adhesion(a_scene):
+    """The settling snow hangs on the wall the more, the rougher it is."""
+    hanging = [
+        -press(a_scene, angle, **PRESSED).force.y for angle in (0.0, 0.1, 0.3, None)
+    ]
+    assert hanging == sorted(hanging)
+    assert hanging[-1] > hanging[0]
+
+
+def test_pressure_tips_the_upper_edge_downslope(a_scene):
+    """A lone downslope force at height y has the moment + y F."""
+    solution = press(a_scene, 0.0, **PRESSED)
+    height = solution.moment_about_foot / solution.force.x
+    assert 0.0 < height < 4.0
+    # without shear or lean only X-forces turn it
+    moment = (solution.wall_nodes[1] * solution.wall_forces[0]).sum()
+    assert solution.moment_about_foot == pytest.approx(moment, rel=1e-12)
+
+
+def test_pressure_turns_an_inclined_wall_by_its_distance_along_it(a_scene):
+    """Smooth: forces normal to the wall, arms measured along it from the foot."""
+    solution = press(a_scene, 0.0, 0.5, **PRESSED)
+    x, y = solution.wall_nodes[:, 1:]
+    normal = np.array([math.cos(0.5), -math.sin(0.5)])
+    pressure = normal @ solution.wall_forces[:, 1:]
+    moment = (np.hypot(x, y) * pressure).sum()
+    assert solution.moment_about_foot == pytest.approx(moment, rel=1e-9)
+
+
+def test_resultant_is_that_of_the_nodes(a_scene):
+    solution = press(a_scene, **PRESSED)
+    total = solution.wall_forces.sum(axis=1)
+    np.testing.assert_allclose(total, [solution.force.x, solution.force.y], rtol=1e-12)
+    assert solution.balance.smallest_tension is None
+
+
+def test_wall_holds_layered_snow(a_scene):
+    scene = walled(a_scene, **PRESSED)
+    pack = build_layered_snowpack(
+        (Layer(thickness=1.0, density=500.0), Layer(thickness=3.0, density=250.0)),
+        slope_angle=scene.snowpack.slope_angle,
+        upslope_length=20.0,
+    )
+    solution = solve_rigid(replace(scene, snowpack=pack), COARSE)
+    assert solution.balance.relative_residual < 1e-8
+    weight = (500 + 3 * 250) * 9.81 * 20 * math.sin(math.radians(40))
+    assert solution.balance.weight_along_slope == pytest.approx(weight, rel=1e-12)
+
+
+def test_one_sided_wall_and_ground_do_not_pull(a_scene):
+    scene = walled(a_scene, 0.1, 0.5, ground="free")
+    two = solve_rigid(scene, COARSE)
+    assert two.balance.suction_share > 0.0
+    assert two.balance.ground_tension_share > 0.0
+    one = solve_rigid(
+        replace(scene, net_contact="one-sided", ground_contact="one-sided"), COARSE
+    )
+    assert one.balance.suction_share < 1e-9
+    assert one.balance.ground_tension_share < 1e-9
+
+
+def test_stated_error_holds(a_scene):
+    coarse = press(a_scene, **PRESSED)
+    fine = press(a_scene, settings=replace(COARSE, levels=MESH_LEVELS[2:]), **PRESSED)
+    apart = math.hypot(coarse.force.x - fine.force.x, coarse.force.y - fine.force.y)
+    assert apart <= coarse.force.error
+
+
+def test_too_few_newton_steps(a_scene):
+    result = solve_rigid(walled(a_scene, **PRESSED), replace(COARSE, max_iterations=2))
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.MAX_ITERATIONS
+    assert "snow flow" in result.reason
+
+
+def test_force_lost_on_the_ground(a_scene, monkeypatch):
+    compute = interface.compute_support_forces
+
+    def lose_some(*arguments):
+        forces = compute(*arguments)
+        return replace(forces, on_ground=forces.on_ground + np.array([1e-6, 0.0]))
+
+    monkeypatch.setattr(interface, "compute_support_forces", lose_some)
+    result = solve_rigid(walled(a_scene, **PRESSED), COARSE)
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is Outcome.BALANCE_VIOLATED
+
+
+def test_glide_factor_without_a_solution_raises(monkeypatch):
+    monkeypatch.setattr(glide, "_SETTINGS", replace(COARSE, max_iterations=1))
+    with pytest.raises(SolveError, match="snow flow") as raised:
+        measure_glide_factor(BOUTILLIER_2004, 1.0)
+    assert raised.value.outcome is Outcome.MAX_ITERATIONS

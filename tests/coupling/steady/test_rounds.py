@@ -1,0 +1,411 @@
+"""The coupled solve: outcomes, freeboard, error. Truth: tests/verification."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling import interface
+from netdesign.coupling.refine import STEADY_ERROR
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.steady import hanging
+from netdesign.coupling.steady import rounds as steady
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.errors import SolveError
+from netdesign.outcome import Outcome
+from netdesign.snow import flow
+from netdesign.snow.kernel import PlacedMesh
+
+COARSE = SolverSettings(
+    accuracy=0.1,
+    stress_tolerance=1e-8,
+    shape_tolerance=1e-7,
+    levels=MESH_LEVELS[1:3],
+)
+
+ENDS = ("foot", "head")
+
+
+def pull(end) -> np.ndarray:
+    return np.array([end.x, end.y])
+
+
+def assert_fails(outcome, result, reason: str) -> None:
+    assert isinstance(result, FailedSolution)
+    assert result.outcome is outcome
+    assert reason in result.reason
+
+
+# --- outcomes ----------------------------------------------------------------
+
+
+def test_converged(solved):
+    solution = solved(inclination_deg=30.0)
+    assert isinstance(solution, Solution)
+    assert solution.method == "steady"
+    assert solution.balance.relative_residual <= 1e-8
+    assert solution.balance.friction_excess <= 1e-8
+    assert 0.0 < solution.tension_min <= solution.head.size
+    assert solution.foot.size <= solution.tension_max
+
+
+def test_net_that_touches_the_ground(a_scene):
+    scene = a_scene(slack=0.05, inclination_deg=60.0)
+    result = solve_steady(scene, COARSE)
+    assert_fails(Outcome.OUT_OF_VALIDITY, result, "touch the ground: less slack")
+
+
+def test_net_that_folds_the_mesh(a_scene, monkeypatch):
+    monkeypatch.setattr(PlacedMesh, "is_valid", property(lambda _: False))
+    result = solve_steady(a_scene(), COARSE)
+    assert_fails(Outcome.OUT_OF_VALIDITY, result, "mesh folds over")
+
+
+def test_too_few_rounds(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_rounds=2))
+    assert_fails(Outcome.MAX_ITERATIONS, result, "the net still moves by")
+    assert "after 2 rounds" in result.reason
+
+
+def test_too_few_newton_steps(a_scene):
+    result = solve_steady(a_scene(), replace(COARSE, max_iterations=1))
+    assert_fails(Outcome.MAX_ITERATIONS, result, "snow flow")
+
+
+def test_net_without_equilibrium(a_scene, monkeypatch):
+    def without_equilibrium(*arguments):
+        cable = solve_funicular(*arguments)
+        return replace(cable, outcome=Outcome.NO_EQUILIBRIUM)
+
+    solve_funicular = hanging.solve_funicular
+    monkeypatch.setattr(hanging, "solve_funicular", without_equilibrium)
+    result = solve_steady(a_scene(), COARSE)
+    assert_fails(Outcome.NO_EQUILIBRIUM, result, "no equilibrium")
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_force_lost_between_snow_and_ground(a_scene, monkeypatch, axis):
+    """A millionth of rho g d^2 is enough to be refused."""
+
+    def lose_some(*arguments):
+        forces = compute(*arguments)
+        lost = np.zeros(2)
+        lost[axis] = 1e-6
+        return replace(forces, on_ground=forces.on_ground + lost)
+
+    compute = interface.compute_support_forces
+    monkeypatch.setattr(interface, "compute_support_forces", lose_some)
+    result = solve_steady(a_scene(), COARSE)
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+
+
+def test_snow_that_sticks_beyond_its_friction(a_scene, monkeypatch):
+    """A contact that never slips: equilibrium is met, Coulomb is not."""
+
+    def never_slip(law, mesh, contact, velocity, reaction):
+        return replace(contact, sign=np.zeros_like(contact.sign))
+
+    monkeypatch.setattr(flow, "update_contact", never_slip)
+    result = solve_steady(a_scene(inclination_deg=30.0, friction_deg=5.0), COARSE)
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "shear beyond the friction limit")
+
+
+def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
+    """A flow whose last stress is off by a millionth, and no correction of it."""
+
+    def disturb(*arguments, **options):
+        result = solve(*arguments, **options)
+        rng = np.random.default_rng(1)
+        noise = 1e-6 * rng.normal(size=result.state.stress.shape)
+        state = replace(result.state, stress=result.state.stress + noise)
+        return replace(result, state=state)
+
+    solve = steady.solve_flow
+    monkeypatch.setattr(steady, "solve_flow", disturb)
+    monkeypatch.setattr(interface, "remove_rounding", lambda _, __, state: state)
+    settings = replace(COARSE, shape_tolerance=1e-4)
+    result = solve_steady(a_scene(), settings)
+    assert_fails(Outcome.BALANCE_VIOLATED, result, "force missing from the balance")
+
+
+def test_failure_is_raised_when_asked(a_scene):
+    scene = a_scene(slack=0.05, inclination_deg=60.0)
+    with pytest.raises(SolveError, match="touch the ground") as raised:
+        solve_steady(scene, COARSE, on_failure="raise")
+    assert raised.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_same_scene_twice(a_scene):
+    first, second = (solve_steady(a_scene(), COARSE) for _ in range(2))
+    assert first.foot == second.foot
+    assert first.cost == second.cost
+    np.testing.assert_array_equal(first.net_curve, second.net_curve)
+
+
+# --- geometry of the result --------------------------------------------------
+
+
+def test_net_hangs_from_foot_to_head(solved):
+    solution = solved(inclination_deg=30.0)
+    np.testing.assert_array_equal(solution.net_curve[:, 0], 0.0)
+    np.testing.assert_allclose(
+        solution.net_curve[:, -1], solution.scene.net.head, atol=1e-10
+    )
+    assert not solution.net_slides[0]
+
+
+def test_sag_is_the_distance_from_the_chord(solved):
+    """Upright net: simply X, and the mesh bulges by as much."""
+    solution = solved()
+    assert solution.sag == solution.net_curve[0].max()
+    assert solution.mesh_nodes[0].max() == pytest.approx(solution.sag, abs=1e-6)
+
+
+def test_pulls_are_along_the_net(solved):
+    """T t at the foot, -T t at the head; the end elements are 4e-3 d long or less."""
+    solution = solved(inclination_deg=30.0)
+    curve = solution.net_curve
+    for end, step in (
+        (solution.foot, curve[:, 1] - curve[:, 0]),
+        (solution.head, curve[:, -2] - curve[:, -1]),
+    ):
+        direction = step / np.hypot(*step)
+        # turned by the pressure on one small element
+        np.testing.assert_allclose(pull(end) / end.size, direction, atol=5e-3)
+
+
+def test_node_forces_add_up_to_the_pulls(solved):
+    for ground in ("free", "no-slip"):
+        solution = solved(ground=ground, friction_deg=10.0)
+        total = solution.net_forces.sum(axis=1)
+        np.testing.assert_allclose(
+            pull(solution.foot) + pull(solution.head), total, rtol=1e-10
+        )
+
+
+# --- freeboard ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_freeboard_is_straight_and_above_the_snow(solved, inclination):
+    solution = solved(inclination_deg=inclination, height_m=5.0, slack=0.02)
+    last = solution.net_curve[:, -3:]
+    assert last[1, 0] == pytest.approx(4.0, abs=1e-9)  # contact ends at the surface
+    np.testing.assert_allclose(last[:, 1], (last[:, 0] + last[:, 2]) / 2, rtol=1e-12)
+    np.testing.assert_allclose(last[:, 2], solution.scene.net.head, atol=1e-9)
+    free = last[:, 0] - last[:, 2]
+    direction = free / np.hypot(*free)
+    # no load on it: the head is pulled along it, exactly
+    np.testing.assert_allclose(
+        pull(solution.head) / solution.head.size, direction, atol=1e-9
+    )
+    assert solution.net_forces.shape[1] == solution.net_curve.shape[1] - 2
+
+
+def test_freeboard_keeps_the_unstressed_length(solved):
+    """Stretched length of the free end from its tension, of the rest from its own."""
+    solution = solved(height_m=5.0, slack=0.02)
+    net = solution.scene.net
+    free = np.hypot(*(solution.net_curve[:, -1] - solution.net_curve[:, -3]))
+    unstressed_free = free / (1.0 + solution.head.size / net.stiffness_per_m)
+    steps = np.hypot(*np.diff(solution.net_curve[:, :-2]))
+    # tension varies by some per cent along the snow: its mean stretch is known to
+    # that share of a stretch of one per cent; chords for arcs cost about 1e-4
+    stretch = 1.0 + (solution.tension_min + solution.tension_max) / (
+        2 * net.stiffness_per_m
+    )
+    length = unstressed_free + steps.sum() / stretch
+    assert length == pytest.approx(net.unstressed_length, rel=1e-3)
+
+
+def test_little_freeboard_changes_little(solved):
+    plain, raised = (
+        solved(inclination_deg=30.0),
+        solved(inclination_deg=30.0, height_m=4.0 * (1 + 1e-6)),
+    )
+    for end in ENDS:
+        np.testing.assert_allclose(
+            pull(getattr(raised, end)), pull(getattr(plain, end)), rtol=1e-5
+        )
+
+
+# --- error -------------------------------------------------------------------
+
+
+SCENES = [
+    {},
+    {"inclination_deg": 30.0},
+    {"inclination_deg": 30.0, "friction_deg": 0.0},
+    {"inclination_deg": 30.0, "friction_deg": 5.0},
+    {"inclination_deg": 30.0, "ground": "no-slip"},
+    {
+        "inclination_deg": 30.0,
+        "ground": "sliding",
+        "slip_length_m": 2.0,
+        "friction_deg": 5.0,
+    },
+]
+LOOSE = [
+    {"ground": "sliding", "slip_length_m": 2.0, "friction_deg": 5.0},
+    {"inclination_deg": 20.0, "slack": 0.1},
+    {"inclination_deg": 20.0, "slack": 0.1, "friction_deg": 10.0, "height_m": 4.8},
+]
+
+
+def true_over_stated(solved, first_level, scene):
+    """Of both pulls, the finest mesh being four or eight times as fine."""
+    coarse, fine = solved(first_level, **scene), solved(2, **scene)
+    return max(
+        np.hypot(*(pull(getattr(coarse, end)) - pull(getattr(fine, end))))
+        / getattr(coarse, end).error
+        for end in ENDS
+    )
+
+
+@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
+def test_stated_error_holds(solved, scene):
+    assert true_over_stated(solved, 0, scene) <= 1.0
+
+
+@pytest.mark.parametrize("scene", SCENES + LOOSE, ids=str)
+def test_stated_error_holds_on_the_next_mesh(solved, scene):
+    assert true_over_stated(solved, 1, scene) <= 1.0
+
+
+def test_error_is_never_below_its_floor(solved):
+    solution = solved(ground="no-slip")
+    for end in ENDS:
+        found = getattr(solution, end)
+        assert found.error >= STEADY_ERROR.floor * found.size
+
+
+def test_mesh_is_refined_until_accurate(a_scene):
+    scene = a_scene(inclination_deg=30.0)
+    loose = solve_steady(scene, SolverSettings(accuracy=0.01))
+    tight = solve_steady(scene, SolverSettings(accuracy=1.5e-3))
+    assert loose.cost.elements < tight.cost.elements
+    for solution, accuracy in ((loose, 0.01), (tight, 1.5e-3)):
+        for end in ENDS:
+            found = getattr(solution, end)
+            assert found.error <= accuracy * found.size
+
+
+def test_accuracy_that_is_not_reached_is_said(a_scene):
+    """Below the floor of any claim: all meshes are used, the error stays stated."""
+    settings = SolverSettings(accuracy=1e-4, levels=MESH_LEVELS[:3])
+    solution = solve_steady(a_scene(), settings)
+    assert isinstance(solution, Solution)
+    assert solution.foot.error > 1e-4 * solution.foot.size
+
+
+# --- what a scene does not need ----------------------------------------------
+
+
+@pytest.mark.parametrize("inclination", [0.0, 30.0])
+def test_snow_beyond_the_nets_reach_becomes_its_load(a_scene, inclination, monkeypatch):
+    """Fewer triangles, the same pulls to within the mesh's own error."""
+    scene = a_scene(length_m=240.0, inclination_deg=inclination)
+    cut = solve_steady(scene, COARSE, on_failure="raise")
+    monkeypatch.setattr("netdesign.coupling.scene._CUT_FROM", 1e9)
+    whole = solve_steady(scene, COARSE, on_failure="raise")
+    assert cut.cost.skipped.upslope_length == pytest.approx(240.0 - 8.0 * 4.0)
+    assert whole.cost.skipped.upslope_length == 0.0
+    assert cut.cost.degrees_of_freedom < 0.8 * whole.cost.degrees_of_freedom
+    weights = [one.balance.weight_along_slope for one in (cut, whole)]
+    assert weights[0] == pytest.approx(weights[1], rel=1e-3)  # of the bulges
+    for end in ENDS:
+        np.testing.assert_allclose(
+            pull(getattr(cut, end)),
+            pull(getattr(whole, end)),
+            atol=1e-3 * getattr(whole, end).size,
+        )
+
+
+SHARING = SolverSettings(accuracy=0.005, shares_start=True)
+
+
+@pytest.mark.parametrize(("ground", "spared"), [("no-slip", 4), ("free", 1)])
+@pytest.mark.parametrize("friction_deg", [20.0, 35.0])
+def test_shared_start_spares_steps_and_leaves_the_answer(
+    a_scene, ground, spared, friction_deg
+):
+    scene = a_scene(inclination_deg=30.0, friction_deg=friction_deg, ground=ground)
+    own = solve_steady(scene, replace(SHARING, shares_start=False))
+    shared = solve_steady(scene, SHARING)
+    assert shared.cost.linear_solves <= own.cost.linear_solves - spared
+    for end in ENDS:
+        one, other = getattr(own, end), getattr(shared, end)
+        np.testing.assert_allclose(pull(other), pull(one), atol=0.01 * one.error)
+
+
+def test_shared_start_does_not_depend_on_what_was_solved_before(a_scene):
+    first, second = (
+        a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (20.0, 35.0)
+    )
+    steady._find_stuck.cache_clear()
+    fresh = solve_steady(second, SHARING)
+    steady._find_stuck.cache_clear()
+    solve_steady(first, SHARING)
+    after = solve_steady(second, SHARING)
+    assert steady._find_stuck.cache_info()[:2] == (1, 1)  # known, solved
+    assert (after.foot, after.head) == (fresh.foot, fresh.head)
+
+
+def refuse_start(*_):
+    return None
+
+
+def fail_from_a_start(refine):
+    def fail(scene, settings, start):
+        if start is not None:
+            raise SolveError(Outcome.DIVERGED)
+        return refine(scene, settings, start)
+
+    return fail
+
+
+@pytest.mark.parametrize(
+    ("name", "spoil"),
+    [("_find_stuck", lambda _: refuse_start), ("_refine", fail_from_a_start)],
+)
+def test_without_a_shared_start_a_scene_begins_on_its_own(
+    a_scene, monkeypatch, name, spoil
+):
+    monkeypatch.setattr(steady, name, spoil(getattr(steady, name)))
+    scene = a_scene(inclination_deg=30.0)
+    own, shared = (
+        solve_steady(scene, replace(SHARING, shares_start=shares))
+        for shares in (False, True)
+    )
+    assert shared.cost == own.cost
+    assert (shared.foot, shared.head) == (own.foot, own.head)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"ground": "no-slip"}, {"length_m": 35.0}, {"ground_contact": "one-sided"}],
+    ids=str,
+)
+def test_snow_that_the_ground_holds_or_that_is_near_is_not_cut(a_scene, changes):
+    contact = changes.get("ground_contact", "two-sided")
+    given = {key: value for key, value in changes.items() if key != "ground_contact"}
+    scene = replace(a_scene(**{"length_m": 80.0, **given}), ground_contact=contact)
+    assert scene.reach == scene.snowpack.upslope_length / scene.snowpack.thickness
+    assert scene.reach_law.end_load == 0.0
+
+
+def test_pressures_are_skipped_far_from_ice(solved):
+    solution = solved()
+    unknowns = solution.cost.degrees_of_freedom
+    assert solution.cost.skipped.pressure_unknowns > 0.1 * unknowns
+
+
+def test_failure_names_what_leaves_no_steady_state(a_scene):
+    """One-sided ground under snow that slips: too few rounds are not its only cause."""
+    scene = replace(
+        a_scene(inclination_deg=30.0, friction_deg=5.0), ground_contact="one-sided"
+    )
+    result = solve_steady(scene, replace(COARSE, max_rounds=2))
+    assert_fails(Outcome.NO_EQUILIBRIUM, result, "lifts off a one-sided support")
+    assert "the net still moves by" in result.reason

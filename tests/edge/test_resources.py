@@ -1,0 +1,44 @@
+import pytest
+
+from netdesign.edge import resources
+from netdesign.edge.resources import find_resource
+from netdesign.errors import NetDesignError
+
+
+@pytest.mark.parametrize(
+    ("folder", "file"),
+    [
+        ("standards", "nf-p-95-304-style/document.toml"),
+        ("templates", "report.html"),
+        ("templates", "example_site.toml"),
+    ],
+)
+def test_folders_of_this_installation_are_found(folder, file):
+    assert (find_resource(folder) / file).is_file()
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """An empty package in a folder of its own."""
+    place = tmp_path / "lib" / "netdesign"
+    place.mkdir(parents=True)
+    monkeypatch.setattr(resources, "_PACKAGE", place)
+    return place
+
+
+def test_a_checkout_has_them_beside_the_package(package):
+    (package.parent / "standards").mkdir()
+    assert find_resource("standards") == package.parent / "standards"
+
+
+def test_a_wheel_has_them_inside_and_inside_wins(package):
+    """Beside an installed package lies site-packages, where anything may lie."""
+    (package.parent / "standards").mkdir()
+    (package / "_data" / "standards").mkdir(parents=True)
+    assert find_resource("standards") == package / "_data" / "standards"
+
+
+def test_an_incomplete_installation_says_so(package):
+    (package.parent / "standards").write_text("a file, no folder")
+    with pytest.raises(NetDesignError, match="lacks its folder 'standards': install"):
+        find_resource("standards")

@@ -1,0 +1,210 @@
+"""Standard streams: readers who stop, disks that are full, code pages without signs."""
+
+import io
+import json
+import os
+import string
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from netdesign.edge.streams import _SPELLED, _Lasting, guard_streams
+from netdesign.report.language import load_words
+from tests.test_cli import QUICK, run, write_site
+
+CODE_PAGES = ("cp437", "cp850", "ascii", "latin-1", "cp1252", "cp932")
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="POSIX pipes and devices")
+FULL = Path("/dev/full")
+
+
+def weaken(sheets):
+    sheets["Anchors"][1][1:3] = [2, 2]
+
+
+def forget(sheets):
+    sheets["Anchors"][1][2:4] = [None, None]
+
+
+VERDICTS = {0: None, 1: weaken, 4: forget}
+
+
+@pytest.fixture(scope="module")
+def sites(tmp_path_factory):
+    """Folder with a site of each verdict: ``0.xlsx`` passes."""
+    folder = tmp_path_factory.mktemp("sites")
+    for code, edit in VERDICTS.items():
+        write_site(folder / f"{code}.xlsx", edit)
+    return folder
+
+
+def close_reader():
+    """Writing end of a pipe that nobody reads."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    return writing
+
+
+@POSIX
+@pytest.mark.parametrize(("code", "json_option"), [(0, ()), (1, ("--json",)), (4, ())])
+def test_a_reader_who_stops_leaves_the_verdict(sites, tmp_path, code, json_option):
+    writing = close_reader()
+    try:
+        result = run(
+            *("check", sites / f"{code}.xlsx", *QUICK, "--out", "o", *json_option),
+            cwd=tmp_path,
+            stdout=writing,
+        )
+    finally:
+        os.close(writing)
+    assert result.returncode == code, result.stderr
+    assert "Traceback" not in result.stderr
+    assert "BrokenPipe" not in result.stderr
+    assert (tmp_path / "o" / "report.html").stat().st_size > 0
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
+@pytest.mark.parametrize(
+    "arguments",
+    [["standards", "list"], ["--help"], ["--version"], ["completion", "bash"]],
+)
+def test_a_full_disk_behind_standard_output_is_the_user_s(tmp_path, arguments):
+    with FULL.open("w") as full:
+        result = run(*arguments, cwd=tmp_path, stdout=full)
+    assert result.returncode == 2
+    assert result.stderr == (
+        "error: standard output cannot be written to: No space left on device\n"
+    )
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
+def test_so_is_one_behind_a_verdict_whose_files_are_written(sites, tmp_path):
+    with FULL.open("w") as full:
+        result = run(
+            "check", sites / "1.xlsx", *QUICK, "--out", "o", cwd=tmp_path, stdout=full
+        )
+    assert result.returncode == 2
+    study = json.loads((tmp_path / "o" / "study.json").read_text("utf-8"))
+    assert study["verdict"] == "fail"
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="no device that is always full")
+def test_a_standard_error_that_nobody_can_write_to_changes_nothing(sites, tmp_path):
+    with FULL.open("w") as full:
+        ended = subprocess.run(
+            [Path(sys.executable).with_name("netdesign"), "check", sites / "4.xlsx",
+             "--json", *QUICK],
+            cwd=tmp_path, stdout=subprocess.PIPE, stderr=full, check=False,
+        )  # fmt: skip
+    assert ended.returncode == 4
+    assert json.loads(ended.stdout)["verdict"] == "not_proven"
+
+
+@pytest.mark.parametrize(
+    ("language", "encoding"), [("en", "cp850"), ("fr", "ascii"), ("de", "cp437")]
+)
+def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
+    result = subprocess.run(
+        [Path(sys.executable).with_name("netdesign"), "check", sites / "4.xlsx",
+         *QUICK, "--language", language, "--out", "o"],
+        cwd=tmp_path, capture_output=True, check=False,
+        env={**os.environ, "PYTHONIOENCODING": encoding},
+    )  # fmt: skip
+    assert result.returncode == 4, result.stderr
+    shown = result.stdout.decode(encoding)
+    assert load_words(language)("NOT PROVEN").replace("É", "")[:4] in shown
+    assert (tmp_path / "o" / "study.json").exists()
+
+
+def test_a_document_is_utf_8_whatever_the_code_page(tmp_path):
+    def name(sheets):
+        sheets["Nets"][1][0] = "Rangée φ 1"
+
+    write_site(tmp_path / "site.xlsx", name)
+    result = subprocess.run(
+        [Path(sys.executable).with_name("netdesign"), "check", "site.xlsx", "--json",
+         *QUICK],
+        cwd=tmp_path, capture_output=True, check=False,
+        env={**os.environ, "PYTHONIOENCODING": "cp437"},
+    )  # fmt: skip
+    assert json.loads(result.stdout.decode())["rows"][0]["id"] == "Rangée φ 1"
+
+
+class _Replaced:
+    """Streams of this process, put back afterwards."""
+
+    def __init__(self, monkeypatch, encoding):
+        self.raw = io.BytesIO()
+        stream = io.TextIOWrapper(self.raw, encoding=encoding)
+        for name in ("stdout", "__stdout__"):
+            monkeypatch.setattr(sys, name, stream)
+        guard_streams()
+
+    def show(self, text):
+        sys.stdout.write(text)
+        sys.stdout.flush()
+        return self.raw.getvalue()
+
+
+@pytest.mark.parametrize("encoding", CODE_PAGES)
+def test_every_sign_of_every_language_can_be_shown(monkeypatch, encoding):
+    texts = "".join(
+        text
+        for language in ("fr", "de")
+        for pair in load_words(language).texts.items()
+        for text in pair
+    )
+    signs = "".join(sorted({*texts, *_SPELLED}))
+    shown = _Replaced(monkeypatch, encoding).show(signs).decode(encoding)
+    lost = [sign for sign in signs if sign != "?" and not _is_shown(sign, encoding)]
+    assert lost == []
+    assert shown
+
+
+def _is_shown(sign, encoding):
+    """Whether a sign, or a spelling of it, is left in an encoding."""
+    return sign.encode(encoding, "netdesign.plain") != b"?"
+
+
+def test_what_ascii_lacks_is_spelt(monkeypatch):
+    text = "φ ≤ 45°, Kräfte: 3·10² N – größer\u4e00"
+    shown = _Replaced(monkeypatch, "ascii").show(text)
+    assert shown == b"phi <= 45 deg, Krafte: 3*102 N - grosser?"
+    assert set("".join(_SPELLED.values())) <= set(string.printable)
+
+
+class _Failing(io.RawIOBase):
+    """Takes some bytes, then fails as told."""
+
+    def __init__(self, error, after):
+        self.error, self.left = error, after
+        self.taken = b""
+
+    def writable(self):
+        return True
+
+    def write(self, data, /):
+        if self.left <= 0:
+            raise self.error
+        part = bytes(data[: self.left])
+        self.taken += part
+        self.left -= len(part)
+        return len(part)
+
+
+@pytest.mark.parametrize("after", [0, 1, 700, 8192, 20_001])
+@pytest.mark.parametrize(
+    "error", [BrokenPipeError(32, "Broken pipe"), OSError(28, "No space left")]
+)
+def test_a_lost_stream_takes_all_that_follows(error, after):
+    raw = _Failing(error, after)
+    lasting = _Lasting(raw)
+    stream = io.TextIOWrapper(io.BufferedWriter(lasting), encoding="utf-8")
+    text = "line é\n" * 5000
+    for _ in range(3):
+        assert stream.write(text) == len(text)
+        stream.flush()
+    assert raw.taken == text.encode()[:after]
+    is_pipe = isinstance(error, BrokenPipeError)
+    assert lasting.fault is (None if is_pipe else error)

@@ -1,0 +1,148 @@
+"""Honesty of stated errors: what counts as inside, and the report."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.errors import ModelError, SolveError
+from netdesign.evidence.benchmark import honesty
+from netdesign.evidence.benchmark.honesty import (
+    Finding,
+    judge_scene,
+    list_accepted,
+    study_errors,
+    write_errors,
+)
+from netdesign.evidence.benchmark.random_scenes import draw_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.evidence.benchmark.truth import Truth
+from netdesign.outcome import Outcome
+
+
+@pytest.mark.parametrize(
+    ("end", "share", "is_inside"),
+    [("foot", 0.99, True), ("foot", 1.01, False), ("head", 1.01, False)],
+)
+def test_each_end_has_to_lie_inside_its_own_error(
+    monkeypatch, solved, a_scene, end, share, is_inside
+):
+    solution = solved()
+    pulls = {
+        name: np.array([pull.x, pull.y])
+        for name, pull in (("foot", solution.foot), ("head", solution.head))
+    }
+    error = getattr(solution, end).error
+    size = float(np.hypot(*pulls[end]))
+    # true pull in the same direction, off by a share of the stated relative error
+    pulls[end] *= 1.0 / (1.0 + share * error / size)
+    monkeypatch.setattr(honesty, "solve_steady", lambda *_: solution)
+    monkeypatch.setattr(honesty, "solve_truth", lambda *_: Truth(**pulls))
+    finding = judge_scene(3, a_scene(), SolverSettings())
+    assert finding.is_inside is is_inside
+    assert finding.true_error == pytest.approx(share * error / size)
+    assert not finding.missing
+
+
+def test_only_accepted_scenes_are_studied():
+    numbers = list(islice(list_accepted(1), 12))
+    assert numbers == sorted(numbers)
+    refused = sorted(set(range(numbers[-1])) - set(numbers))
+    assert refused
+    for number in refused:
+        with pytest.raises(ModelError):
+            build_tables(draw_scene(1, number))
+
+
+def test_a_truth_that_fails_is_told(monkeypatch):
+    def fail(*_):
+        raise SolveError(Outcome.DIVERGED, "too fine")
+
+    monkeypatch.setattr(honesty, "solve_truth", fail)
+    (finding,) = study_errors(1, 1, 0.05)
+    assert "too fine" in finding.missing
+
+
+def test_coarsest_mesh_whose_true_error_is_small_enough_is_timed(monkeypatch, a_scene):
+    settings = SolverSettings(accuracy=0.01)
+    levels = settings.levels
+    off = dict(zip(levels, (0.5, 0.02, 0.009, 0.001, 0.0), strict=True))
+    solved_sizes = []
+
+    def pull(scene, size, settings):
+        solved_sizes.append(size)
+        if size == levels[0]:
+            raise SolveError(Outcome.DIVERGED, "too coarse")
+        vector = np.array([1.0 + off[size], 0.0])
+        return vector, vector
+
+    monkeypatch.setattr(honesty, "find_end_pulls", pull)
+    truth = Truth(foot=np.array([1.0, 0.0]), head=np.array([1.0, 0.0]))
+    took = honesty._time_accurate_mesh(a_scene(), truth, settings)
+    assert took is not None
+    assert solved_sizes == [levels[0], levels[1], levels[2], levels[2]]
+    off.update(dict.fromkeys(levels, 0.5))
+    assert honesty._time_accurate_mesh(a_scene(), truth, settings) is None
+
+
+def finding(number, true, stated, *, inside=True):
+    return Finding(
+        number=number,
+        true_error=true,
+        stated_error=stated,
+        is_inside=inside,
+        cpu_s=0.1,
+    )
+
+
+def test_report():
+    good = [finding(k, 0.001, 0.002) for k in range(18)]
+    missed = [finding(18, 0.004, 0.003, inside=False)]
+    lost = [Finding(number=19, missing="finer mesh: diverged")]
+    document = write_errors([*good, *missed, *lost], 1, 0.005)
+    assert document["schema"] == "netdesign.errors/1"
+    assert (document["scenes"], document["compared"]) == (20, 19)
+    assert document["share_inside_stated_error"] == 18 / 20
+    assert document["share_below_accuracy"] == 19 / 20
+    assert document["outside"] == [
+        {"scene": 18, "true_error": 0.004, "stated_error": 0.003}
+    ]
+    assert document["not_compared"] == [{"scene": 19, "reason": "finer mesh: diverged"}]
+    assert document["pass"] is False
+
+
+@pytest.mark.parametrize(("count", "passes"), [(20, True), (19, False)])
+def test_share_that_has_to_be_reached(count, passes):
+    findings = [finding(k, 0.001, 0.002) for k in range(count - 1)]
+    findings.append(finding(count, 0.006, 0.007))
+    document = write_errors(findings, 1, 0.005)
+    assert document["share_inside_stated_error"] == 1.0
+    assert document["pass"] is passes
+
+
+def test_what_was_not_compared_never_passes():
+    lost = [Finding(number=k, missing="diverged") for k in range(3)]
+    assert write_errors(lost, 1, 0.005)["pass"] is False
+    few = [finding(k, 0.001, 0.002) for k in range(2)]
+    assert write_errors([*few, *lost], 1, 0.005)["pass"] is False
+    assert write_errors([], 1, 0.005)["pass"] is False
+
+
+def test_what_the_model_excludes_counts_neither_way():
+    refused = [Finding(number=k, missing="touches", is_refused=True) for k in range(9)]
+    good = [finding(k, 0.001, 0.002) for k in range(2)]
+    document = write_errors([*good, *refused], 1, 0.005)
+    assert document["pass"] is True
+    assert document["refused_while_solving"] == 9
+    assert write_errors(refused, 1, 0.005)["pass"] is False
+
+
+@pytest.mark.parametrize("outcome", [Outcome.OUT_OF_VALIDITY, Outcome.MAX_ITERATIONS])
+def test_only_the_models_own_limits_are_refusals(monkeypatch, a_scene, outcome):
+    failed = FailedSolution(outcome=outcome, reason="why")
+    monkeypatch.setattr(honesty, "solve_steady", lambda *_: failed)
+    finding = judge_scene(0, a_scene(), SolverSettings())
+    assert finding.missing == "why"
+    assert finding.is_refused is (outcome is Outcome.OUT_OF_VALIDITY)

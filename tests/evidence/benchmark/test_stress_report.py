@@ -1,0 +1,144 @@
+"""Stress test: what counts as converged, refused and failed, and the report of it."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.solution import FailedSolution
+from netdesign.evidence.benchmark import stress
+from netdesign.evidence.benchmark.honesty import list_accepted
+from netdesign.evidence.benchmark.stress import (
+    Attempt,
+    attempt_scene,
+    generalise,
+    run_stress,
+    write_stress,
+)
+from netdesign.outcome import Outcome
+
+SEED = 2
+ACCEPTED = next(list_accepted(SEED))
+
+
+def attempt_with(monkeypatch, solve) -> Attempt:
+    monkeypatch.setattr(stress, "solve_steady", solve)
+    return attempt_scene(ACCEPTED, seed=SEED)
+
+
+def fail_with(outcome: Outcome):
+    return lambda *_: FailedSolution(outcome=outcome, reason="told why")
+
+
+@pytest.mark.parametrize("outcome", [o for o in Outcome if o is not Outcome.CONVERGED])
+def test_only_what_the_model_excludes_is_refused(monkeypatch, outcome):
+    attempt = attempt_with(monkeypatch, fail_with(outcome))
+    is_refused = outcome in (Outcome.OUT_OF_VALIDITY, Outcome.NO_EQUILIBRIUM)
+    assert attempt.kind == ("refused while solving" if is_refused else "failed")
+    assert attempt.reason == f"{outcome.value}: told why"
+
+
+def test_a_bug_is_a_failure(monkeypatch):
+    attempt = attempt_with(monkeypatch, lambda *_: 1 / 0)
+    assert attempt.kind == "failed"
+    assert "ZeroDivisionError" in attempt.reason
+
+
+def test_a_warning_is_a_failure(monkeypatch):
+    def overflow(*_):
+        return np.array([1e308]) * 10.0
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        attempt = attempt_with(monkeypatch, overflow)
+    assert attempt.kind == "failed"
+    assert "overflow" in attempt.reason
+
+
+@pytest.mark.parametrize(
+    ("balance", "kind"), [(1e-8, "converged"), (2e-8, "failed"), (np.nan, "failed")]
+)
+def test_a_poor_balance_is_a_failure(monkeypatch, solved, balance, kind):
+    class Poor:
+        """A solution but for its balance."""
+
+        def __getattr__(self, name):
+            return getattr(solved(), name)
+
+        @property
+        def balance(self):
+            return type("Balance", (), {"relative_residual": balance})
+
+    assert attempt_with(monkeypatch, lambda *_: Poor()).kind == kind
+
+
+def test_refused_before_solving(monkeypatch):
+    monkeypatch.setattr(stress, "solve_steady", lambda *_: pytest.fail("was solved"))
+    accepted = set()
+    for number in list_accepted(SEED):
+        accepted.add(number)
+        if number > 20:
+            break
+    refused = set(range(20)) - accepted
+    assert refused
+    for number in refused:
+        attempt = attempt_scene(number, seed=SEED)
+        assert attempt.kind == "refused before"
+        assert attempt.reason
+
+
+def test_processes_give_what_one_gives():
+    alone = run_stress(4, SEED, accuracy=0.05)
+    shared = run_stress(4, SEED, accuracy=0.05, jobs=2)
+    assert [describe(one) for one in shared] == [describe(one) for one in alone]
+    assert [one.number for one in shared] == [0, 1, 2, 3]
+
+
+def describe(one: Attempt) -> tuple[object, ...]:
+    return one.number, one.kind, one.reason, one.linear_solves, repr(one.balance)
+
+
+ATTEMPTS = [
+    Attempt(number=0, kind="converged", cpu_s=0.5, linear_solves=20, balance=1e-10,
+            stated_error=0.004),
+    Attempt(number=1, kind="converged", cpu_s=0.1, linear_solves=30, balance=3e-9,
+            stated_error=0.006),
+    Attempt(number=2, kind="refused before", reason="net height = 2.5 m is low"),
+    Attempt(number=3, kind="refused before", reason="net height = 1e-3 m is low"),
+    Attempt(number=4, kind="refused while solving", reason="out_of_validity: 6% pull",
+            cpu_s=2.0),
+]  # fmt: skip
+
+
+def test_report():
+    document = write_stress(ATTEMPTS, 7, 0.005)
+    assert document["schema"] == "netdesign.stress/1"
+    assert document["scenes"] == 5
+    assert document["converged"] == 2
+    assert document["refused"] == [
+        {"reason": "net height = ... m is low", "when": "before", "count": 2},
+        {"reason": "out_of_validity: ... pull", "when": "while solving", "count": 1},
+    ]
+    assert document["failures"] == []
+    assert document["pass"] is True
+    assert document["worst_balance"] == 3e-9
+    assert document["most_linear_solves"] == 30
+    assert document["accuracy_missed"] == 1
+    assert document["slowest_s"] == 2.0
+    assert [one["scene"] for one in document["slowest"]] == [4, 0, 1]
+
+
+def test_one_failure_fails_the_whole():
+    failed = Attempt(number=5, kind="failed", reason="diverged", tables={"slope": {}})
+    document = write_stress([*ATTEMPTS, failed], 7)
+    assert document["pass"] is False
+    assert document["failures"] == [
+        {"scene": 5, "reason": "diverged", "tables": {"slope": {}}}
+    ]
+
+
+def test_reasons_are_counted_without_their_numbers():
+    assert (
+        generalise("zwinger-2007: -1.5e-3 of 4 is 7%")
+        == "zwinger-2007: ... of ... is ..."
+    )

@@ -1,0 +1,105 @@
+"""The page of the paper's study: complete, safe, and true to the runs."""
+
+import csv
+import io
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign.evidence.paper.cases import find_history
+from netdesign.evidence.paper.findings import list_findings
+from netdesign.evidence.paper.page import PAGE_FILE, name_history, render_paper
+from netdesign.evidence.paper.words import word_finding
+from tests.build_paper import build_study
+from tests.report.reading import PageReader
+
+
+@pytest.fixture(scope="module")
+def study():
+    return build_study(lambda case: 3e5 + 1e3 * case.friction_deg, swings=9)
+
+
+@pytest.fixture(scope="module")
+def files(study):
+    return render_paper(study)
+
+
+def read_csv(content):
+    return list(csv.DictReader(io.StringIO(content.decode())))
+
+
+def test_page_is_self_contained_and_without_script(files):
+    page = files[PAGE_FILE].decode()
+    reader = PageReader(page)
+    assert "default-src 'none'" in page
+    assert not {"script", "iframe", "object", "img", "link"} & set(reader.tags)
+    for loading in ("src=", "@import", "url(http", 'href="http'):
+        assert loading not in page
+    assert len(reader.ids) == len(set(reader.ids))
+
+
+def test_page_has_every_statement_with_its_call(study, files):
+    text = " ".join("".join(PageReader(files[PAGE_FILE].decode()).text).split())
+    findings = list_findings(study)
+    assert len(findings) == 7
+    for finding in findings:
+        claim = word_finding(finding)
+        assert claim.said in text
+        assert claim.found in text
+    agreed = sum(finding.call == "agrees" for finding in findings)
+    assert f"Of 7 statements of the paper, the runs agree with {agreed}." in text
+
+
+def test_every_drawing_stands_on_the_page_and_as_a_file(files):
+    page = files[PAGE_FILE].decode()
+    drawings = [name for name in files if name.endswith(".svg")]
+    assert len(drawings) == 8
+    for name in drawings:
+        ElementTree.fromstring(files[name])
+        assert f'id="plate-{name.removesuffix(".svg")}"' in page
+
+
+def test_every_history_is_a_file_with_its_numbers(study, files):
+    names = [name_history(run) for run in study.runs.values() if run.track]
+    assert len(names) == len(set(names))
+    run = study[find_history(0.0, 45.0)]
+    rows = read_csv(files[f"{name_history(run)}.csv"])
+    assert len(rows) == len(run.track.times)
+    assert float(rows[-1]["foot_kN_per_m"]) == pytest.approx(run.track.foot[-1] / 1e3)
+    assert float(rows[-1]["node_at_1.00m_x_kN_per_m"]) == pytest.approx(
+        run.track.lower[0, -1] / 1e3
+    )
+
+
+def test_plateau_table_has_the_runs_values(study, files):
+    rows = read_csv(files["plateau.csv"])
+    assert len(rows) == 8
+    straight = next(row for row in rows if row["method"] == "history, straight start")
+    assert float(straight["foot_kN_per_m"]) * 1e3 == study[find_history(0.0)].foot
+    assert float(straight["plateau_from_s"]) >= 1000.0
+
+
+def test_trend_table_gives_the_distance_from_the_implicit_history(files):
+    rows = read_csv(files["staggered-trend.csv"])
+    assert [float(row["base_drag"]) for row in rows] == [0.2, 0.1, 0.05, 0.02]
+    assert all(row["against_implicit_percent"] for row in rows)
+
+
+def test_same_study_gives_the_same_bytes(study, files):
+    assert render_paper(study) == files
+
+
+def test_failed_runs_are_named_and_their_statements_open():
+    failing = [find_history(0.0)]
+    page = render_paper(build_study(failing=failing))[PAGE_FILE].decode()
+    assert "1 of the runs gave no result" in page
+    assert "made to fail" in page
+    assert "not decided" in page
+
+
+def test_signs_are_minus_signs_and_no_zero_has_one():
+    study = build_study(lambda case: 3e5 * (0.9 if case.gravity != "full" else 1.0))
+    claim = word_finding(next(f for f in list_findings(study) if f.key == "settlement"))
+    assert "foot −10.0%" in claim.found
+    flat = next(f for f in list_findings(build_study()) if f.key == "settlement")
+    assert "foot 0.0%" in word_finding(flat).found

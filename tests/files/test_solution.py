@@ -1,0 +1,67 @@
+"""The solution document holds numbers only, whatever the scene."""
+
+import json
+
+import pytest
+
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.steady.bound import bound_by_less_slack
+from netdesign.errors import ModelError
+from netdesign.evidence.benchmark.random_scenes import draw_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.files.solution import write_solution_document
+from netdesign.solving.solve import solve_scene
+
+ROUGH = SolverSettings(accuracy=0.05)
+
+
+def list_scenes(count):
+    """Random scenes on free ground with gravity along the slope only."""
+    found, number = [], 0
+    while len(found) < count:
+        number += 1
+        tables = draw_scene(17, number)
+        tables["snow"]["creep_law"] = "boutillier-2004"
+        tables["snow"]["density_kg_m3"] = 150.0 + 7.3 * (number % 40)
+        tables["snow"].pop("layers", None)
+        tables["ground"] = {"law": "free"}
+        tables["gravity"] = {"mode": "parallel"}
+        if number % 3 == 0:
+            tables["net"] = {"kind": "rigid", "inclination_deg": 0.37 * (number % 9)}
+        try:
+            found.append(build_tables(tables))
+        except ModelError:
+            continue
+    return found
+
+
+def test_ground_without_pressure_gives_numbers():
+    """A share of a ground force that is zero was infinite, which is not JSON."""
+    shares = []
+    for scene in list_scenes(8):
+        solution = solve_scene(scene, ROUGH)
+        document = write_solution_document(solution, ROUGH, 0.0)
+        json.dumps(document, allow_nan=False)
+        if not isinstance(solution, FailedSolution):
+            shares.append(solution.balance.ground_tension_share)
+    assert 1.0 in shares
+    assert min(shares) >= 0.0
+
+
+# A net of much slack that the snow would press on the ground beside its foot.
+TOUCHING = draw_scene(3, 560)
+
+
+def test_refused_net_says_what_to_change_and_what_it_stays_below():
+    scene = build_tables(TOUCHING)
+    refused = solve_scene(scene, ROUGH)
+    assert isinstance(refused, FailedSolution)
+    assert "less slack, less inclination or a stiffer net is needed" in refused.reason
+    bound = bound_by_less_slack(scene, ROUGH)
+    assert bound is not None
+    written = write_solution_document(refused, ROUGH, 0.0, bound)["upper_bound"]
+    assert 0.0 < written["slack"] < scene.net.slack
+    assert written["foot_kN_per_m"] == pytest.approx(
+        (bound.foot.size + bound.foot.error) / 1e3, rel=1e-12
+    )

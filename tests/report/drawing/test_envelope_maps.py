@@ -1,0 +1,138 @@
+"""Drawings and tables of a made-up envelope record."""
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import pytest
+
+from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
+from netdesign.report.drawing.plain_svg import Chart, Frame, list_ticks, shade
+from netdesign.study.records import (
+    AxisRecord,
+    BoundRecord,
+    DriverRecord,
+    EnvelopeRecord,
+    LineRecord,
+    MapRecord,
+)
+
+NS = "{http://www.w3.org/2000/svg}"
+
+
+def build_bound(quantity, *, size=100.0):
+    densities, frictions = [250.0, 350.0, 450.0], [15.0, 30.0, 45.0]
+    return BoundRecord(
+        quantity=quantity,
+        max_kN=size,
+        upper_bound_kN=1.01 * size,
+        case={"density_kg_m3": 450.0, "friction_deg": 15.0, "inclination_deg": 35.0},
+        coincident_kN={},
+        unexplained=0.001,
+        drivers=[
+            DriverRecord(
+                key="density_kg_m3", at_low_kN=0.5 * size, at_high_kN=size,
+                least_kN=0.5 * size, most_kN=size, first_order=0.9, total=0.95,
+            )
+        ],
+        flips=[],
+        lines=[
+            LineRecord(
+                key="density_kg_m3", values=densities,
+                force_kN=[0.5 * size, 0.7 * size, size],
+                bound_kN=[0.52 * size, 0.72 * size, 1.01 * size],
+            )
+        ],
+        maps=[
+            MapRecord(
+                inclination_deg=inclination, density_kg_m3=densities,
+                friction_deg=frictions,
+                force_kN=[[0.5 * size, 0.7 * size, size]] * 3,
+            )
+            for inclination in (25.0, 35.0)
+        ],
+        confirmation=None,
+    )  # fmt: skip
+
+
+RECORD = EnvelopeRecord(
+    axes=[AxisRecord(key="density_kg_m3", low=250.0, high=450.0)],
+    is_per_metre=False,
+    is_closed=True,
+    gap_asked_percent=1.0,
+    certainty=3.0,
+    resolved_share=0.6,
+    cases=40,
+    skipped=2,
+    skips_tested=2,
+    failed=0,
+    bounds=[build_bound("foot_anchor"), build_bound("downhill_guy", size=0.0)],
+    log=[],
+)
+DRAWINGS = [draw_maps, draw_lines, draw_drivers]
+
+
+def shapes(svg, tag):
+    return list(ET.fromstring(svg).iter(f"{NS}{tag}"))
+
+
+@pytest.mark.parametrize("draw", DRAWINGS)
+def test_drawings_are_sound_xml_with_the_same_bytes_each_time(draw):
+    svg = draw(RECORD)
+    assert ET.fromstring(svg).tag == f"{NS}svg"
+    assert draw(RECORD) == svg
+    assert "Foot anchor [kN]" in svg
+    assert "Downhill guy" not in svg  # carries nothing anywhere
+
+
+@pytest.mark.parametrize("draw", DRAWINGS)
+def test_nothing_to_draw_gives_nothing(draw):
+    assert draw(replace(RECORD, bounds=[])) == ""
+
+
+def test_the_ring_stands_at_the_governing_case_in_the_map_of_its_inclination():
+    """Governing: the densest snow, least friction, at 35 degrees: the right map."""
+    (ring,) = shapes(draw_maps(RECORD), "circle")
+    labels = {one.text: one for one in shapes(draw_maps(RECORD), "text")}
+    right_end = float(labels["θ = 35°"].attrib["x"])  # set to the panel's right end
+    assert float(ring.attrib["cx"]) == pytest.approx(right_end, abs=0.02)
+    assert float(ring.attrib["cx"]) > float(labels["θ = 25°"].attrib["x"])
+
+
+def test_darker_is_larger():
+    assert shade(0.0, 0.0, 1.0) > shade(0.5, 0.0, 1.0) > shade(1.0, 0.0, 1.0)
+    assert shade(2.0, 0.0, 1.0) == shade(1.0, 0.0, 1.0)
+    assert shade(5.0, 5.0, 5.0) == shade(0.0, 0.0, 1.0)
+
+
+def test_the_bound_is_drawn_above_the_force():
+    lines = shapes(draw_lines(RECORD), "polyline")
+    bound, force = (
+        [float(pair.split(",")[1]) for pair in line.attrib["points"].split()]
+        for line in lines[:2]
+    )
+    assert all(above < below for above, below in zip(bound, force, strict=True))
+
+
+def test_values_find_their_place_on_the_page():
+    frame = Frame(left=10, top=20, width=100, height=50,
+                  x_low=0.0, x_high=2.0, y_low=-1.0, y_high=1.0)  # fmt: skip
+    assert (frame.x(0.5), frame.y(-1.0), frame.y(1.0)) == (35.0, 70.0, 20.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "expected"),
+    [
+        (15.0, 45.0, [20.0, 30.0, 40.0]),
+        (25.0, 35.0, [25.0, 27.5, 30.0, 32.5, 35.0]),
+        (0.0, 0.1, [0.0, 0.025, 0.05, 0.075, 0.1]),
+    ],
+)
+def test_ticks_are_round_and_inside(low, high, expected):
+    assert list_ticks(low, high) == expected
+
+
+def test_words_on_a_chart_are_escaped():
+    chart = Chart()
+    chart.text(0.0, 0.0, "<script>")
+    assert "&lt;script&gt;" in chart.write(10.0, 'a "title"')
+    assert "<script>" not in chart.write(10.0, "<script>")

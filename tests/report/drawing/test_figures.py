@@ -1,0 +1,93 @@
+import re
+from dataclasses import replace
+from itertools import pairwise
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign.report.drawing.envelope_figure import draw_envelope
+from netdesign.report.drawing.head_figure import draw_head
+from netdesign.report.drawing.section_figure import draw_section
+from tests.report.build_study import build_drawing, build_row
+
+ROW = build_row("A", 3, scale=0.72, failed_case=True)
+TEXT = "{http://www.w3.org/2000/svg}text"
+
+
+def texts(svg):
+    return [element.text for element in ElementTree.fromstring(svg).iter(TEXT)]
+
+
+@pytest.mark.parametrize("slope", [5.0, 25.0, 40.0, 60.0])
+@pytest.mark.parametrize("tilt", [0.0, 30.0])
+def test_section_names_every_force(slope, tilt):
+    drawing = build_drawing(ROW.extremes[0], slope=slope, tilt=tilt)
+    shown = texts(draw_section(drawing, "x"))
+    for name in ("Foot anchor", "Uphill anchor", "Downhill anchor", "Post"):
+        assert name in shown
+    assert f"{ROW.extremes[0].max_kN:.1f} kN" in shown
+    assert f"ψ = {slope:.1f}°" in shown
+
+
+@pytest.mark.parametrize("slope", [5.0, 25.0, 40.0, 60.0])
+def test_labels_of_the_section_do_not_overlap(slope):
+    svg = draw_section(build_drawing(ROW.extremes[0], slope=slope, tilt=28), "x")
+    words = "Foot anchor|Uphill anchor|Downhill anchor|Post|[0-9.]+ kN"
+    found = re.findall(rf'<text x="\S+" y="(\S+)"[^>]*>(?:{words})<', svg)
+    heights = sorted(float(y) for y in found)
+    assert len(heights) == 8
+    gaps = [high - low for low, high in pairwise(heights)]
+    assert min(gaps) > 8.5  # pt; the text is 7.5 pt high
+
+
+def test_stick_and_slip_differ_without_colour():
+    drawing = ROW.drawing
+    both = draw_section(drawing, "x")
+    stuck = draw_section(replace(drawing, sticks=[True] * 25), "x")
+    assert both.count("stroke-dasharray") > stuck.count("stroke-dasharray")
+
+
+@pytest.mark.parametrize("samples", [2, 3, 7])
+def test_envelope_marks_each_governing_value(samples):
+    row = build_row("A", samples, scale=0.72, failed_case=True)
+    shown = texts(draw_envelope(row))
+    for extreme in row.extremes:
+        assert f"{extreme.max_kN:.1f}" in shown
+    assert "θ = 35°" in shown
+    assert "φ = 15°" in shown
+    assert "no result" in shown
+
+
+def test_slack_members_are_left_out_of_the_envelope():
+    slack = [replace(c, downhill_guy_kN=0.0 if c.post_kN else None) for c in ROW.cases]
+    shown = texts(draw_envelope(replace(ROW, cases=slack)))
+    assert "Downhill guy [kN]" not in shown
+    assert "Post [kN]" in shown
+
+
+def test_slack_anchor_keeps_its_place_in_the_section():
+    arrows = [
+        replace(a, force_x_kN=0.0, force_y_kN=0.0) for a in ROW.drawing.arrows[3:]
+    ]
+    arrows = [*ROW.drawing.arrows[:3], *arrows]
+    shown = texts(draw_section(replace(ROW.drawing, arrows=arrows), "x"))
+    assert "Downhill anchor" in shown
+    assert "0.0 kN" in shown
+
+
+def test_envelope_of_failed_cases_only_is_empty():
+    failed = next(case for case in ROW.cases if case.foot_anchor_kN is None)
+    assert draw_envelope(replace(ROW, cases=[failed], extremes=[])) == ""
+
+
+def test_drawings_repeat_byte_for_byte_without_a_date():
+    for draw in (
+        lambda: draw_section(ROW.drawing, "x"),
+        lambda: draw_envelope(ROW),
+        lambda: draw_head(ROW.head),
+    ):
+        svg = draw()
+        assert svg == draw()
+        assert "<metadata" not in svg
+        assert "<style" not in svg
+        assert "<script" not in svg

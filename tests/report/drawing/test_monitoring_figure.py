@@ -1,0 +1,59 @@
+from dataclasses import replace
+from xml.etree import ElementTree
+
+from netdesign.report.drawing.monitoring_figure import (
+    describe_monitoring,
+    draw_monitoring,
+)
+from netdesign.report.page.html import render_html
+from netdesign.study.records import MonitoringRecord, read_document, write_document
+from tests.report.build_study import build_study
+from tests.report.reading import PageReader
+
+RECORD = MonitoringRecord(
+    member="uphill_guy",
+    source="Monitoring!A2",
+    times_d=[0.0, 1.0, 2.0],
+    tensions_kN=[10.0, None, 12.0],
+    air_temperatures_C=[-5.0, -8.0, None],
+    model_times_d=[0.1, 1.0, 2.0],
+    model_kN=[20.0, 19.0, 18.0],
+    model_start="sagged",
+    model_reason="",
+)
+TEXT = "{http://www.w3.org/2000/svg}text"
+
+
+def texts(svg):
+    return [element.text for element in ElementTree.fromstring(svg).iter(TEXT)]
+
+
+def test_measured_stands_beside_the_model():
+    shown = texts(draw_monitoring([RECORD], "x"))
+    assert {"measured", "model", "air", "Uphill guy, tension [kN]"} <= set(shown)
+
+
+def test_without_model_the_measurement_is_drawn_and_the_reason_told():
+    bare = replace(RECORD, model_times_d=[], model_kN=[], model_reason="it folded")
+    shown = texts(draw_monitoring([bare], "x"))
+    assert "measured" in shown
+    assert "model" not in shown
+    assert "Without a history: it folded." in describe_monitoring([bare])
+
+
+def test_page_has_the_drawing_only_where_something_was_measured():
+    study = build_study(rows=2)
+    assert draw_monitoring([], "x") == ""
+    assert "row-1-monitoring" not in PageReader(render_html(study)).ids
+    rows = [replace(study.rows[0], monitoring=[RECORD]), study.rows[1]]
+    page = PageReader(render_html(replace(study, rows=rows)))
+    assert "row-1-monitoring" in page.ids
+    assert "row-2-monitoring" not in page.ids
+    assert "starts at the first reading from a sagged net" in "".join(page.text)
+
+
+def test_document_keeps_the_series():
+    study = build_study(rows=1)
+    measured = replace(study, rows=[replace(study.rows[0], monitoring=[RECORD])])
+    back = read_document(write_document(measured))
+    assert replace(back, digest="") == measured

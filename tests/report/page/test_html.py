@@ -1,0 +1,169 @@
+from dataclasses import replace
+
+import pytest
+
+from netdesign.errors import NetDesignError
+from netdesign.outcome import Verdict
+from netdesign.report.language import LANGUAGES, load_words
+from netdesign.report.page import html
+from netdesign.report.view.whole import EXPLANATION, build_view
+from netdesign.study.records import compute_digest, read_document, write_document
+from tests.report.build_study import MENTION, SCRIPT, build_study
+from tests.report.reading import PageReader
+
+
+@pytest.fixture(scope="module")
+def page():
+    return html.render_html(build_study())
+
+
+def test_nothing_of_the_site_comes_alive(page):
+    reader = PageReader(page)
+    assert "<script" not in page.lower()
+    assert not {"script", "iframe", "object", "img", "form"} & set(reader.tags)
+    assert SCRIPT in "".join(reader.text)
+    assert MENTION in "".join(reader.text)
+
+
+def test_page_is_self_contained_under_a_strict_policy(page):
+    assert "default-src 'none'; style-src 'unsafe-inline'; img-src data:" in page
+    for loading in ("src=", "@import", "url(http", 'href="http'):
+        assert loading not in page
+    assert len(page) < 2_000_000
+
+
+def test_title_cannot_leave_the_style_sheet():
+    study = build_study(rows=1)
+    name = '"; } </style><script>alert(1)</script> \\'
+    study = replace(study, project=replace(study.project, name=name))
+    page = html.render_html(study)
+    assert page.count("</style>") == 1
+    assert "<script" not in page
+
+
+def test_ids_are_unique(page):
+    ids = PageReader(page).ids
+    assert len(ids) == len(set(ids))
+
+
+def test_every_section_is_there(page):
+    expected = html.list_sections(build_view(build_study()))
+    assert set(expected) <= set(PageReader(page).ids)
+    assert len(expected) == 11 + 3 * 11
+
+
+def test_a_missing_section_raises(monkeypatch):
+    def list_more(view, detail):
+        return [*list_sections(view, detail), "row-1-history"]
+
+    list_sections = html.list_sections
+    monkeypatch.setattr(html, "list_sections", list_more)
+    with pytest.raises(NetDesignError, match="nothing in section row-1-history"):
+        html.render_html(build_study(rows=1))
+
+
+def test_empty_parts_say_none():
+    study = build_study(rows=1)
+    bare = replace(
+        study.rows[0],
+        checks=[],
+        extremes=[],
+        cases=[],
+        inputs=[],
+        drawing=None,
+        anchors=[],
+        head=[],
+        guideline=None,
+        verdict=Verdict.NOT_PROVEN,
+    )
+    study = replace(
+        study,
+        rows=[bare],
+        notes=[],
+        range_inputs=[],
+        profile=replace(study.profile, values=[]),
+        verdict=Verdict.NOT_PROVEN,
+    )
+    page = html.render_html(study)
+    assert page.count('<p class="none">none') == 17
+    assert "NOT PROVEN" in page
+
+
+def test_study_without_rows_has_a_page():
+    study = replace(build_study(), rows=[], verdict=Verdict.NOT_PROVEN)
+    assert "none: the site has no net rows" in html.render_html(study)
+
+
+def test_first_page_lists_the_assumed_values(page):
+    card = page[page.index('id="verdict"') : page.index('id="identification"')]
+    assert "Assumed: confirm in your copy of the standard" in card
+    assert "factor.action = 1.5, factor.tendon = 1.35" in card
+    assert "FAIL" in card
+
+
+def test_card_says_what_would_flip_the_governing_check(page):
+    card = page[page.index('id="verdict"') : page.index('id="identification"')]
+    assert "It passes with any one of these alone:" in card
+    assert "type =1+1 has 900 kN, now 480 kN" in card
+    assert "snow density" not in card  # no density flips it
+
+
+def test_assumptions_say_status_and_origin(page):
+    lines = PageReader(page).tables["assumptions"][0]
+    assert ["Slack", "2 %", "default", f"Couloir 1, =1+1, Ridge {SCRIPT}"] in lines
+    statuses = {line[2] for line in lines[1:]}
+    assert statuses == {"model", "setting", "default", "assumed"}
+
+
+def test_checklist_counts_what_the_study_holds(page):
+    answers = [line[2] for line in PageReader(page).tables["checklist"][0][1:]]
+    assert "2 of 5 values are assumed" in answers
+    assert "80 solved, 1 without a result" in answers
+
+
+def test_summary_is_shorter_and_keeps_the_verdicts(page):
+    short = html.render_html(build_study(), detail="summary")
+    reader = PageReader(short)
+    assert len(short) < 0.6 * len(page)
+    assert set(reader.ids) >= {"verdict", "row-3-drawing", "row-3-checks", "profile"}
+    assert "row-1-worked" not in reader.ids
+    assert reader.tables["summary"] == PageReader(page).tables["summary"]
+
+
+def test_drawings_need_no_style_sheet(page):
+    """Ratio bars keep their colours where CSS does not reach into SVG."""
+    bars = page.split('<svg class="bar"')[1:]
+    assert all("fill=" in bar.split("</svg>")[0] for bar in bars)
+
+
+def test_tables_have_captions_and_scopes(page):
+    reader = PageReader(page)
+    assert reader.tags.count("caption") == reader.tags.count("table")
+    assert page.count("<th ") == page.count("<th scope=")
+    assert "<th>" not in page
+
+
+def test_page_repeats_byte_for_byte(page):
+    assert page == html.render_html(build_study())
+
+
+@pytest.mark.parametrize("detail", ["summary", "full"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_page_says_how_the_report_is_verified(language, detail):
+    study, words = build_study(), load_words(language)
+    page = html.render_html(study, words, detail)
+    verdict = page[page.index('<section id="verdict"') : page.index("</section>")]
+    shown = " ".join(PageReader(verdict).text)
+    assert "netdesign verify --study study.json --site combe.xlsx" in shown
+    assert compute_digest(study) in shown
+    for text in ("To verify this report", "What that does", EXPLANATION):
+        assert words(text) in shown
+        assert (words(text) == text) is (language == "en")
+
+
+def test_the_digest_shown_is_that_of_the_document_written():
+    study = build_study()
+    shown = dict(build_view(study).verification)["SHA-256 of its study"]
+    assert f'"digest": "{shown}"' in write_document(study)
+    again = read_document(write_document(study))
+    assert dict(build_view(again).verification)["SHA-256 of its study"] == shown

@@ -1,0 +1,23 @@
+from importlib.util import find_spec
+
+import pytest
+
+from netdesign.errors import NetDesignError
+from netdesign.report.page import pdf
+from netdesign.report.page.html import render_html
+from tests.report.build_study import build_study
+
+
+def test_without_the_library_the_wish_is_refused(monkeypatch):
+    monkeypatch.setattr(pdf, "find_spec", lambda _name: None)
+    with pytest.raises(NetDesignError, match=r"pip install 'netdesign\[pdf\]'"):
+        pdf.require_pdf()
+
+
+@pytest.mark.skipif(
+    find_spec("weasyprint") is None, reason="WeasyPrint, extra pdf, is not installed"
+)
+@pytest.mark.filterwarnings("ignore")  # of the library's own
+def test_page_becomes_a_pdf():
+    content = pdf.render_pdf(render_html(build_study(rows=1), detail="summary"))
+    assert content.startswith(b"%PDF")

@@ -1,0 +1,103 @@
+"""Support, guideline, intervals and changes as rows of words."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.report.page.html import render_html
+from netdesign.report.view.row_tables import (
+    build_anchors,
+    build_changes,
+    build_guideline,
+    build_head,
+    build_spreads,
+    describe_change,
+    describe_widths,
+)
+from netdesign.study.records import ChangeRecord
+from tests.report.build_study import build_study
+
+ROW = build_study().rows[0]
+
+
+def texts(table):
+    return [[cell.text for cell in row] for row in table.rows]
+
+
+def test_anchor_has_its_vector_and_direction_and_a_slack_one_says_so():
+    loaded, slack = texts(build_anchors(ROW))
+    assert loaded == ["Foot anchor", "Net", "30.0", "40.0", "5.0", "50.0", "53.1"]
+    assert slack[:2] == ["Downhill anchor", "Downhill guy, slack"]
+    assert slack[-1] == "-"
+
+
+def test_forces_on_the_head_are_listed_as_they_close():
+    assert sum(cell[1].number for cell in build_head(ROW).rows) == pytest.approx(0.0)
+    assert texts(build_head(ROW))[0] == ["Net", "17.5", "-77.0"]
+
+
+def test_guideline_stands_beside_the_solve_with_its_difference():
+    table = build_guideline(ROW)
+    solved, same, second = texts(table)
+    assert solved[0].startswith("Coupled solve: 450 kg/m³")
+    assert (same[0], same[-2], same[-1]) == ("same snow", "25", "33")
+    assert second[0].startswith("load case 2: the support fails")
+    assert second[-1] == "-"
+
+
+def test_guideline_that_could_not_be_asked_leaves_no_rows():
+    table = build_guideline(replace(ROW, guideline=None))
+    assert table.rows == ()
+    assert table.empty.startswith("none")
+
+
+def test_interval_is_itemised_and_says_what_counts():
+    check = ROW.checks[0]
+    error, law = texts(build_spreads(check))
+    assert error[:2] == ["numerical error", "0.900 to 0.950"]
+    low, high = 0.9 * 520 / 1.35, 0.95 * 520 / 1.35  # kN of the design resistance
+    assert error[2:4] == [f"{low:.1f}", f"{high:.1f}"]
+    below = 100 * (0.9 / check.utilisation - 1)
+    assert error[4] == f"{below:.1f}"
+    assert error[6:] == ["yes", "-"]
+    assert law[1:7] == ["-", "-", "-", "-", "-", "no, for comparison"]
+    assert build_spreads(None).rows == ()
+
+
+def test_changes_of_every_check_are_listed():
+    lines = texts(build_changes(ROW))
+    assert len(lines) == 2 * sum(bool(check.changes) for check in ROW.checks)
+    assert lines[1][2:5] == ["snow density: none", "450 kg/m³", "7"]
+
+
+def test_change_in_words():
+    change = ChangeRecord(
+        quantity="snow thickness",
+        unit="m",
+        now=2.5,
+        bound=1.26,
+        sense="at most",
+        solves=9,
+    )
+    assert describe_change(change) == "snow thickness at most 1.26 m"
+
+
+def test_worked_steps_lead_from_the_solved_force_to_the_action():
+    edge, action = describe_widths(ROW.checks[0])
+    assert edge == (
+        "b_e = b / 2 + f_R · Δl",
+        "4.00 m / 2 + 1.60 · 1.50 m",
+        "4.40 m",
+    )
+    assert action[0] == "E_k = E_s · b_e / b · k_q"
+    inside = replace(
+        ROW.checks[0], action=replace(ROW.checks[0].action, position="intermediate")
+    )
+    assert len(describe_widths(inside)) == 1
+    assert describe_widths(replace(ROW.checks[0], action=None)) == ()
+
+
+def test_page_draws_the_polygon_of_the_head():
+    page = render_html(build_study(rows=1))
+    assert 'aria-label="Force polygon of the post head"' in page
+    assert "<script" not in page

@@ -1,0 +1,355 @@
+import io
+import zipfile
+from dataclasses import replace
+
+import pytest
+
+from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.report.language import LANGUAGES, load_words
+from netdesign.report.view.check_view import find_utilisation_band
+from netdesign.report.view.whole import EXPLANATION
+from netdesign.report.words import VERDICTS
+from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.excel import SHEETS, render_workbook
+from netdesign.study.records import compute_digest
+from tests.report.build_study import FORMULA, SCRIPT, build_study
+from tests.report.reading import read_rows, read_workbook, recalculate
+
+LIMIT = 1e-12  # relative: one rounding of a product, with room
+
+
+def hold_back(study):
+    """The same study with passing checks held back for failed cases."""
+    row = study.rows[0]
+    check = replace(row.checks[0], verdict=Verdict.NOT_PROVEN, reason="Failed cases.")
+    slack = replace(row.checks[6], utilisation=None, verdict=Verdict.NOT_PROVEN)
+    checks = [check, *row.checks[1:6], slack]
+    held = replace(row, checks=checks, verdict=Verdict.NOT_PROVEN)
+    return replace(study, rows=[held, *study.rows[1:]])
+
+
+STUDY = hold_back(build_study())
+
+
+@pytest.fixture(scope="module")
+def content():
+    return render_workbook(STUDY)
+
+
+# What a factor, a resistance or an action is not, as cells can hold it.
+NO_NUMBERS = (
+    *(None, "", "abc", "1.5", " 2", "-", True, False, "=TRUE()", "#DIV/0!"),
+    *("#N/A", "=1/0", '="1.5"', "=NA()", -1.5, -1e-9),
+)
+FACTORS, ACTIONS = ("H", "L", "M"), ("E", "F", "G")
+
+
+def build_many(lines):
+    """Net rows of checks that all pass, at least so many of them loaded."""
+    (row,) = build_study(rows=1).rows
+    assert {check.verdict for check in row.checks} == {Verdict.PASS}
+    count = -(-lines // sum(check.action_kN is not None for check in row.checks))
+    study = build_study(rows=1)
+    rows = [replace(row, id=f"R{number}") for number in range(count)]
+    return replace(study, rows=rows)
+
+
+SPOILS = [
+    *((letter, value) for letter in FACTORS for value in (*NO_NUMBERS, 0, 0.0)),
+    *((letter, value) for letter in ACTIONS for value in NO_NUMBERS),
+    *(("F", 1e4), ("E", 1e4), ("R", None), ("R", "PASS"), ("R", "abc"), ("R", 0)),
+]
+MANY = build_many(len(SPOILS))
+LOADED = [
+    (line, check)
+    for line, check in enumerate((c for row in MANY.rows for c in row.checks), 5)
+    if check.action_kN is not None
+]
+
+
+def spoil(content):
+    """One cell of each loaded check typed over; of a slack one, its factor too."""
+    book = read_workbook(content, formulas=True)
+    sheet = list(book)[2]
+    for (line, check), (letter, value) in zip(LOADED, SPOILS, strict=False):
+        is_slack = check.action_kN == 0.0
+        cell = sheet[f"{'H' if is_slack and value == '-' else letter}{line}"]
+        cell.value = "abc" if is_slack and value == "-" else value
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
+@pytest.fixture(scope="module")
+def fresh(content, tmp_path_factory):
+    """Recalculated workbooks: of each language, and an edited English one."""
+    books = {
+        "en": content,
+        "edited": edit(content),
+        **{name: render_workbook(STUDY, load_words(name)) for name in ("fr", "de")},
+        **{
+            f"spoilt-{name}": spoil(render_workbook(MANY, load_words(name)))
+            for name in LANGUAGES
+        },
+    }
+    return recalculate(books, tmp_path_factory.mktemp("books"))
+
+
+def edit(content):
+    """Three cells typed over, as an engineer would."""
+    book = read_workbook(content, formulas=True)
+    sheet = book["Checks"]
+    assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
+    sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
+    sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
+    sheet["F18"], sheet["E18"], sheet["G18"] = 5.0, 5.0, 5.0  # second: slack no more
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
+def expected_checks(study):
+    return [check for row in study.rows for check in row.checks]
+
+
+def assert_equals_study(content, study):
+    book = read_workbook(content)
+    rows = read_rows(book["Checks"], "No.")
+    for line, check in zip(rows, expected_checks(study), strict=True):
+        low, high = find_utilisation_band(check)
+        expected = {
+            "E_k [kN]": check.action_kN,
+            "E_d low [kN]": check.demand_low_kN,
+            "E_d [kN]": check.demand_kN,
+            "E_d high [kN]": check.demand_high_kN,
+            "R_d [kN]": check.resistance_kN,
+            "μ low": low,
+            "μ": check.utilisation,
+            "μ high": high,
+        }
+        for heading, value in expected.items():
+            shown = "-" if value is None else pytest.approx(value, rel=LIMIT)
+            assert line[heading] == shown, heading
+        assert line["Verdict"] == VERDICTS[check.verdict].word
+    summary = read_rows(book["Summary"], "No.")
+    words = [line["Verdict"] for line in summary]
+    assert words == [VERDICTS[row.verdict].word for row in study.rows]
+    assert book["Summary"]["C3"].value == VERDICTS[study.verdict].word
+
+
+def test_cached_values_equal_the_study(content):
+    assert_equals_study(content, STUDY)
+
+
+def test_recalculation_equals_the_study(content, fresh):
+    assert_equals_study(fresh["en"], STUDY)
+    cached, live = read_workbook(content), read_workbook(fresh["en"])
+    formulas = read_workbook(content, formulas=True)
+    count = 0
+    for sheet in formulas:
+        for line in sheet.iter_rows():
+            for cell in line:
+                if cell.data_type != "f":
+                    continue
+                count += 1
+                value = cached[sheet.title][cell.coordinate].value
+                is_number = isinstance(value, float)
+                expected = pytest.approx(value, rel=LIMIT) if is_number else value
+                shown = live[sheet.title][cell.coordinate].value
+                assert shown == expected, (sheet.title, cell.coordinate)
+    assert count > 150
+
+
+def test_verdicts_follow_an_edited_cell(fresh):
+    book = read_workbook(fresh["edited"])
+    assert book["Checks"]["S6"].value == "FAIL"
+    assert book["Checks"]["S18"].value == "NOT PROVEN"
+    assert book["Checks"]["S22"].value == "PASS"
+    verdicts = [line["Verdict"] for line in read_rows(book["Summary"], "No.")]
+    assert verdicts == ["FAIL", "FAIL", "PASS"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_no_number_never_passes(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
+    passes, open_ = (words(VERDICTS[v].word) for v in ("pass", "not_proven"))
+    sheet = book[words("Checks")]
+    spoilt = dict(zip((line for line, _ in LOADED), SPOILS, strict=False))
+    for line, check in LOADED:
+        expected = open_ if line in spoilt else passes
+        assert sheet[f"S{line}"].value == expected, (check.id, spoilt.get(line))
+    summary = book[words("Summary")]
+    assert summary["C3"].value == open_
+    assert {summary[f"C{line}"].value for line in range(6, 6 + 12)} == {open_}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
+    sheet, changed = book[words("Checks")], words(CHANGED)
+    spoilt = [line for (line, _), _ in zip(LOADED, SPOILS, strict=False)]
+    for line, check in LOADED:
+        texts = {sheet[f"{letter}{line}"].value for letter in "WX"}
+        assert (texts == {changed}) is (line in spoilt), check.id
+    summary = book[words("Summary")]
+    assert summary["D3"].value == words(VERDICTS["not_proven"].meaning)
+    assert summary["M6"].value == changed
+    assert summary["J6"].value == sheet["C5"].value  # the first of those not proven
+
+
+def test_what_governs_and_why_follows_an_edited_cell(fresh):
+    book = read_workbook(fresh["edited"])
+    checks, summary = book["Checks"], book["Summary"]
+    assert [summary[f"J{line}"].value for line in (6, 7, 8)] == [
+        "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
+    ]  # fmt: skip
+    assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
+    assert [checks[f"X{line}"].value == CHANGED for line in (5, 6, 18, 22)] == [
+        False, True, True, True
+    ]  # fmt: skip
+    assert summary["D3"].value == VERDICTS["fail"].meaning
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_first_sheet_says_how_the_report_is_verified(language):
+    words = load_words(language)
+    book = read_workbook(render_workbook(STUDY, words))
+    shown = [cell.value for line in next(iter(book)).iter_rows() for cell in line]
+    assert "netdesign verify --study study.json --site combe.xlsx" in shown
+    assert compute_digest(STUDY) in shown
+    assert words(EXPLANATION) in shown
+
+
+def test_a_spreadsheet_program_refuses_what_no_factor_can_be(content):
+    rules = read_workbook(content)["Checks"].data_validations.dataValidation
+    found = {str(rule.sqref): (rule.type, rule.operator, rule.formula1)
+             for rule in rules}  # fmt: skip
+    above, least = (
+        ("decimal", "greaterThan", "0"),
+        ("decimal", "greaterThanOrEqual", "0"),
+    )
+    for letter in FACTORS:
+        assert found[f"{letter}5:{letter}25"] == above
+    for letter in ACTIONS:
+        assert found[f"{letter}5:{letter}25"] == least
+
+
+def test_derived_numbers_and_verdicts_are_formulas(content):
+    sheet = read_workbook(content, formulas=True)["Checks"]
+    lines = read_rows(sheet, "No.")
+    for line, check in zip(lines, expected_checks(STUDY), strict=True):
+        derived = ["Verdict", "μ low", "μ", "μ high"]
+        if check.demand_kN is not None:
+            derived += ["E_d low [kN]", "E_d [kN]", "E_d high [kN]", "R_d [kN]"]
+        for heading in derived:
+            assert str(line[heading]).startswith("="), heading
+    summary = read_workbook(content, formulas=True)["Summary"]
+    assert str(summary["C3"].value).startswith("=IFERROR(IF(COUNTIF(")
+    assert str(summary["C6"].value).startswith("=IFERROR(IF(D6>0")
+
+
+def test_only_our_formulas_exist(content):
+    book = read_workbook(content, formulas=True)
+    for sheet in book:
+        for line in sheet.iter_rows():
+            for cell in line:
+                if cell.hyperlink is not None:  # only inside the workbook
+                    assert cell.hyperlink.target is None
+                    assert cell.hyperlink.location.startswith("'")
+                if cell.data_type == "f":
+                    assert sheet.title in ("Checks", "Summary")
+                    assert cell.value != FORMULA
+    names = {cell.value for cell in book["Checks"]["B"]}
+    assert FORMULA in {cell.value for cell in book["Inputs"]["D"]}
+    assert {f"Ridge {SCRIPT}", FORMULA} <= names
+
+
+def test_sheets_are_ready_to_read_and_print(content):
+    book = read_workbook(content)
+    assert tuple(book.sheetnames) == SHEETS
+    for sheet in book:
+        assert sheet.freeze_panes
+        assert sheet.page_setup.orientation == "landscape"
+        assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
+        assert sheet.print_title_rows
+    assert book["Checks"].auto_filter.ref == "A4:X25"
+    assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
+        book.defined_names
+    )
+
+
+def test_summary_leads_to_every_sheet_and_back(content):
+    book = read_workbook(content)
+    targets = {
+        cell.hyperlink.location.split("!")[0].strip("'")
+        for line in book["Summary"].iter_rows()
+        for cell in line
+        if cell.hyperlink
+    }
+    assert targets == set(SHEETS[1:])
+    for sheet in list(book)[1:]:
+        back = [c.hyperlink for line in sheet.iter_rows() for c in line if c.hyperlink]
+        assert [link.location for link in back] == ["'Summary'!A1"]
+
+
+def test_charts_follow_the_cells(content):
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        charts = [parts.read(n).decode() for n in parts.namelist() if "/charts/" in n]
+    references = "".join(charts)
+    assert len(charts) == 3
+    for area in ("Summary!$G$6:$G$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
+        assert area in references
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_workbook_in_other_languages_calculates_the_same(language, fresh):
+    words, book = load_words(language), read_workbook(fresh[language])
+    sheet, head = book[words("Checks")], words("No.")
+    for line, check in zip(read_rows(sheet, head), expected_checks(STUDY), strict=True):
+        assert line[words("Verdict")] == words(VERDICTS[check.verdict].word)
+        used = check.utilisation
+        assert line["μ"] == ("-" if used is None else pytest.approx(used, rel=LIMIT))
+    overall = book[words("Summary")]["C3"].value
+    assert overall == words(VERDICTS[STUDY.verdict].word)
+
+
+def test_numbers_are_numbers_with_a_format(content):
+    cases = read_workbook(content)["Cases"]
+    lines = read_rows(cases, "Net row")
+    records = [case for row in STUDY.rows for case in row.cases]
+    assert len(lines) == len(records) == 81
+    for line, record in zip(lines, records, strict=True):
+        force = record.post_kN
+        shown = "-" if force is None else pytest.approx(force, rel=LIMIT)
+        assert line["Post [kN]"] == shown
+    assert cases["E5"].number_format == "0.0"
+
+
+@pytest.mark.parametrize("rows", [0, 1])
+def test_small_studies_have_a_workbook(rows):
+    study = build_study(rows=1)
+    parts = study.rows[:rows]
+    verdict = merge_verdicts(row.verdict for row in parts)
+    content = render_workbook(replace(study, rows=parts, verdict=verdict))
+    book = read_workbook(content)
+    assert book["Summary"]["C3"].value == VERDICTS[verdict].word
+
+
+def test_bare_row_has_a_workbook():
+    study = build_study(rows=1)
+    bare = replace(
+        study.rows[0],
+        checks=[],
+        extremes=[],
+        cases=[],
+        drawing=None,
+        verdict=Verdict.NOT_PROVEN,
+    )
+    study = replace(study, rows=[bare], notes=[], verdict=Verdict.NOT_PROVEN)
+    book = read_workbook(render_workbook(study))
+    assert book["Checks"]["A5"].value == "none: no check was made"
+    assert book["Cases"]["A4"].value.startswith("none")
+
+
+def test_workbook_repeats_byte_for_byte(content):
+    assert content == render_workbook(STUDY)

@@ -1,0 +1,121 @@
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import TextFormat
+from netdesign.site.reader import read_site
+
+NETS = """\
+id;slope angle [deg];snow thickness [m];upslope length [m];ground law;net height [m];\
+net stiffness [kN/m];post spacing [m]
+R1;38,5;2,75;20;free;3,5;9000;3,5
+R2;40;2,5;20;free;3,5;9000;3,5
+"""
+RANGES = """\
+quantity;low;high
+density [kg/m3];270;400
+friction angle [deg];15;45
+"""
+ONE_FILE = f"{NETS}\n[Ranges];;\n{RANGES}"
+
+
+def write(path, text, encoding="utf-8"):
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+def refusal_of(path, text_format=None):
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path, text_format or TextFormat())
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("delimiter", [";", ",", "\t", "|"])
+def test_one_file_holds_several_sheets_and_its_delimiter_is_found(tmp_path, delimiter):
+    text = ONE_FILE.replace(",", ".").replace(";", delimiter)
+    site = read_site(write(tmp_path / "site.csv", text))
+    assert [row.snow_thickness for row in site.rows] == [2.75, 2.5]
+    assert site.ranges.density.high == 400.0
+    (note,) = site.notes
+    names = {";": "semicolon", ",": "comma", "\t": "tab", "|": "bar"}
+    assert f"delimiter {names[delimiter]} and the encoding utf-8" in note
+
+
+def test_decimal_commas_go_with_semicolons_and_in_quotes_with_commas(tmp_path):
+    site = read_site(write(tmp_path / "site.csv", ONE_FILE))
+    assert site.rows[0].snow_thickness == 2.75
+    quoted = "\n".join(
+        ",".join(f'"{cell}"' for cell in line.split(";"))
+        for line in ONE_FILE.splitlines()
+    )
+    site = read_site(write(tmp_path / "quoted.csv", quoted))
+    assert site.rows[0].layout.post_spacing == 3.5
+
+
+def test_decimal_commas_between_commas_are_refused(tmp_path):
+    path = write(tmp_path / "site.csv", ONE_FILE.replace(";", ","))
+    text_format = TextFormat(delimiter=",")
+    assert "stands below no heading" in refusal_of(path, text_format)
+
+
+def test_cells_are_named_as_a_spreadsheet_would(tmp_path):
+    text = ONE_FILE.replace("38,5", "3B").replace(
+        "friction angle [deg];15", "x [deg];1"
+    )
+    message = refusal_of(write(tmp_path / "site.csv", text))
+    assert 'site.csv › Nets › B2: "3B" is not a number' in message
+    assert 'site.csv › Ranges › A8: "x [deg]" is no known quantity' in message
+
+
+def test_a_folder_of_files_is_a_workbook(tmp_path):
+    folder = tmp_path / "site"
+    folder.mkdir()
+    write(folder / "Combe - Nets.csv", NETS)
+    write(folder / "Plages.csv", RANGES)
+    write(folder / "letter.csv", "Dear;Sir\n")
+    site = read_site(folder)
+    assert len(site.rows) == 2
+    assert any("letter.csv" in note and "not read" in note for note in site.notes)
+    echo = site.rows[0].inputs[1]
+    assert (echo.cell, echo.text) == ("Nets!B2", "38,5")
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252", "utf-16"])
+def test_names_survive_every_usual_encoding(tmp_path, encoding):
+    text = ONE_FILE.replace("R1", "Rangée 1")
+    site = read_site(write(tmp_path / "site.csv", text, encoding))
+    assert site.rows[0].id == "Rangée 1"
+
+
+def test_a_declared_decimal_mark_settles_thousands(tmp_path):
+    path = write(tmp_path / "site.csv", ONE_FILE.replace("R1;38,5", "R1;38,500"))
+    assert "is ambiguous: 38.500 or 38500" in refusal_of(path)
+    site = read_site(path, TextFormat(decimal_mark=","))
+    assert site.rows[0].inputs[1].value == 38.5
+
+
+@pytest.mark.parametrize(
+    ("content", "rule"),
+    [
+        (b"no;known\nheadings;here\n", "has no clear delimiter: semicolon or comma"),
+        (b"", "has no clear delimiter"),
+        (b"id;slope angle [deg]\x00;\n", "is no text file"),
+        (NETS.encode() + b'"never closed;1;2\n', "cannot be read as csv"),
+        (b"id;slope\n" + b"R;1\n" * 2001, "has cells filled down to row 2001"),
+        (b"id;slope\n" + b";" * 300 + b"1\n", "beyond column GR"),
+    ],
+)
+def test_what_cannot_be_read_is_one_clear_finding(tmp_path, content, rule):
+    path = tmp_path / "site.csv"
+    path.write_bytes(content)
+    message = refusal_of(path)
+    assert rule in message
+    assert message.count("\n") == 0
+
+
+def test_a_folder_without_csv_files_is_refused(tmp_path):
+    assert "is a folder without csv files" in refusal_of(tmp_path)
+
+
+def test_text_that_looks_like_a_formula_is_no_number(tmp_path):
+    text = ONE_FILE.replace("R1;38,5", "R1;=38+1")
+    assert '"=38+1" is not a number' in refusal_of(write(tmp_path / "site.csv", text))

@@ -1,0 +1,252 @@
+"""What a cell shows and what its column's heading says: never two units."""
+
+import random
+
+import openpyxl
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.number_formats import (
+    find_format_unit,
+    find_text_unit,
+    show_percent,
+    show_thousands,
+)
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.unit_names import KNOWN_UNITS, convert_unit, normalise_unit
+from netdesign.site.reader import read_site
+from netdesign.site.template.annotate import annotate_workbook
+from tests.site.cells.ods_files import write_ods
+from tests.site.conftest import SOUND
+
+# Formats as spreadsheet programs write them, with what they show beside a number.
+FORMATS = [
+    ("General", ""),
+    ("0.00", ""),
+    ("#,##0.0", ""),
+    ("0.00E+00", ""),
+    ("# ?/?", ""),
+    ("@", ""),
+    ("[Red]0.0", ""),
+    ("[$-409]0.0", ""),
+    ('_-* #,##0.00_-;-* #,##0.00_-;_-* "-"??_-;_-@_-', ""),
+    ('0.0" m"', "m"),
+    ('0"°"', "°"),
+    ("0\\°", "°"),
+    ('0"%"', "%"),
+    ('General" kN/m"', "kN/m"),
+    ('0.0" kg/m³"', "kg/m³"),
+    ('0.0" kg/m3"', "kg/m3"),
+    ("#,##0.00\\ [$€-407]", "€"),
+    ('"CHF "0.00', ""),  # letters before a number name it; a unit stands behind
+    ('"€ "0.00', "€"),
+    ("#,##0.00 [$CHF]", "CHF"),
+    ('[<1]0.0" m";0" cm"', "m"),
+]
+
+
+@pytest.mark.parametrize(("number_format", "shown"), FORMATS)
+def test_what_a_format_shows(number_format, shown):
+    assert find_format_unit(number_format, 3.7) == shown
+    assert not show_percent(number_format)
+    assert not show_thousands(number_format)
+
+
+@pytest.mark.parametrize(("value", "shown"), [(2.3, "m"), (-2.3, "cm"), (0.0, "mm")])
+def test_sections_go_by_the_sign(value, shown):
+    assert find_format_unit('0.0" m";-0" cm";0" mm"', value) == shown
+
+
+@pytest.mark.parametrize("number_format", ["0%", "0.0 %", "[Red]0%", '0%;"-"0%'])
+def test_a_percent_sign_outside_of_quotes_multiplies(number_format):
+    assert show_percent(number_format)
+
+
+@pytest.mark.parametrize("number_format", ["0.0,", "#,##0,", '0.0,," M"', "#,##0.0,_-"])
+def test_a_comma_behind_the_digits_divides(number_format):
+    assert show_thousands(number_format)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [("65°", "°"), ("3,50 m", "m"), ("1.5E+03", ""), ("(3)", ""), ("", ""),
+     ("1 000,5 kN/m", "kN/m"), ("350 kg/m3", "kg/m3"), ("75%", "%"), ("-3.2", "")],
+)  # fmt: skip
+def test_what_a_shown_number_says(text, shown):
+    assert find_text_unit(text) == shown
+
+
+def list_columns():
+    """Every column of numbers with a sound value, its unit and its place."""
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    for name, rows in sheets.items():
+        plan = next(plan for plan in SHEETS if plan.matches(name))
+        for column, heading in enumerate(rows[0]):
+            for field in plan.fields:
+                if heading == field.heading and field.units and rows[1][column]:
+                    yield name, column, field
+
+
+COLUMNS = list(list_columns())
+UNITS = [*sorted(KNOWN_UNITS - {"-", "%"}), "°", "%", "€", "ft", "Stück", "Grad", "m'"]
+
+
+def set_format(name, column, number_format, value=None):
+    def edit(workbook):
+        cell = workbook[name].cell(2, column + 1)
+        cell.number_format = number_format
+        cell.value = cell.value if value is None else value
+
+    return edit
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
+def test_a_unit_shown_is_the_heading_s_or_a_finding(
+    save, sheets, refused, name, column, field, seed
+):
+    unit = random.Random(f"{seed} {name} {column}").choice(UNITS)
+    path = save(sheets, set_format(name, column, f'0.0" {unit}"'))
+    if normalise_unit(unit) == field.unit:
+        assert len(read_site(path).rows) == 2
+        return
+    (finding,) = refused(path)
+    assert (finding.sheet, finding.cell) == (name, f"{chr(65 + column)}2")
+    assert f"{unit}, the file holds" in finding.rule
+
+
+@pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
+def test_the_heading_s_own_unit_may_be_shown(save, sheets, name, column, field):
+    path = save(sheets, set_format(name, column, f'0.0" {field.unit}"'))
+    assert read_site(path).rows == read_site(save(sheets)).rows
+
+
+@pytest.mark.parametrize("number_format", ["0%", '0.0"%"', "0.0,"])
+@pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
+def test_hundredths_and_thousands_are_findings(
+    save, sheets, refused, name, column, field, number_format
+):
+    (finding,) = refused(save(sheets, set_format(name, column, number_format)))
+    assert finding.rule.startswith("is ambiguous: its format shows ")
+    assert field.unit in finding.rule
+
+
+SHARES = [0.03, 0.007, 0.285, 0.1234]
+
+
+@pytest.mark.parametrize("slack", SHARES)
+@pytest.mark.parametrize("heading", ["slack", "slack [-]", "slack [%]"])
+def test_a_share_may_be_shown_in_percent(save, sheets, heading, slack):
+    """The file holds 0.03 where 3 % is shown, whatever the heading's unit."""
+    sheets["Nets"][0].append(heading)
+    sheets["Nets"][1].append(slack)
+    path = save(sheets, set_format("Nets", 14, "0.00%"))
+    assert read_site(path).rows[0].slack == pytest.approx(slack, rel=2e-15)
+
+
+@pytest.mark.parametrize("slack", SHARES)
+@pytest.mark.parametrize(("heading", "sign"), [("slack [-]", "%"), ("slack [%]", " %")])
+def test_a_share_may_be_typed_in_percent(tmp_path, heading, sign, slack):
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    sheets["Nets"][0] = [*sheets["Nets"][0], heading]
+    sheets["Nets"][1] = [*sheets["Nets"][1], f"{100 * slack:.6g}{sign}"]
+    row = read_site(write_csv(tmp_path / "site.csv", sheets)).rows[0]
+    assert row.slack == pytest.approx(slack, rel=2e-15)
+    echo = next(one for one in row.inputs if one.label == "slack")
+    assert echo.text.count("%") == 1
+
+
+def write_csv(path, sheets):
+    lines = []
+    for name, rows in sheets.items():
+        lines += ["", f"[{name}]"]
+        lines += [";".join("" if c is None else str(c) for c in row) for row in rows]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("text", ["65%", "65 %", "65,3%", "0.65 %"])
+@pytest.mark.parametrize(("name", "column", "field"), COLUMNS)
+def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field, text):
+    sheets = {key: [*rows] for key, rows in SOUND.items()}
+    sheets[name][1] = [*sheets[name][1]]
+    sheets[name][1][column] = text
+    with pytest.raises(SiteDataError) as caught:
+        read_site(write_csv(tmp_path / "site.csv", sheets))
+    (finding,) = (one for one in caught.value.findings if one.severity == "error")
+    assert finding.text == text
+    assert finding.rule == f"is a percentage, the unit of the column is {field.unit}"
+
+
+def cell_of_ods(value, shown, kind="float"):
+    return (
+        f'<table:table-cell office:value-type="{kind}" office:value="{value}">'
+        f"<text:p>{shown}</text:p></table:table-cell>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("shown", "kind", "is_sound"),
+    [("40°", "float", True), ("40,0 deg", "float", True), ("40", "float", True),
+     ("40%", "float", False), ("4000%", "percentage", False),
+     ("40 €", "currency", False),
+     ("40 m", "float", False), ("40 gon", "float", False)],
+)  # fmt: skip
+def test_so_does_an_ods(tmp_path, shown, kind, is_sound):
+    sheets = {name: [*rows] for name, rows in SOUND.items()}
+    slope = cell_of_ods(40, shown, kind)
+    others = "".join(write_plain(cell) for cell in SOUND["Nets"][1][2:])
+    line = f"<table:table-row>{write_plain('R1')}{slope}{others}</table:table-row>"
+    sheets["Nets"][1] = [line]
+    path = write_ods(tmp_path / "site.ods", sheets)
+    if is_sound:
+        assert len(read_site(path).rows) == 2
+        return
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    (finding,) = caught.value.findings
+    assert finding.cell == "B2"
+    copy = tmp_path / "copy.xlsx"  # which must show what the finding is about
+    copy.write_bytes(annotate_workbook(path, caught.value.findings))
+    with pytest.raises(SiteDataError) as again:
+        read_site(copy)
+    assert [one.cell for one in again.value.findings] == ["B2"]
+
+
+def write_plain(value):
+    if value is None:
+        return "<table:table-cell/>"
+    if isinstance(value, str):
+        return (
+            '<table:table-cell office:value-type="string">'
+            f"<text:p>{value}</text:p></table:table-cell>"
+        )
+    return cell_of_ods(value, value)
+
+
+def test_a_percent_slope_below_percent_is_read_whatever_shows_it(save, sheets):
+    sheets["Nets"][0][1] = "slope angle [%]"
+    sheets["Nets"][2][1] = 65.7
+    for value, number_format in ((65.7, '0.0"%"'), (0.657, "0.0%"), (65.7, "General")):
+        path = save(sheets, set_format("Nets", 1, number_format, value))
+        rows = read_site(path).rows
+        assert rows[0].slope_angle == rows[1].slope_angle
+    assert convert_unit(65.7, "%", "deg") == pytest.approx(33.305, abs=1e-3)
+
+
+def test_a_format_on_an_empty_cell_or_a_name_says_nothing(save, sheets):
+    def edit(workbook):
+        for address in ("A2", "D2", "L2"):
+            workbook["Nets"][address].number_format = '0"%"'
+
+    assert len(read_site(save(sheets, edit)).rows) == 2
+
+
+def test_the_template_s_own_formats_agree_with_its_headings(tmp_path):
+    from netdesign.site.template.workbook import write_site_workbook
+
+    for language in ("en", "fr", "de"):
+        path = tmp_path / f"{language}.xlsx"
+        write_site_workbook(path, example=True, language=language)
+        assert read_site(path).rows
+        openpyxl.load_workbook(path).close()

@@ -1,0 +1,262 @@
+import hashlib
+import time
+import zipfile
+
+import openpyxl
+import pytest
+import xlsxwriter
+
+from netdesign.errors import NetDesignError, SiteDataError
+from netdesign.site.cells import limits, spreadsheet
+from netdesign.site.cells.cells import name_column
+from netdesign.site.cells.spreadsheet import read_workbook
+
+
+def read_all(path):
+    return read_workbook(path, lambda _: True)
+
+
+def refusal_of(path):
+    with pytest.raises(SiteDataError) as caught:
+        read_all(path)
+    (finding,) = caught.value.findings
+    assert finding.file == path.name
+    return str(finding)
+
+
+def replace_part(path, name, change):
+    """Rewrite one part of a workbook, as no spreadsheet program would."""
+    with zipfile.ZipFile(path) as archive:
+        parts = {part: archive.read(part) for part in archive.namelist()}
+    parts[name] = change(parts[name])
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for part, content in parts.items():
+            archive.writestr(part, content)
+    return path
+
+
+@pytest.fixture
+def small(tmp_path):
+    path = tmp_path / "small.xlsx"
+    workbook = openpyxl.Workbook()
+    workbook.active.title = "One"
+    workbook.active["B2"] = 2.5
+    workbook.active["C4"] = "text"
+    workbook.save(path)
+    return path
+
+
+def test_cells_come_with_address_and_value(small):
+    workbook = read_all(small)
+    (sheet,) = workbook.sheets
+    assert sheet.row(2)[0].place == "One!B2"
+    assert sheet.cell(2, 2).value == 2.5
+    assert sheet.cell(4, 3).text == "text"
+    assert sheet.cell(3, 3).is_blank
+    assert sheet.cell(3, 3).address == "C3"
+    assert workbook.sha256 == hashlib.sha256(small.read_bytes()).hexdigest()
+
+
+def test_only_wanted_sheets_are_read(small):
+    workbook = read_workbook(small, lambda name: name == "Other")
+    assert workbook.sheets == ()
+    assert workbook.unread == ("One",)
+
+
+def test_columns_are_named_as_in_a_spreadsheet():
+    assert [name_column(n) for n in (1, 26, 27, 702, 703)] == [
+        *("A", "Z", "AA", "ZZ", "AAA")
+    ]
+
+
+def test_formulas_keep_their_text_beside_their_stored_result(tmp_path):
+    path = tmp_path / "formulas.xlsx"
+    with xlsxwriter.Workbook(path) as workbook:
+        sheet = workbook.add_worksheet("One")
+        sheet.write_formula("A1", "=2*3", value=6)
+        sheet.write_array_formula("A2:A2", "{=SUM(1,2)}", value=3)
+    (sheet,) = read_all(path).sheets
+    assert (sheet.cell(1, 1).value, sheet.cell(1, 1).text) == (6, "=2*3")
+    assert (sheet.cell(2, 1).value, sheet.cell(2, 1).text) == (3, "=SUM(1,2)")
+
+
+def test_a_formula_never_calculated_has_no_value(small):
+    workbook = openpyxl.load_workbook(small)
+    workbook["One"]["A1"] = "=1+1"
+    workbook.save(small)
+    cell = read_all(small).sheets[0].cell(1, 1)
+    assert (cell.value, cell.formula, cell.is_blank) == (None, "=1+1", False)
+
+
+def test_error_values_and_percent_formats_are_marked(tmp_path):
+    path = tmp_path / "marks.xlsx"
+    workbook = openpyxl.Workbook()
+    sheet = workbook.active
+    sheet["A1"] = "#REF!"
+    sheet["A2"], sheet["A3"], sheet["A4"] = 0.7, 0.7, 0.7
+    sheet["A2"].number_format = "0.0%"
+    sheet["A3"].number_format = '0.0" %"'
+    workbook.save(path)
+    cells = [read_all(path).sheets[0].cell(row, 1) for row in range(1, 5)]
+    assert [cell.is_error for cell in cells] == [True, False, False, False]
+    assert [cell.is_percent for cell in cells] == [False, True, False, False]
+
+
+def test_merged_ranges_and_hidden_rows_are_seen(small):
+    workbook = openpyxl.load_workbook(small)
+    workbook["One"].merge_cells("C4:D6")
+    workbook["One"].row_dimensions[2].hidden = True
+    workbook.save(small)
+    (sheet,) = read_all(small).sheets
+    (merged,) = sheet.merged
+    assert (merged.text, merged.row, merged.column, merged.last_row) == (
+        *("C4:D6", 4, 3, 6),
+    )
+    assert sheet.hidden_rows == {2}
+
+
+def test_a_declared_size_of_the_sheet_is_not_trusted(small):
+    replace_part(
+        small,
+        "xl/worksheets/sheet1.xml",
+        lambda xml: xml.replace(b'ref="B2:C4"', b'ref="A1:A1"'),
+    )
+    (sheet,) = read_all(small).sheets
+    assert sheet.cell(4, 3).text == "text"
+
+
+def test_a_missing_file_is_one_clear_finding(tmp_path):
+    path = tmp_path / "none.xlsx"
+    assert f"none.xlsx: the file does not exist at {path}" in refusal_of(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "cannot be read as a workbook"),
+        (b"\xd0\xcf\x11\xe0 old", "is an old .xls workbook or has a password"),
+        (b"PK\x03\x04 broken", "cannot be read as a workbook"),
+    ],
+)
+def test_what_is_no_workbook_is_one_clear_finding(tmp_path, content, message):
+    path = tmp_path / "site.xlsx"
+    path.write_bytes(content)
+    finding = refusal_of(path)
+    assert message in finding
+    assert "saved as .xlsx" in finding
+
+
+def test_text_under_the_name_of_a_workbook_is_told_apart(tmp_path):
+    path = tmp_path / "site.xlsx"
+    path.write_bytes(b"id;slope\nR1;40\n")
+    assert "is a text file; accepted: the ending .csv" in refusal_of(path)
+
+
+def test_a_truncated_workbook_is_refused(small):
+    small.write_bytes(small.read_bytes()[:-200])
+    assert "cannot be read as a workbook" in refusal_of(small)
+
+
+def test_an_archive_without_workbook_is_refused(tmp_path):
+    path = tmp_path / "site.xlsx"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("letter.txt", "no workbook")
+    assert "cannot be read as a workbook" in refusal_of(path)
+
+
+@pytest.mark.parametrize("part", ["xl/workbook.xml", "xl/worksheets/sheet1.xml"])
+def test_xml_with_entities_is_refused(small, part):
+    bomb = b'<!DOCTYPE x [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]>'
+    replace_part(small, part, lambda xml: bomb + xml)
+    assert "EntitiesForbidden" in refusal_of(small)
+
+
+def test_the_reader_refuses_to_run_without_hardened_xml(small, monkeypatch):
+    monkeypatch.setattr(openpyxl, "DEFUSEDXML", False)
+    with pytest.raises(NetDesignError, match="install defusedxml"):
+        read_all(small)
+
+
+def test_file_size_is_limited_on_both_sides(small, monkeypatch):
+    size = small.stat().st_size
+    monkeypatch.setattr(spreadsheet, "MAX_FILE_BYTES", size)
+    assert read_all(small).sheets
+    monkeypatch.setattr(spreadsheet, "MAX_FILE_BYTES", size - 1)
+    assert "is too large" in refusal_of(small)
+
+
+def test_number_of_parts_is_limited_on_both_sides(small, monkeypatch):
+    with zipfile.ZipFile(small) as archive:
+        count = len(archive.namelist())
+    monkeypatch.setattr(limits, "MAX_ENTRIES", count)
+    assert read_all(small).sheets
+    monkeypatch.setattr(limits, "MAX_ENTRIES", count - 1)
+    assert f"is an archive of {count} parts" in refusal_of(small)
+
+
+def test_expanded_size_is_limited_on_both_sides(small, monkeypatch):
+    with zipfile.ZipFile(small) as archive:
+        size = sum(entry.file_size for entry in archive.infolist())
+    monkeypatch.setattr(limits, "MAX_EXPANDED_BYTES", size)
+    assert read_all(small).sheets
+    monkeypatch.setattr(limits, "MAX_EXPANDED_BYTES", size - 1)
+    assert "expands beyond" in refusal_of(small)
+
+
+def test_a_part_packed_beyond_reason_is_refused(small):
+    replace_part(
+        small, "xl/worksheets/sheet1.xml", lambda xml: xml + b" " * (3 * 2**20)
+    )
+    assert "expands beyond" in refusal_of(small)
+
+
+def test_a_part_that_hides_its_size_is_refused(small):
+    content = small.read_bytes()
+    with zipfile.ZipFile(small) as archive:
+        size = archive.getinfo("xl/worksheets/sheet1.xml").file_size
+    spoilt = content.replace(size.to_bytes(4, "little"), (7).to_bytes(4, "little"))
+    assert spoilt != content
+    small.write_bytes(spoilt)
+    assert "cannot be read as a workbook" in refusal_of(small)
+
+
+def test_two_parts_of_one_name_are_refused(small):
+    with (
+        pytest.warns(UserWarning, match="Duplicate name"),
+        zipfile.ZipFile(small, "a") as archive,
+    ):
+        archive.writestr("xl/workbook.xml", "<workbook/>")
+    assert "two parts of the same name" in refusal_of(small)
+
+
+def test_a_huge_merged_range_costs_nothing(small):
+    replace_part(
+        small,
+        "xl/worksheets/sheet1.xml",
+        lambda xml: xml.replace(
+            b"</sheetData>",
+            b'</sheetData><mergeCells><mergeCell ref="A1:XFD1048576"/></mergeCells>',
+        ),
+    )
+    start = time.perf_counter()
+    (merged,) = read_all(small).sheets[0].merged
+    assert merged.last_row == 1048576
+    assert time.perf_counter() - start < 5.0
+
+
+@pytest.mark.parametrize("row", [2001, 1_000_000_000])
+def test_rows_far_down_are_refused(small, row):
+    cell = f'<row r="{row}"><c r="A{row}"><v>1</v></c></row></sheetData>'.encode()
+    replace_part(
+        small,
+        "xl/worksheets/sheet1.xml",
+        lambda xml: xml.replace(b"</sheetData>", cell),
+    )
+    assert f"has cells filled down to row {row}" in refusal_of(small)
+
+
+def test_columns_far_right_are_refused(small):
+    workbook = openpyxl.load_workbook(small)
+    workbook["One"].cell(1, 201, 1.0)
+    workbook.save(small)
+    assert "has cells filled beyond column GR" in refusal_of(small)

@@ -1,0 +1,79 @@
+import math
+
+import pytest
+
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
+from netdesign.site.columns.fields import normalise, split_heading
+from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
+from netdesign.site.model import MEMBER_MODES
+
+TABLES = {plan.name: plan.fields for plan in SHEETS} | {
+    "quantities": RANGE_QUANTITIES,
+    "items": PROJECT_ITEMS,
+}
+BY_SHEET = {plan.name: {field.key: field for field in plan.fields} for plan in SHEETS}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_no_heading_names_two_fields(table):
+    names = [name for field in TABLES[table] for name in field.names]
+    assert len(names) == len(set(names))
+    assert all(names)
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_labels_are_headings_that_are_read_back(table):
+    for field in TABLES[table]:
+        name, unit = split_heading(field.heading)
+        assert name in field.names
+        assert unit == field.unit
+
+
+def test_defaults_lie_within_bounds():
+    fields = [field for fields in TABLES.values() for field in fields]
+    defaults = [field for field in fields if field.default is not None]
+    assert {field.key for field in defaults} == {"slack", "post_tilt"}
+    for field in defaults:
+        assert field.bounds[0] <= field.default <= field.bounds[1]
+
+
+def test_every_member_and_mode_has_its_column():
+    for member, mode in MEMBER_MODES:
+        sheet = BY_SHEET["Nets"][member].refers_to
+        assert BY_SHEET[sheet][mode].unit == "kN"
+
+
+@pytest.mark.parametrize(
+    ("heading", "name", "unit"),
+    [
+        ("Slope angle [deg]", "slopeangle", "deg"),
+        ("  SLOPE-ANGLE (°) ", "slopeangle", "deg"),
+        ("Épaisseur de neige [m]", "epaisseurdeneige", "m"),
+        ("Fussanker", "fussanker", ""),
+        ("Fußanker", "fussanker", ""),
+        ("density [kg/m³]", "density", "kg/m3"),
+        ("net stiffness [KN / ml]", "netstiffness", "kN/m"),
+        ("snow height (vertical) [m]", "snowheightvertical", "m"),
+        ("x" * 101, "", ""),
+    ],
+)
+def test_headings_are_split_without_case_accents_or_spaces(heading, name, unit):
+    assert split_heading(heading) == (name, unit)
+
+
+def test_names_and_units_keep_what_tells_them_apart():
+    assert normalise("uphill anchor") != normalise("uphill anchor distance")
+    assert normalise_unit("mm") != normalise_unit("m")
+    assert normalise_unit("grad") == "grad"  # degree in German, gon elsewhere
+
+
+def test_a_slope_of_100_per_cent_is_45_degrees():
+    assert convert_unit(100.0, "%", "deg") == pytest.approx(45.0, rel=1e-15)
+    assert convert_unit(100.0, "m", "m") == 100.0
+
+
+def test_si_values():
+    assert to_si(180.0, "deg") == math.pi
+    assert to_si(2.0, "kN") == 2000.0
+    assert to_si(2.0, "kN/m") == 2000.0
+    assert to_si(2.0, "m") == 2.0

@@ -1,0 +1,202 @@
+"""Whatever is altered in a stored study, `report` refuses it or `verify` notices."""
+
+import copy
+import json
+import random
+from contextlib import contextmanager
+from dataclasses import replace
+
+import pytest
+
+from netdesign import cli
+from netdesign.checks import load_standard
+from netdesign.commands import report as report_command
+from netdesign.commands import verify as verify_command
+from netdesign.envelope.runner import Runner
+from netdesign.site.reader import read_site
+from netdesign.study import check_site as use_case
+from netdesign.study.audit import audit_study
+from netdesign.study.check_site import _record_provenance
+from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.study.repeat import list_differences
+from tests.alter_study import alter_leaf, list_leaves
+from tests.short_example import write_short_example
+from tests.study.audit.alterations import KINDS
+
+REFUSED = 3
+NOISE = 1e-4  # shares and differences are compared no closer, for other processors
+# Only a new solve can tell these: numbers that nothing else in the study follows from,
+# or that were altered with everything else.
+SOLVE_ONLY = {
+    *("every force a tenth smaller", "a force of one case lowered", "a case added"),
+    *("a case dropped", "an error of a case lowered", "drivers altered"),
+    *("a line flattened", "a map lowered", "the log shortened"),
+    *("a confirmation dropped", "a confirmation moved to its case"),
+    *("another creep law brought near", "a change that flips a check added"),
+    *("an upper bound lowered", "sticking points drawn as sliding"),
+    *("a measurement added", "looser tolerances hidden"),
+    # not of the document alone: these need the files, or another installation
+    *("another hash of the site", "a factor lowered with another hash"),
+    *("another version of the program", "other libraries"),
+    *("started in the future", "started without a digest"),
+}
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory):
+    """Folder with a site of two net rows that pass, and its study."""
+    folder = tmp_path_factory.mktemp("forged")
+    write_short_example(folder / "site.xlsx", ["R1", "R2"], is_grid=False, leans=False)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        options = ["--accuracy", "0.0512345678", "--jobs", "1", "--method", "steady"]
+        options += ["--quiet", "--no-html", "--no-excel"]
+        argv = ["netdesign", "check", "site.xlsx", *options]
+        patch.setattr("sys.argv", argv)
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+    assert caught.value.code == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def text(home):
+    return (home / "netdesign-out" / "study.json").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def site(home):
+    return read_site(home / "site.xlsx")
+
+
+@pytest.fixture
+def try_both(monkeypatch, call, tmp_path, text, site):
+    """Ends of `report` and of `verify --study` with an altered document.
+
+    The site is read once, and solved once: the solve is the study's own, which
+    ``test_verify_study`` shows to come out again.
+    """
+    fresh = read_document(text)
+
+    @contextmanager
+    def solve(*_arguments, **_options):
+        yield Runner(), None  # without a fault
+
+    def judge(_site, _profiles, run, _runner, _watch):
+        return [replace(fresh, provenance=_record_provenance(site, run))]
+
+    monkeypatch.setattr(verify_command, "open_run", solve)
+    monkeypatch.setattr(use_case, "check_site", judge)
+    for module in (verify_command, report_command):
+        monkeypatch.setattr(module, "read_own_site", lambda *_: site)
+
+    def run(document, *, seal=True):
+        path = tmp_path / "study.json"
+        written = json.dumps(document)
+        if seal and document["digest"]:
+            written = write_document(read_document(written))
+        path.write_text(written, encoding="utf-8")
+        options = ("--no-html", "--no-excel", "--force")
+        return call("report", path, *options), call("verify", "--study", path)
+
+    return run
+
+
+def test_the_study_itself_is_rendered_and_verified(try_both, text):
+    ended = try_both(json.loads(text))
+    assert [one.code for one in ended] == [0, 0]
+    assert "same bytes" in ended[1].out
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_alteration_is_refused_or_noticed(try_both, text, kind):
+    document = json.loads(text)
+    KINDS[kind](document)
+    rendered, verified = try_both(document)
+    assert verified.code in (1, 3, 4), verified.out
+    assert (rendered.code == REFUSED) is (kind not in SOLVE_ONLY), rendered.err
+
+
+def test_there_are_many_kinds_of_alterations():
+    assert len(KINDS) >= 35
+    assert set(KINDS) > SOLVE_ONLY
+
+
+def shorten(part):
+    """The first members of every list: all names of values, few values."""
+    if isinstance(part, dict):
+        return {key: shorten(one) for key, one in part.items()}
+    return [shorten(one) for one in part[:4]] if isinstance(part, list) else part
+
+
+def list_draws(text, seed):
+    """Studies with one value of each name altered, beside the value's path."""
+    draw, whole = random.Random(seed), shorten(json.loads(text))
+    leaves = list_leaves(whole)
+    named = {tuple(p for p in path if isinstance(p, str)): path
+             for path in draw.sample(leaves, len(leaves))}  # fmt: skip
+    yield (), read_document(json.dumps(whole))
+    for name, path in named.items():
+        if name not in (("schema",), ("digest",)):
+            document = copy.deepcopy(whole)
+            if alter_leaf(document, path, draw) > NOISE:
+                yield name, read_document(json.dumps(document))
+
+
+def test_whatever_is_altered_and_not_sealed_is_under_the_digest(text):
+    (_, study), *draws = list_draws(text, 171)
+    digests = {compute_digest(one) for _, one in draws}
+    assert len(digests - {compute_digest(study)}) == len(draws) > 150
+
+
+def test_whatever_is_altered_differs_from_a_new_solve(text):
+    """Whoever seals a document again meets the new solve, save what nobody knows."""
+    (_, fresh), *draws = list_draws(text, 172)
+    told_beside = {("provenance", key) for key in ("version", "libraries")}
+    for name, study in draws:
+        _, found = list_differences(study, fresh)
+        assert bool(found) is (name[:2] not in told_beside), name
+
+
+def test_a_study_without_its_files_is_audited_all_the_same(text):
+    """Alone, a study still has to agree with itself."""
+    alone = []
+    for kind, alter in KINDS.items():
+        document = json.loads(text)
+        alter(document)
+        if audit_study(read_document(json.dumps(document))):
+            alone.append(kind)
+    assert len(alone) >= 30
+    assert audit_study(read_document(text)) == []
+
+
+def test_a_profile_of_another_hash_says_nothing(text):
+    study = read_document(text)
+    assert audit_study(study, load_standard("eurocode")) == []
+
+
+def test_report_reads_the_site_file_itself(call, home, text, tmp_path):
+    """Given or beside the study; where there is none, that is said."""
+    document = json.loads(text)
+    KINDS["a row dropped"](document)
+    path = tmp_path / "study.json"
+    path.write_text(write_document(read_document(json.dumps(document))))
+    options = ("--no-html", "--no-excel", "--force")
+    alone = call("report", path, *options)
+    assert alone.code == 0
+    assert "not compared with its site file: " in alone.err
+    given = call("report", path, "--site", home / "site.xlsx", *options)
+    assert given.code == REFUSED
+    assert "the study has net rows ['R1'], its site file ['R1', 'R2']" in given.err
+    (tmp_path / "site.xlsx").write_bytes((home / "site.xlsx").read_bytes())
+    assert call("report", path, *options).err == given.err
+
+
+def test_report_refuses_files_of_another_study(call, home, text, tmp_path):
+    path = tmp_path / "study.json"
+    path.write_text(text, encoding="utf-8")
+    write_short_example(tmp_path / "other.xlsx", ["R3"])
+    for option, value in (("--site", "other.xlsx"), ("--standard", "eurocode")):
+        ended = call("report", path, option, value, "--no-html", "--no-excel")
+        assert ended.code == REFUSED
+        assert "other SHA-256" in ended.err

@@ -1,0 +1,314 @@
+"""A site searched instead of sampled, on two coarse meshes."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.history.transient import TransientSettings
+from netdesign.envelope import confirm
+from netdesign.envelope.confirm import confirm_envelopes
+from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.store import CaseStore
+from netdesign.envelope.workers import ProcessPool
+from netdesign.outcome import Outcome, Verdict
+from netdesign.snow.snowpack import Layer
+from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
+from netdesign.study.check_site import judge_site
+from netdesign.study.probe import Probe
+from netdesign.study.records import read_document, write_document
+from tests.envelope.made_up_workers import Recording
+from tests.small_site import ROWS, RUN, build_row, build_site, resist
+
+RANGES = Ranges(
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
+    inclination=Interval(low=math.radians(30), high=math.radians(30)),
+)
+SITE = build_site(*ROWS, ranges=RANGES)
+
+
+@pytest.fixture(scope="module")
+def standard():
+    return load_standard("nf-p-95-304-style")
+
+
+@pytest.fixture(scope="module")
+def envelopes():
+    return search_site(SITE, RUN)
+
+
+def judge(standard, envelopes, site=SITE):
+    results = [one.results for one in envelopes]
+    return judge_site(site, results, standard, RUN, envelopes=envelopes)
+
+
+def on_row(check):
+    """Force on the worst support of the row over the solved one."""
+    effects = check.action
+    ratio = effects.loaded_width_m / effects.post_spacing_m
+    return ratio * effects.lateral_factor
+
+
+def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
+    assert not RANGES.is_grid
+    counted = replace(RANGES, density=replace(RANGES.density, count=3))
+    assert counted.is_grid
+    single = Interval(low=300.0, high=300.0)
+    fixed = Ranges(density=single, friction_angle=single, inclination=single)
+    assert fixed.is_grid
+    assert count_cases(build_site(*ROWS, ranges=counted)) == 2 * 3 * 3
+
+
+def test_the_study_holds_bounds_log_and_confirmations(standard, envelopes):
+    study = judge(standard, envelopes)
+    assert study.verdict is Verdict.PASS
+    for row in study.rows:
+        record = row.envelope
+        assert record.is_closed
+        assert len(row.cases) == record.cases == len(record.log)
+        for bound, extreme in zip(record.bounds, row.extremes, strict=True):
+            assert bound.quantity == extreme.quantity
+            assert bound.max_kN == extreme.max_kN
+            assert extreme.upper_bound_kN == bound.upper_bound_kN
+            assert extreme.high_kN >= bound.upper_bound_kN - 1e-9
+            if bound.max_kN > 0.0:
+                assert bound.confirmation.confirmed_kN <= extreme.high_kN
+    again = read_document(write_document(study))
+    assert replace(again, digest="") == study
+
+
+def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
+    """A resistance between the largest case and the bound's end proves nothing."""
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.demand_high_kN > check.demand_kN
+    band = envelopes[0].bound("foot_anchor")
+    factor = on_row(check) * check.action_factor * check.resistance_factor
+    between = 0.5 * (band.value + band.high) * factor
+    row = build_row("R1", resistances=resist(foot_anchor__tendon=between))
+    site = build_site(row, ranges=RANGES)
+    again = judge(standard, envelopes[:1], site)
+    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.verdict is Verdict.NOT_PROVEN
+
+
+def test_critical_values_are_where_the_check_flips(standard, envelopes):
+    """A foot anchor that is just strong enough in the middle of the densities."""
+    middle = sorted(r.member_forces["foot_anchor"].value for r in envelopes[0].results)
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    level = middle[len(middle) // 2]
+    given = level * on_row(check) * check.action_factor * check.resistance_factor
+    row = build_row("R1", resistances=resist(foot_anchor__tendon=given))
+    site = build_site(row, ranges=RANGES)
+    bounds = judge(standard, envelopes[:1], site).rows[0].envelope.bounds
+    flips = [f for f in bounds[0].flips if f.key == "density_kg_m3"]
+    (flip,) = [f for f in flips if f.check == "foot_anchor.tendon"]
+    assert 270.0 < flip.value < 400.0
+    line = next(one for one in bounds[0].lines if one.key == "density_kg_m3")
+    below = [
+        f for v, f in zip(line.values, line.force_kN, strict=True) if v < flip.value
+    ]
+    above = [
+        f for v, f in zip(line.values, line.force_kN, strict=True) if v > flip.value
+    ]
+    assert max(below) <= level / 1e3 <= min(above)
+
+
+def test_an_open_gap_never_passes(standard, envelopes):
+    opened = [
+        replace(one, maxima=replace(one.maxima, is_closed=False)) for one in envelopes
+    ]
+    study = judge(standard, opened)
+    assert study.verdict is Verdict.NOT_PROVEN
+    assert all(
+        check.verdict is not Verdict.PASS
+        for row in study.rows
+        for check in row.checks
+        if check.mode != "inclination" and check.action_kN
+    )
+
+
+def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_path):
+    expected = write_document(judge(standard, envelopes))
+    with CaseStore(tmp_path / "cases.sqlite", pytest.fail) as store:
+        for _ in range(2):
+            found = search_site(SITE, RUN, Runner(store=store))
+            assert write_document(judge(standard, found)) == expected
+    pool = ProcessPool(2, worth=1)
+    try:
+        found = search_site(SITE, RUN, Runner(workers=pool))
+    finally:
+        pool.close()
+    assert write_document(judge(standard, found)) == expected
+
+
+def test_layered_snow_is_part_of_what_a_search_is_known_by(tmp_path):
+    """Two rows that differ in one layer only, and a second run of both."""
+    thickness = ROWS[0].snow_thickness
+    rows = [
+        replace(
+            ROWS[0],
+            layers=(
+                Layer(thickness=0.5 * thickness, density=350.0),
+                Layer(thickness=0.5 * thickness, density=density),
+            ),
+        )
+        for density in (250.0, 250.5)
+    ]
+    searched = []
+
+    class Recording(CaseStore):
+        def keep_search(self, name, known):
+            searched.append(name)
+            super().keep_search(name, known)
+
+    for row in (*rows, *rows):
+        with Recording(tmp_path / "cases.sqlite", pytest.fail) as store:
+            search_site(build_site(row, ranges=RANGES), RUN, Runner(store=store))
+    assert len(searched) == len(set(searched)) == 2
+
+
+def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelopes):
+    """Forces no smaller than the steady ones; histories of governing cases only."""
+    workers = Recording()
+    site = build_site(ROWS[0], ranges=RANGES)
+    run = replace(RUN, method="transient")
+    (found,) = search_site(site, run, Runner(workers=workers))
+    settings = [job.settings for job in workers.jobs]
+    histories = [one for one in settings if isinstance(one, TransientSettings)]
+    steady = envelopes[0]
+    governing = {id(steady.governing(member)) for member in loaded(steady)}
+    assert len(histories) == len(governing)
+    assert found.gap == ""
+    for member in loaded(steady):
+        assert found.force(member).value >= steady.force(member).value
+        assert found.bound(member).high >= steady.bound(member).high
+        assert found.upper_bound(member) > found.force(member).value
+    study = judge_site(site, [found.results], standard, run, envelopes=[found])
+    assert "history" in study.provenance.settings["method"]
+    record = study.rows[0].envelope.bounds[0]
+    assert record.max_kN == study.rows[0].extremes[0].max_kN
+
+
+def test_a_history_that_fails_leaves_its_searched_row_unproven(
+    standard, envelopes, monkeypatch
+):
+    def fail(tasks, **_):
+        return [
+            CaseResult(
+                case=task.case,
+                outcome=Outcome.PLATEAU_NOT_REACHED,
+                reason="spoilt",
+                member_forces={},
+            )
+            for task in tasks
+        ]
+
+    monkeypatch.setattr(confirm, "run_cases", fail)
+    found = confirm_envelopes(envelopes, TransientSettings())
+    study = judge(standard, found)
+    assert study.verdict is Verdict.NOT_PROVEN
+    assert all(row.verdict is Verdict.NOT_PROVEN for row in study.rows)
+    assert all("history of a governing case: spoilt" in one.gap for one in found)
+
+
+def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
+    """The snow density that is told passes with the bound, and a little more fails."""
+    band = envelopes[0].bound("foot_anchor")
+    study = judge(standard, envelopes)
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    factor = on_row(check) * check.action_factor * check.resistance_factor
+    row = build_row(
+        "R1", resistances=resist(foot_anchor__tendon=0.85 * band.value * factor)
+    )
+    site = build_site(row, ranges=RANGES)
+    probe = Probe(RUN.settings, RUN.creep_law)
+    results = [one.results for one in envelopes[:1]]
+    again = judge_site(site, results, standard, RUN, probe, envelopes=envelopes[:1])
+    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
+    assert check.verdict is Verdict.FAIL
+    changes = {change.quantity: change for change in check.changes}
+    bound = changes["snow density"].bound
+    assert 270.0 < bound < 400.0
+    assert changes["snow density"].solves > 0
+
+    def verdict(high):
+        ranges = replace(RANGES, density=Interval(low=270.0, high=high))
+        changed = build_site(row, ranges=ranges)
+        found = search_site(changed, RUN)
+        judged = judge(standard, found, changed).rows[0]
+        return next(c for c in judged.checks if c.id == "foot_anchor.tendon").verdict
+
+    assert verdict(bound) is Verdict.PASS
+    assert verdict(bound + 15.0) is not Verdict.PASS
+
+
+def loaded(envelope):
+    return [m for m in envelope.members if envelope.force(m).high > 0.0]
+
+
+# --- what is promised beforehand -----------------------------------------------------
+
+
+def draw_site(seed, *, is_grid):
+    """One or two rows of any strength, over untidy ranges."""
+    draw = random.Random(seed)
+
+    def spread(low, high, widest):
+        start = draw.uniform(low, high)
+        count = draw.randint(2, 3) if is_grid else None
+        return Interval(
+            low=start, high=start + draw.uniform(0.2, 1) * widest, count=count
+        )
+
+    def row(name):
+        thickness = draw.uniform(1.6, 3.9)
+        return build_row(
+            name,
+            slope_angle=math.radians(draw.uniform(28.0, 48.0)),
+            snow_thickness=thickness,
+            net_height=thickness * draw.uniform(1.0, 1.2),
+            upslope_length=draw.uniform(5.0, 18.0),
+            slack=draw.uniform(0.01, 0.08),
+            resistances=resist(10.0 ** draw.uniform(4.3, 6.3)),
+        )
+
+    ranges = Ranges(
+        density=spread(230.0, 330.0, 140.0),
+        friction_angle=spread(0.1, 0.5, 0.3),
+        inclination=spread(0.35, 0.5, 0.12),
+    )
+    return build_site(*map(row, ("R1", "R2")[: draw.randint(1, 2)]), ranges=ranges)
+
+
+SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in (0, *range(2, 30))]
+
+
+@pytest.mark.parametrize("is_grid", [True, False], ids=["grid", "search"])
+@pytest.mark.parametrize("seed", [1, *SLOW])
+def test_each_phase_solves_no_more_than_was_promised(standard, is_grid, seed):
+    """Never more than the upper figure; of a row that passes not even the usual."""
+    site, runner, asked = draw_site(seed, is_grid=is_grid), Runner(), []
+    runner.on_ask = asked.extend
+    promised = {one.key: one for one in list_phases(site, RUN)}
+    envelopes = None if is_grid else search_site(site, RUN, runner)
+    results = (
+        solve_site(site, RUN, runner)
+        if envelopes is None
+        else [list(one.results) for one in envelopes]
+    )
+    of_envelope = runner.counts.solved
+    probe = Probe(RUN.settings, RUN.creep_law, runner)
+    study = judge_site(site, results, standard, RUN, probe, envelopes=envelopes)
+    beside = runner.counts.solved - of_envelope
+    assert 0 < of_envelope <= promised["envelope"].cases
+    assert 0 < beside <= promised["checks"].most
+    if study.verdict is Verdict.PASS:
+        assert beside <= promised["checks"].cases
+    assert len(asked) >= of_envelope + beside

@@ -1,0 +1,348 @@
+"""The use case on a small site: two rows, two densities, two friction angles."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.envelope.grid import Interval, build_cases
+from netdesign.envelope.run import CaseResult
+from netdesign.envelope.runner import Runner
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import MEMBER_MODES
+from netdesign.study.cases import count_cases, solve_site
+from netdesign.study.check_site import REPORTED_MEMBERS, judge_site
+from tests.small_site import (
+    RANGES,
+    ROWS,
+    RUN,
+    STRONG,
+    WEAK,
+    build_row,
+    build_site,
+    resist,
+)
+
+SITE = build_site(*ROWS)
+
+
+@pytest.fixture(scope="module")
+def standard():
+    return load_standard("nf-p-95-304-style")
+
+
+@pytest.fixture(scope="module")
+def results():
+    return solve_site(SITE, RUN)
+
+
+@pytest.fixture
+def judge(results, standard):
+    """Judge row R1 alone, with changes of the row or of its results."""
+
+    def judge_row(of_row=None, *, site=None, **changes):
+        site = site or build_site(build_row("R1", **changes))
+        return judge_site(site, [of_row or results[0]], standard, RUN)
+
+    return judge_row
+
+
+def fail(result):
+    return CaseResult(
+        case=result.case,
+        outcome=Outcome.DIVERGED,
+        reason="snow flow: spoilt",
+        member_forces={},
+    )
+
+
+def check_of(study, check_id):
+    return next(check for check in study.rows[0].checks if check.id == check_id)
+
+
+def test_study_is_complete(results, standard):
+    study = judge_site(SITE, results, standard, RUN)
+    assert study.schema == "netdesign.study/1"
+    assert study.project.name == "Combe"
+    assert [row.id for row in study.rows] == ["R1", "R2"]
+    expected = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    for row in study.rows:
+        assert [check.id for check in row.checks] == [
+            *expected,
+            "geometry.inclination",
+            "geometry.slope",
+            "geometry.height",
+        ]
+        assert len(row.cases) == 4
+        assert {extreme.quantity for extreme in row.extremes} == set(REPORTED_MEMBERS)
+        assert all(check.reason for check in row.checks)
+        assert row.inputs[0].cell == "default"
+    assert study.verdict == study.rows[0].verdict == Verdict.PASS
+    assert study.rows[0].reasons == []
+
+
+def test_cases_are_counted_and_listed_in_the_order_of_the_grid(results, standard):
+    study = judge_site(SITE, results, standard, RUN)
+    assert count_cases(SITE) == 8 == sum(len(of_row) for of_row in results)
+    cases = build_cases(RANGES)
+    for of_row, row in zip(results, study.rows, strict=True):
+        assert [result.case for result in of_row] == list(cases)
+        assert [record.case.density_kg_m3 for record in row.cases] == [
+            270.0,
+            270.0,
+            400.0,
+            400.0,
+        ]
+        assert [record.case.friction_deg for record in row.cases] == [15, 45, 15, 45]
+        assert {record.case.inclination_deg for record in row.cases} == {30.0}
+
+
+def test_each_row_gets_its_own_forces(results):
+    """Snow that sticks to the ground hangs less on its net."""
+    free, stuck = (of_row[0].member_forces["foot_anchor"].value for of_row in results)
+    assert stuck < 0.8 * free
+
+
+def test_progress_sees_every_case(results):
+    seen = []
+    solve_site(build_site(ROWS[0]), RUN, Runner(on_done=seen.append))
+    pulls = [one.state.foot for one in seen]
+    assert pulls == [one.solution.foot for one in results[0]]
+
+
+def test_extreme_is_the_largest_of_the_cases_in_kilonewton(judge, results):
+    study = judge()
+    for extreme in study.rows[0].extremes:
+        forces = [r.member_forces[extreme.quantity].value for r in results[0]]
+        assert extreme.max_kN == max(forces) / 1000.0
+        assert extreme.low_kN <= extreme.max_kN <= extreme.high_kN
+        governing = results[0][forces.index(max(forces))]
+        assert extreme.case.density_kg_m3 == governing.case.density
+        assert extreme.coincident_kN == {
+            member: governing.member_forces[member].value / 1000.0
+            for member in REPORTED_MEMBERS
+            if member != extreme.quantity
+        }
+
+
+def test_numbers_of_a_check_follow_from_each_other(judge):
+    study = judge(resistances=resist(foot_anchor__pull_out=4e5))
+    check = check_of(study, "foot_anchor.pull_out")
+    factors = {value.id: value.value for value in study.profile.values}
+    action = study.rows[0].extremes[0]
+    assert action.quantity == "foot_anchor"
+    assert check.action.solved_kN == action.max_kN
+    on_row = check.action.loaded_width_m / check.action.post_spacing_m
+    on_row *= check.action.lateral_factor
+    assert check.action_kN == pytest.approx(on_row * action.max_kN, rel=1e-12)
+    assert check.action_factor == factors["action.snow"]
+    assert check.demand_kN == pytest.approx(
+        factors["action.snow"] * check.action_kN, rel=1e-12
+    )
+    # two samples on each axis: nothing is known between the cases, and told
+    between = next(s for s in check.spreads if s.source == "between the cases")
+    assert (between.low, between.high) == (check.utilisation, check.utilisation)
+    assert "density, friction angle" in between.note
+    assert check.demand_high_kN == pytest.approx(
+        factors["action.snow"] * on_row * action.high_kN, rel=1e-12
+    )
+    assert check.resistance_characteristic_kN == 400.0
+    assert check.resistance_kN == pytest.approx(
+        400.0 / factors["resistance.pull_out.tested"], rel=1e-12
+    )
+    assert check.utilisation == pytest.approx(
+        check.demand_kN / check.resistance_kN, rel=1e-12
+    )
+    assert (check.resistance_basis, check.resistance_type) == ("tested", "T1")
+    assert check.resistance_cell == "Anchors!B2"
+    assert check.case == action.case
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "whole"),
+    [
+        (STRONG, STRONG, Verdict.PASS),
+        (STRONG, WEAK, Verdict.FAIL),
+        (STRONG, None, Verdict.NOT_PROVEN),
+        (None, WEAK, Verdict.FAIL),
+        (WEAK, STRONG, Verdict.FAIL),
+        (None, STRONG, Verdict.NOT_PROVEN),
+    ],
+)
+def test_verdicts_of_the_rows_merge(results, standard, first, second, whole):
+    rows = (
+        replace(ROWS[0], resistances=resist(foot_anchor__tendon=first)),
+        replace(ROWS[1], resistances=resist(foot_anchor__tendon=second)),
+    )
+    study = judge_site(build_site(*rows), results, standard, RUN)
+    own = {STRONG: Verdict.PASS, WEAK: Verdict.FAIL, None: Verdict.NOT_PROVEN}
+    assert [row.verdict for row in study.rows] == [own[first], own[second]]
+    assert study.verdict == whole
+
+
+def test_a_missing_resistance_is_named(judge):
+    study = judge(resistances=resist(foot_anchor__pull_out=None))
+    check = check_of(study, "foot_anchor.pull_out")
+    assert study.verdict == Verdict.NOT_PROVEN
+    assert check.utilisation is None
+    assert check.resistance_kN is None
+    assert "no resistance is given for " in check.reason
+    assert "Anchors!B2" in check.reason
+    assert study.rows[0].reasons == [f"foot_anchor.pull_out: {check.reason}"]
+
+
+def test_one_failed_case_is_a_gap_in_every_check(judge, results):
+    study = judge([*results[0][:3], fail(results[0][3])])
+    row = study.rows[0]
+    assert row.verdict == Verdict.NOT_PROVEN
+    for check in row.checks[:-3]:
+        assert check.verdict == Verdict.NOT_PROVEN
+        assert "1 of 4 cases failed (snow flow: spoilt)" in check.reason
+    record = row.cases[3]
+    assert (record.outcome, record.reason) == (Outcome.DIVERGED, "snow flow: spoilt")
+    assert record.foot_anchor_kN is None
+    assert record.error_percent is None
+
+
+def test_a_sure_fail_stays_one_despite_a_failed_case(judge, results):
+    resistances = resist(foot_anchor__tendon=WEAK)
+    study = judge([fail(results[0][0]), *results[0][1:]], resistances=resistances)
+    check = check_of(study, "foot_anchor.tendon")
+    assert study.verdict == check.verdict == Verdict.FAIL
+    assert "1 of 4 cases failed" in check.reason
+
+
+def test_without_any_result_nothing_is_proven(judge, results):
+    study = judge([fail(result) for result in results[0]])
+    row = study.rows[0]
+    assert row.verdict == Verdict.NOT_PROVEN
+    assert row.extremes == []
+    assert row.drawing is None
+    assert {check.demand_kN for check in row.checks} == {None}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [
+        (25.0, 35.0, Verdict.PASS),
+        (30.0, 30.0, Verdict.PASS),
+        (24.0, 35.0, Verdict.NOT_PROVEN),
+        (25.0, 36.0, Verdict.NOT_PROVEN),
+        (10.0, 20.0, Verdict.FAIL),
+    ],
+)
+def test_range_of_inclination_is_checked(judge, low, high, verdict):
+    inclination = Interval(low=math.radians(low), high=math.radians(high), count=2)
+    site = build_site(ROWS[0], ranges=replace(RANGES, inclination=inclination))
+    study = judge(site=site)
+    check = check_of(study, "geometry.inclination")
+    assert check.verdict == study.verdict == verdict
+    assert f"{low:g} to {high:g} degrees" in check.reason
+    assert check.demand_kN is None
+    assert check.case is None
+
+
+def test_drawing_shows_the_case_of_the_largest_utilisation(judge):
+    study = judge()
+    row, drawing = study.rows[0], study.rows[0].drawing
+    worst = max(
+        (check for check in row.checks if check.utilisation is not None),
+        key=lambda check: check.utilisation,
+    )
+    assert drawing.case == worst.case
+    assert drawing.net_m[0] == (0.0, 0.0)
+    assert drawing.net_m[-1] == pytest.approx(drawing.head_m, abs=1e-4)
+    assert drawing.head_m == pytest.approx(
+        (2.5 * math.tan(math.radians(30)), 2.5), rel=1e-12
+    )
+    assert len(drawing.sticks) == len(drawing.net_m)
+    assert drawing.slope_deg == pytest.approx(38.0, rel=1e-12)
+    assert len(drawing.mesh_edges_m) > 100
+
+
+def test_drawn_forces_are_those_of_the_drawn_case(judge):
+    row = judge().rows[0]
+    shown = next(case for case in row.cases if case.case == row.drawing.case)
+    sizes = {
+        arrow.member: math.hypot(arrow.force_x_kN, arrow.force_y_kN)
+        for arrow in row.drawing.arrows
+    }
+    assert sizes["foot_anchor"] == pytest.approx(shown.foot_anchor_kN, rel=1e-12)
+    assert sizes["uphill_anchor"] == pytest.approx(shown.uphill_guy_kN, abs=1e-9)
+    assert sizes["downhill_anchor"] == pytest.approx(shown.downhill_guy_kN, abs=1e-9)
+    assert sizes["post"] == pytest.approx(shown.post_kN, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "is_noted"),
+    [
+        (0.4 * 917.0, 0.99 * 917.0, False),
+        (0.399 * 917.0, 400.0, True),
+    ],
+)
+def test_densities_outside_the_calibration_are_noted(judge, low, high, is_noted):
+    density = Interval(low=low, high=high, count=2)
+    site = build_site(ROWS[0], ranges=replace(RANGES, density=density))
+    notes = judge(site=site).notes
+    assert notes[0] == "column X was not read"
+    assert len(notes) == 1 + is_noted
+    assert all("boutillier-2004" in note for note in notes[1:])
+
+
+def test_a_net_overtopped_by_snow_fails_by_its_height_and_says_why(standard):
+    row = build_row("R1", net_height=2.4)
+    site = build_site(row)
+    study = judge_site(site, solve_site(site, RUN), standard, RUN)
+    assert study.verdict == check_of(study, "geometry.height").verdict == Verdict.FAIL
+    assert {case.outcome for case in study.rows[0].cases} == {Outcome.OUT_OF_VALIDITY}
+    for check in study.rows[0].checks[:-3]:
+        assert check.verdict == Verdict.NOT_PROVEN
+        assert "4 of 4 cases failed" in check.reason
+        assert "overtops the net" in check.reason
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_order_of_rows_and_cases_changes_nothing(results, standard, seed):
+    rows = (
+        replace(ROWS[0], resistances=resist(foot_anchor__tendon=None)),
+        replace(ROWS[1], resistances=resist(post__compression=WEAK)),
+    )
+    straight = judge_site(build_site(*rows), results, standard, RUN)
+    draw = random.Random(seed)
+    order = [1, 0] if seed % 2 else [0, 1]
+    shuffled = [draw.sample(results[k], len(results[k])) for k in order]
+    site = build_site(*(rows[k] for k in order))
+    study = judge_site(site, shuffled, standard, RUN)
+    assert study.verdict == straight.verdict == Verdict.FAIL
+    for k, row in zip(order, study.rows, strict=True):
+        expected = straight.rows[k]
+        assert row.verdict == expected.verdict
+        assert row.checks == expected.checks
+        assert row.extremes == expected.extremes
+        assert row.drawing == expected.drawing
+        assert row.reasons == expected.reasons
+
+
+def test_results_must_belong_to_the_rows(results, standard):
+    with pytest.raises(ValueError, match="shorter"):
+        judge_site(SITE, results[:1], standard, RUN)
+
+
+def test_a_site_without_rows_proves_nothing(standard):
+    site = build_site()
+    study = judge_site(site, solve_site(site, RUN), standard, RUN)
+    assert study.rows == []
+    assert study.verdict == Verdict.NOT_PROVEN
+
+
+def test_provenance_is_enough_to_repeat_the_study(judge):
+    provenance = judge().provenance
+    assert provenance.command == "netdesign check site.xlsx"
+    assert provenance.started == "2026-01-02T03:04:05+00:00"
+    assert (provenance.site_file, provenance.site_sha256) == ("site.xlsx", "0" * 64)
+    assert provenance.settings["accuracy"] == "0.1"
+    assert provenance.settings["creep law"].startswith("boutillier-2004")
+    assert {"python", "numpy", "scipy", "scikit-fem"} <= set(provenance.libraries)
+    assert "" not in provenance.libraries.values()

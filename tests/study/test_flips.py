@@ -1,0 +1,254 @@
+"""Where a check flips: against closed forms, with made-up forces, without a solve."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import Band
+from netdesign.envelope.grid import Case, Interval, Ranges, build_cases
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import Outcome
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.effects import RowEffects
+from netdesign.study.flips import (
+    Target,
+    find_density_change,
+    find_friction_change,
+    find_height_change,
+    find_spacing_change,
+)
+from tests.small_site import build_row
+
+RANGES = Ranges(
+    density=Interval(low=270.0, high=400.0, count=3),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=3),
+    inclination=Interval(low=math.radians(25), high=math.radians(35), count=3),
+)
+ROW = build_row(
+    "R",
+    snow_thickness=2.5,
+    upslope_length=15.0,
+    ground=GroundLaw(kind="no-slip"),
+    net_height=3.0,
+    layout=SupportLayout(
+        post_spacing=4.0, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
+    ),
+    resistances=(),
+)
+
+
+def smooth(row, case):
+    """Rises with density, height and inclination; 1 N at the governing case."""
+    at = (case.density / 400.0) ** 1.7 * (row.snow_thickness / 2.5) ** 2.3
+    return at * math.cos(math.radians(35) - case.inclination)
+
+
+class MadeUpProbe:
+    """Stands for the coupled solve; counts what it is asked."""
+
+    def __init__(self, force=smooth, fails=None):
+        self.count, self._force, self._fails = 0, force, fails
+        self.law = BOUTILLIER_2004
+
+    def solve_all(self, wanted):
+        return [self.solve(row, case) for row, case, _ in wanted]
+
+    def solve(self, row, case):
+        self.count += 1
+        if self._fails and self._fails(row, case):
+            return CaseResult(
+                case=case, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
+            )
+        force = self._force(row, case)
+        return CaseResult(
+            case=case,
+            outcome=Outcome.CONVERGED,
+            member_forces={"post": Band(low=force, value=force, high=force)},
+        )
+
+
+def a_target(scale, force=smooth):
+    results = [MadeUpProbe(force).solve(ROW, case) for case in build_cases(RANGES)]
+    governing = max(results, key=lambda r: r.member_forces["post"].value)
+    return Target(
+        row=ROW,
+        ranges=RANGES,
+        member="post",
+        scale=scale,
+        governing=governing.case,
+        results=results,
+    )
+
+
+@pytest.mark.parametrize("utilisation", [0.93, 1.02, 1.2, 1.9])
+def test_density_at_which_a_power_law_reaches_the_limit(utilisation):
+    probe = MadeUpProbe()
+    change = find_density_change(a_target(utilisation), probe)
+    exact = 400.0 * utilisation ** (-1 / 1.7)
+    assert exact - 1.6 <= change.bound <= exact
+    assert (change.sense, change.unit, change.now) == ("at most", "kg/m3", 400.0)
+    assert change.solves == probe.count <= 12
+
+
+@pytest.mark.parametrize("utilisation", [0.93, 1.02, 1.2, 1.9])
+def test_height_at_which_a_power_law_reaches_the_limit(utilisation):
+    change = find_height_change(a_target(utilisation), MadeUpProbe())
+    exact = 2.5 * utilisation ** (-1 / 2.3)
+    assert exact - 0.014 <= change.bound <= exact
+
+
+def test_bound_that_is_told_passes_and_the_next_step_fails():
+    target = a_target(1.3)
+    change = find_height_change(target, MadeUpProbe())
+
+    def at(thickness):
+        row = replace(ROW, snow_thickness=thickness)
+        return target.utilisation(MadeUpProbe().solve(row, target.governing))
+
+    assert at(change.bound) <= 1.0 < at(change.bound + 0.02)
+
+
+def test_other_case_that_takes_over_is_found():
+    """At small thickness flat nets carry more: the first governing case misleads."""
+
+    def crossing(row, case):
+        steep = case.inclination > math.radians(30)
+        power = 2.5 if steep else 1.0
+        return (row.snow_thickness / 2.5) ** power * (1.0 if steep else 0.95)
+
+    target = a_target(1.25, crossing)
+    change = find_height_change(target, MadeUpProbe(crossing))
+    exact = 2.5 / (1.25 * 0.95)  # of the flat net
+    assert exact - 0.014 <= change.bound <= exact
+
+
+def test_search_ends_at_the_net_height():
+    change = find_height_change(a_target(0.5), MadeUpProbe())
+    assert change.bound == 3.0
+    assert "end of the search" in change.note
+
+
+def test_nothing_in_reach_is_told_as_such():
+    change = find_height_change(a_target(60.0), MadeUpProbe())
+    assert change.bound is None
+    assert "not even" in change.note
+
+
+def test_case_without_a_result_gives_no_bound():
+    def fails(row, case):
+        return row.snow_thickness < 2.45 and case.inclination < math.radians(30)
+
+    change = find_height_change(a_target(1.3), MadeUpProbe(fails=fails))
+    assert change.bound is None
+    assert "no result" in change.note
+
+
+def test_density_does_not_help_where_lighter_snow_fails_too():
+    def upside_down(row, case):
+        return smooth(row, replace(case, density=670.0 - case.density)) * (
+            1.0 if case.density < 400 else 1.2
+        )
+
+    change = find_density_change(a_target(2.0, upside_down), MadeUpProbe(upside_down))
+    assert change.bound is None
+
+
+def test_friction_between_the_samples():
+    """Force 1 + (phi - 15) / 60 [deg]: limit at 1.25 is reached at 30 degrees."""
+
+    def by_friction(row, case):
+        return 1.0 + (math.degrees(case.friction_angle) - 15.0) / 60.0
+
+    target = a_target(1 / 1.3, by_friction)
+    change = find_friction_change(target, MadeUpProbe(by_friction))
+    assert change.sense == "at most"
+    assert change.bound == pytest.approx(33.0, abs=0.11)
+    assert change.bound <= 33.0 + 1e-9
+
+
+def test_friction_may_help_from_above():
+    def by_friction(row, case):
+        return 2.0 - (math.degrees(case.friction_angle) - 15.0) / 60.0
+
+    change = find_friction_change(
+        a_target(1 / 1.6, by_friction), MadeUpProbe(by_friction)
+    )
+    assert change.sense == "at least"
+    assert change.bound == pytest.approx(39.0, abs=0.11)
+    assert change.bound >= 39.0 - 1e-9
+
+
+def test_friction_that_never_helps_and_that_never_hurts():
+    assert find_friction_change(a_target(0.9), MadeUpProbe()) is None
+    change = find_friction_change(a_target(5.0), MadeUpProbe())
+    assert change.bound is None
+
+
+def some_effects(width):
+    return RowEffects(post_spacing=4.0, width=width, lateral_share=0.1, missing="")
+
+
+def test_spacing_is_in_proportion_inside_the_row():
+    width = LoadedWidth(position="intermediate", width=4.0)
+    assert find_spacing_change(some_effects(width), 1.25).bound == 3.2
+
+
+def test_spacing_at_the_edge_leaves_its_end_effect():
+    """Edge 4 / 2 + 1.5 * 2 = 5 m, used 1.25: 4 m allowed, 2 (4 - 3) = 2 m."""
+    width = LoadedWidth(position="edge", width=5.0, end_factor=1.5, end_length=2.0)
+    assert find_spacing_change(some_effects(width), 1.25).bound == 2.0
+    assert find_spacing_change(some_effects(width), 2.0).bound is None
+
+
+def test_governing_case_is_of_the_grid():
+    assert a_target(1.0).governing == Case(
+        density=400.0, friction_angle=math.radians(15), inclination=math.radians(35)
+    )
+
+
+def a_search(scale, force):
+    """The grid's cases, as a search begins, and those that it crowds at the largest."""
+    whole = a_target(scale, force)
+    spans = {
+        name: Interval(low=span.low, high=span.high)
+        for name, span in (
+            ("density", RANGES.density),
+            ("friction_angle", RANGES.friction_angle),
+            ("inclination", RANGES.inclination),
+        )
+    }
+    top = whole.governing
+    crowd = [
+        replace(top, density=top.density - step, inclination=top.inclination - angle)
+        for step in (0.0, 2.0, 4.0, 8.0)
+        for angle in (0.0, 0.002, 0.004)
+    ]
+    odd = replace(top, friction_angle=math.radians(33.0), density=270.0)
+    results = [MadeUpProbe(force).solve(ROW, case) for case in [*crowd[1:], odd]]
+    return replace(whole, ranges=Ranges(**spans), results=[*whole.results, *results])
+
+
+def test_a_search_needs_no_more_solves_than_its_grid():
+    """Cases beside the largest one are not confirmed again."""
+    solves = [
+        find_height_change(build(1.3, smooth), MadeUpProbe()).solves
+        for build in (a_target, a_search)
+    ]
+    assert solves[0] == solves[1]
+
+
+def test_an_angle_of_a_few_searched_cases_proves_nothing():
+    """At 33 degrees only the least density was solved, which passes anyhow."""
+
+    def by_friction(row, case):
+        at = 1.0 + (math.degrees(case.friction_angle) - 15.0) / 60.0
+        return at * case.density / 400.0
+
+    target = a_search(1 / 1.15, by_friction)
+    change = find_friction_change(target, MadeUpProbe(by_friction))
+    assert change.sense == "at most"
+    assert change.bound == pytest.approx(24.0, abs=0.11)

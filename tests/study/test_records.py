@@ -1,0 +1,245 @@
+import json
+import math
+from dataclasses import fields, replace
+
+import pytest
+
+from netdesign.errors import StudyError
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import InputEcho, Project
+from netdesign.study.records import (
+    Arrow,
+    CasePoint,
+    CaseRecord,
+    CheckRecord,
+    Drawing,
+    ExtremeRecord,
+    ProfileRecord,
+    ProfileValue,
+    Provenance,
+    RowStudy,
+    Study,
+    compute_digest,
+    read_document,
+    write_document,
+)
+
+POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)
+CHECK = CheckRecord(
+    id="foot_anchor.tendon",
+    clause="6.1",
+    member="foot_anchor",
+    mode="tendon",
+    demand_kN=100.0 / 3.0,
+    demand_low_kN=33.0,
+    demand_high_kN=34.0,
+    resistance_kN=50.0,
+    utilisation=2.0 / 3.0,
+    verdict=Verdict.PASS,
+    case=POINT,
+    reason="The demand stays within the resistance.",
+)
+GEOMETRY = CheckRecord(
+    id="geometry.inclination",
+    clause="-",
+    member="net",
+    mode="inclination",
+    demand_kN=None,
+    demand_low_kN=None,
+    demand_high_kN=None,
+    resistance_kN=None,
+    utilisation=None,
+    verdict=Verdict.NOT_PROVEN,
+    case=None,
+    reason="Not all inside.",
+)
+DRAWING = Drawing(
+    case=POINT,
+    slope_deg=40.0,
+    snow_thickness_m=4.0,
+    net_m=[(0.0, 0.0), (1.5, 2.0), (2.3, 4.0)],
+    sticks=[True, False, True],
+    mesh_edges_m=[(0.0, 0.0, 1.0, 1.0)],
+    head_m=(2.3, 4.0),
+    post_base_m=(1.2, 0.0),
+    uphill_anchor_m=(-4.0, 0.0),
+    downhill_anchor_m=(5.2, 0.0),
+    arrows=[Arrow(member="post", x_m=1.2, y_m=0.0, force_x_kN=-1.0, force_y_kN=-9.0)],
+)
+ROW = RowStudy(
+    id="Couloir n° 1 – “Ost”",
+    verdict=Verdict.NOT_PROVEN,
+    checks=[CHECK, GEOMETRY],
+    extremes=[
+        ExtremeRecord(
+            quantity="foot_anchor",
+            max_kN=22.2,
+            low_kN=22.0,
+            high_kN=22.5,
+            case=POINT,
+            coincident_kN={"post": 12.0},
+        )
+    ],
+    cases=[
+        CaseRecord(
+            case=POINT,
+            outcome=Outcome.MAX_ITERATIONS,
+            reason="60 rounds",
+            foot_anchor_kN=None,
+            uphill_guy_kN=None,
+            downhill_guy_kN=None,
+            post_kN=None,
+            error_percent=None,
+            balance_residual=None,
+        )
+    ],
+    inputs=[
+        InputEcho(label="slope", unit="°", text="40", value=40.0, cell="Nets!B2"),
+        InputEcho(label="ground", unit="", text="", value="free", cell="default"),
+    ],
+    drawing=DRAWING,
+    reasons=["geometry.inclination: Not all inside."],
+)
+STUDY = Study(
+    schema="netdesign.study/1",
+    verdict=Verdict.NOT_PROVEN,
+    project=Project(name="Combe"),
+    profile=ProfileRecord(
+        id="p",
+        title="t",
+        edition="1",
+        sha256="0" * 64,
+        values=[
+            ProfileValue(
+                id="action.snow",
+                clause="-",
+                text="x",
+                value=1.5,
+                unit="-",
+                status="assumed",
+                source="s",
+            )
+        ],
+    ),
+    rows=[ROW, replace(ROW, id="R2", drawing=None)],
+    range_inputs=[],
+    notes=[],
+    provenance=Provenance(
+        version="0.1.0",
+        command="netdesign check",
+        started="2026-01-02T03:04:05+00:00",
+        site_file="site.xlsx",
+        site_sha256="0" * 64,
+        settings={"accuracy": "0.01"},
+        libraries={"numpy": "2"},
+    ),
+)
+
+
+@pytest.fixture
+def document():
+    return json.loads(write_document(STUDY))
+
+
+def refuse(document):
+    """Message with which the document is refused."""
+    text = document if isinstance(document, str) else json.dumps(document)
+    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/1") as e:
+        read_document(text)
+    return str(e.value)
+
+
+def test_a_document_reads_back_as_the_same_study():
+    back = read_document(write_document(STUDY))
+    assert back == replace(STUDY, digest=compute_digest(STUDY))
+    assert write_document(back) == write_document(STUDY)
+
+
+def test_the_digest_is_of_all_but_itself(document):
+    digest = document["digest"]
+    assert digest == compute_digest(STUDY) == compute_digest(read_document(
+        json.dumps(document)))  # fmt: skip
+    later = replace(STUDY.provenance, started="2026-01-02T03:04:06+00:00")
+    assert compute_digest(replace(STUDY, provenance=later)) != digest
+
+
+def test_a_document_of_before_has_no_digest(document):
+    del document["digest"]
+    assert read_document(json.dumps(document)) == STUDY
+    long = json.dumps(document) + " " * 2**21  # read by the quick validator
+    assert read_document(long) == STUDY
+
+
+def test_reading_restores_the_kinds_of_values():
+    back = read_document(write_document(STUDY))
+    assert back.verdict is Verdict.NOT_PROVEN
+    assert back.rows[0].cases[0].outcome is Outcome.MAX_ITERATIONS
+    assert isinstance(back.rows[0].drawing.net_m[0], tuple)
+    assert [type(echo.value) for echo in back.rows[0].inputs] == [float, str]
+
+
+def test_numbers_are_written_in_full(document):
+    assert document["rows"][0]["checks"][0]["demand_kN"] == 100.0 / 3.0
+    assert document["rows"][0]["cases"][0]["case"]["inclination_deg"] == 0.1 + 0.2
+
+
+def test_keys_stand_in_the_order_of_the_fields(document):
+    assert list(document) == [field.name for field in fields(Study)]
+    assert list(document["rows"][0]) == [field.name for field in fields(RowStudy)]
+    assert document["schema"] == "netdesign.study/1"
+    assert document["verdict"] == "not_proven"
+
+
+def test_text_stays_readable():
+    assert "Couloir n° 1 – “Ost”" in write_document(STUDY)
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
+def test_what_is_no_number_is_never_written(number):
+    check = replace(CHECK, utilisation=number)
+    study = replace(STUDY, rows=[replace(ROW, checks=[check])])
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        write_document(study)
+
+
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
+def test_what_is_no_number_is_never_read(document, number):
+    document["rows"][0]["checks"][0]["utilisation"] = float(number)
+    text = json.dumps(document)
+    assert number in text
+    assert "rows.0.checks.0.utilisation: " in refuse(text)
+
+
+def test_every_fault_is_named(document):
+    document["remark"] = "x"
+    document["rows"][0]["checks"][0]["colour"] = "red"
+    document["rows"][1]["drawing"] = {"case": None}
+    del document["notes"]
+    document["rows"][0]["cases"][0]["outcome"] = "fine"
+    document["rows"][0]["checks"][0]["demand_kN"] = "33.3"
+    message = refuse(document)
+    for place in (
+        "remark",
+        "rows.0.checks.0.colour",
+        "rows.1.drawing",
+        "notes",
+        "rows.0.cases.0.outcome",
+        "rows.0.checks.0.demand_kN",
+    ):
+        assert f"\n{place}" in message
+
+
+@pytest.mark.parametrize("word", ["netdesign.study/2", "netdesign.solution/1", ""])
+def test_another_schema_is_refused(document, word):
+    document["schema"] = word
+    assert "schema: " in refuse(document)
+
+
+def test_schema_must_be_there(document):
+    del document["schema"]
+    assert "schema: " in refuse(document)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", '"x"', "{}"])
+def test_anything_else_is_refused(text):
+    assert len(refuse(text).splitlines()) > 1

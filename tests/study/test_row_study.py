@@ -1,0 +1,171 @@
+"""One real row, coarsely solved: what is told of it holds when it is done."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.envelope.grid import Interval, Ranges
+from netdesign.outcome import Verdict
+from netdesign.site.model import MEMBER_MODES, Resistance
+from netdesign.snow.ground import GroundLaw
+from netdesign.study.cases import CheckRun, solve_site
+from netdesign.study.check_site import judge_site
+from netdesign.study.probe import Probe
+from tests.small_site import build_row, build_site
+
+RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
+RANGES = Ranges(
+    density=Interval(low=270.0, high=400.0, count=3),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(40), count=2),
+    inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+)
+WEAK = 150e3  # [N], the foot anchor's tendon; all else is strong
+
+
+def a_resistance(member, mode):
+    is_weak = (member, mode) == ("foot_anchor", "tendon")
+    return Resistance(
+        member=member,
+        mode=mode,
+        value=WEAK if is_weak else 1e7,
+        basis="tested" if mode == "pull_out" else "declared",
+        type_id="weak" if is_weak else "strong",
+        source="Anchors!B2",
+    )
+
+
+ROW = build_row(
+    "R1",
+    upslope_length=12.0,
+    ground=GroundLaw(kind="no-slip"),
+    net_height=2.8,
+    resistances=tuple(a_resistance(member, mode) for member, mode in MEMBER_MODES),
+    gap=1.0,
+)
+
+
+def study(row=ROW, ranges=RANGES, *, probed=False):
+    site = build_site(row, ranges=ranges)
+    probe = Probe(RUN.settings, RUN.creep_law) if probed else None
+    results = solve_site(site, RUN)
+    standard = load_standard("nf-p-95-304-style")
+    return judge_site(site, results, standard, RUN, probe).rows[0]
+
+
+def check(row):
+    return next(one for one in row.checks if one.id == "foot_anchor.tendon")
+
+
+@pytest.fixture(scope="module")
+def found():
+    return study(probed=True)
+
+
+@pytest.fixture(scope="module")
+def changes(found):
+    return {change.quantity: change for change in check(found).changes}
+
+
+def test_weak_anchor_fails_and_every_change_is_solved(found, changes):
+    assert check(found).verdict is Verdict.FAIL
+    assert set(changes) == {
+        "characteristic resistance",
+        "type strong of the workbook",
+        "post spacing",
+        "snow density",
+        "snow thickness",
+        "friction angle",
+    }
+    assert 0 < changes["snow density"].solves < 20
+    assert 0 < changes["snow thickness"].solves < 25
+    others = [one for one in found.checks if one.id != "foot_anchor.tendon"]
+    assert all(one.changes == [] for one in others)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "beyond"),
+    [("post spacing", 0.03), ("snow thickness", 0.03), ("snow density", 4.0)],
+)
+def test_change_flips_the_check_and_a_little_more_does_not(changes, quantity, beyond):
+    bound = changes[quantity].bound
+
+    def verdict(value):
+        row, ranges = ROW, RANGES
+        if quantity == "post spacing":
+            row = replace(ROW, layout=replace(ROW.layout, post_spacing=value))
+        elif quantity == "snow thickness":
+            row = replace(ROW, snow_thickness=value)
+        else:
+            # the same three samples below, so that the envelope gap stays small
+            low = value - 65.0
+            density = Interval(low=low, high=value, count=3)
+            ranges = replace(RANGES, density=density)
+        return check(study(row, ranges)).verdict
+
+    assert verdict(bound) is Verdict.PASS
+    assert verdict(bound + beyond) is not Verdict.PASS
+
+
+def test_resistance_that_is_told_is_enough_and_no_more(changes):
+    needed = 1e3 * changes["characteristic resistance"].bound
+
+    def verdict(value):
+        stronger = replace(ROW.resistances[0], value=value)
+        row = replace(ROW, resistances=(stronger, *ROW.resistances[1:]))
+        return check(study(row)).verdict
+
+    assert verdict(needed) is Verdict.PASS
+    assert verdict(needed - 200.0) is not Verdict.PASS
+
+
+def test_forces_on_the_head_close(found):
+    size = math.hypot(found.head[0].x_kN, found.head[0].y_kN)
+    assert found.head[0].member == "net"
+    for part in ("x_kN", "y_kN"):
+        assert abs(sum(getattr(force, part) for force in found.head)) < 1e-9 * size
+
+
+def test_anchors_pull_out_of_the_ground_and_the_base_presses(found):
+    directions = {anchor.anchor: anchor.direction_deg for anchor in found.anchors}
+    assert 0.0 < directions["foot_anchor"] < 180.0
+    assert directions["post_base"] < 0.0
+    slack = [anchor for anchor in found.anchors if anchor.size_kN == 0.0]
+    assert [anchor.direction_deg for anchor in slack] == [None] * len(slack)
+
+
+def test_guideline_stands_beside_the_solve(found):
+    record = found.guideline
+    names = [case.name for case in record.cases]
+    assert names == ["same snow", "load case 1", "load case 2"]
+    same = record.cases[0]
+    assert same.density_kg_m3 == record.case.density_kg_m3 == 400.0
+    assert same.glide_factor == 1.0
+    ratio = record.solved_load_kN_per_m / same.load_kN_per_m
+    assert same.load_difference_percent == pytest.approx(100 * (ratio - 1), rel=1e-12)
+    assert 0.7 < ratio < 1.7  # two models of the same snow, see physics of the pressure
+    assert "Without slip" in record.sentence
+
+
+def test_interval_names_every_other_creep_law(found):
+    spreads = {spread.source: spread for spread in check(found).spreads}
+    assert set(spreads) == {
+        "numerical error",
+        "between the cases",
+        "creep law zwinger-2007",
+        "creep law gagliardini-1997",
+    }
+    judged = [name for name, spread in spreads.items() if spread.in_verdict]
+    assert judged == ["numerical error", "between the cases"]
+    refused = spreads["creep law gagliardini-1997"]
+    assert refused.low is None
+    assert "use another set or denser snow" in refused.note
+
+
+def test_without_a_probe_nothing_more_is_solved():
+    plain = check(study())
+    quantities = {change.quantity for change in plain.changes}
+    assert "snow density" not in quantities
+    assert "characteristic resistance" in quantities

@@ -1,0 +1,80 @@
+"""Every text in every language, and every message of the program with its text."""
+
+import ast
+import pickle
+import re
+from pathlib import Path
+
+import pytest
+
+import netdesign
+from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.message import say
+
+PACKAGE = Path(netdesign.__file__).parent
+TEXTS = {language: load_texts(language) for language in LANGUAGES}
+# Keys that are put together from the values of an enum or of a table.
+FAMILIES: tuple[str, ...] = ()
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_every_language_has_every_text(language):
+    assert set(TEXTS[language]) == set(TEXTS["en"])
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_every_text_has_the_same_gaps(language):
+    differing = {
+        key: (text, TEXTS[language].get(key))
+        for key, text in TEXTS["en"].items()
+        if list_gaps(text) != list_gaps(TEXTS[language].get(key, ""))
+    }
+    assert differing == {}
+
+
+def list_calls():
+    """Every ``say("key", name=...)`` of the program: place, key, names."""
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+            if is_call and node.func.id == "say" and node.args:
+                (key,) = node.args
+                if isinstance(key, ast.Constant):
+                    names = {one.arg for one in node.keywords}
+                    yield f"{path.name}:{node.lineno}", key.value, names
+
+
+def test_every_message_has_a_text_and_all_its_arguments():
+    wrong = [
+        (place, key, names)
+        for place, key, names in list_calls()
+        if None not in names  # **arguments are for the other tests
+        and names != list_gaps(TEXTS["en"].get(key, "{no such text}"))
+    ]
+    assert wrong == []
+
+
+def test_no_text_is_idle():
+    source = "\n".join(p.read_text(encoding="utf-8") for p in PACKAGE.rglob("*.py"))
+    named = set(re.findall(r'"([a-z0-9_]+(?:\.[a-z0-9_]+)+)"', source))
+    idle = {
+        key for key in TEXTS["en"] if key not in named and not key.startswith(FAMILIES)
+    }
+    assert idle == set()
+
+
+def test_words_of_ours_are_rendered_in_the_language_of_the_whole():
+    inner = say("unit.count_cases", count=3)
+    assert [render(inner, language) for language in LANGUAGES] == [
+        *("3 cases", "3 cas", "3 Fälle")
+    ]
+
+
+def test_a_message_goes_from_process_to_process():
+    message = say("unit.count_cases", count=3)
+    assert pickle.loads(pickle.dumps(message)) == message
+
+
+def test_an_argument_that_lacks_is_a_fault():
+    with pytest.raises(KeyError, match="count"):
+        render(say("unit.count_cases"), "en")
