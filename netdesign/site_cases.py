@@ -9,7 +9,6 @@ from itertools import product
 from typing import Literal
 
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.confirm import (
     build_history_settings,
     confirm_envelopes,
@@ -30,6 +29,7 @@ from netdesign.errors import ModelError
 from netdesign.monitoring import follow_monitoring
 from netdesign.progress import Phase
 from netdesign.rowcheck.probe import build_scene
+from netdesign.search.maxima import SearchSettings
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.study import MonitoringRecord

@@ -24,7 +24,7 @@ ROWS = (
         *("quantities", "output", "progress", "given_files", "json_text", "streams"),
         *("fault",),
     },
-    {"numerics", "resistance"},
+    {"numerics", "resistance", "search"},
     {"snow", "cable", "structure", "checks"},
     {"coupling", "guideline"},
     {"envelope"},
@@ -75,7 +75,7 @@ NEIGHBOURS = {
 THIRD_PARTY = {
     "numpy": (
         *("numerics.*", "snow.*", "cable.*", "coupling.*"),
-        *("envelope.*", "solution_file", "verification.*", "benchmark.*"),
+        *("envelope.*", "search.*", "solution_file", "verification.*", "benchmark.*"),
         *(
             "envelope_record",
             "monitoring",

@@ -24,7 +24,6 @@ from netdesign.benchmark.peaks import measure_peaks
 from netdesign.benchmark.whole_site import Render, measure_site
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.adaptive import RESOLVED_SHARE, Point, SearchSettings
 from netdesign.envelope.grid import Interval
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.run import run_cases
@@ -40,6 +39,8 @@ from netdesign.envelope.search import (
 from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import Job, ProcessPool
 from netdesign.errors import ModelError
+from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
+from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout

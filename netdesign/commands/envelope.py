@@ -197,8 +197,8 @@ def _build_task(
     scene: Scene, confirming: Settings | None, box: Box, accuracy: float
 ) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.adaptive import SearchSettings
     from netdesign.envelope.search import RowTask, refine_settings
+    from netdesign.search.maxima import SearchSettings
 
     settings = SolverSettings(accuracy=accuracy)
     is_mesh = isinstance(confirming, SolverSettings)

@@ -8,7 +8,6 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.envelope import search
-from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.run import solve_case
@@ -24,6 +23,7 @@ from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
+from netdesign.search.maxima import SearchSettings
 from tests.envelope.made_up_workers import Recording, Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
