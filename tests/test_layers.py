@@ -89,6 +89,7 @@ THIRD_PARTY = {
         *("numerics.newton", "snow.*", "envelope.store", "verification.*"),
         "benchmark.reference_path",
     ),
+    "platformdirs": ("envelope.store",),
     "distributed": ("envelope.workers",),
     "skfem": ("snow.mesh", "snow.kernel", "snow.forms", "benchmark.reference_path"),
     "openpyxl": ("site.xlsx", "site.annotate"),

@@ -12,7 +12,6 @@ import hashlib
 import json
 import os
 import sqlite3
-import sys
 import zlib
 from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
@@ -46,10 +45,11 @@ def find_store() -> Path:
     given = os.environ.get("NETDESIGN_STORE")
     if given:
         return Path(given)
-    base = os.environ.get("XDG_CACHE_HOME") or (
-        os.environ.get("LOCALAPPDATA") if sys.platform == "win32" else None
-    )
-    return Path(base or Path.home() / ".cache") / "netdesign" / "cases.sqlite"
+    from platformdirs import user_cache_path
+
+    # without an author's folder, or one named Cache, on Windows
+    cache = user_cache_path("netdesign", appauthor=False, opinion=False)
+    return cache / "cases.sqlite"
 
 
 def identify_solver() -> str:

@@ -386,7 +386,7 @@ def _find_best(values: Floats, watched: Mapping[int, Watched]) -> Floats:
 def _set_tolerance(
     values: Floats, settings: SearchSettings, watched: Mapping[int, Watched]
 ) -> Floats:
-    """Gap that each quantity may keep, in its unit: search/THEORY.md, eq. (M7)."""
+    """Gap that each quantity may keep, in its unit: search/THEORY.md, eq. (M8)."""
     best = _find_best(values, watched)
     scale = np.maximum(best, settings.small_share * best.max())
     closest = [watched.get(q, Watched()).resolution for q in range(values.shape[1])]

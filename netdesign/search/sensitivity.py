@@ -2,7 +2,7 @@
 
 The model is evaluated on a tensor rule, so that nothing is random. The parameters
 count as independent and uniform in their ranges: that is an assumption of the
-indices, not a statement about snow. Theory: search/THEORY.md, eq. (M8) to (M10).
+indices, not a statement about snow. Theory: search/THEORY.md, eq. (M9) and (M10).
 """
 
 from __future__ import annotations

@@ -10,7 +10,6 @@ from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.envelope import search
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
-from netdesign.envelope.run import solve_case
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import (
     RowTask,
@@ -25,7 +24,7 @@ from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from tests.envelope.made_up_workers import Recording, Spoiling
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
+from tests.envelope.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
 BOX = Box(
