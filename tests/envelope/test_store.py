@@ -7,9 +7,9 @@ from functools import cache
 import numpy as np
 import platformdirs
 import pytest
+from platformdirs import windows
 from platformdirs.macos import MacOS
 from platformdirs.unix import Unix
-from platformdirs.windows import Windows
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope import store as module
@@ -213,17 +213,21 @@ def test_the_place_is_the_users_choice(monkeypatch, tmp_path):
         (Unix, "XDG_CACHE_HOME", "."),
         (Unix, "HOME", ".cache"),
         (MacOS, "HOME", "Library/Caches"),
-        (Windows, "LOCALAPPDATA", "."),
+        (windows.Windows, "", "."),
     ],
 )
-@pytest.mark.skipif(sys.platform == "win32", reason="asks the system, not a variable")
+@pytest.mark.skipif(sys.platform == "win32", reason="HOME is another one there")
 def test_without_a_choice_it_is_in_the_cache_of_each_system(
     monkeypatch, tmp_path, system, variable, cache
 ):
     monkeypatch.setattr(platformdirs, "PlatformDirs", system)
     for unset in ("NETDESIGN_STORE", "XDG_CACHE_HOME"):
         monkeypatch.delenv(unset, raising=False)
-    monkeypatch.setenv(variable, str(tmp_path))
+    if variable:
+        monkeypatch.setenv(variable, str(tmp_path))
+    else:  # asked of the system: the folder of what is local to an account
+        local = {"CSIDL_LOCAL_APPDATA": str(tmp_path)}
+        monkeypatch.setattr(windows, "get_win_folder", local.__getitem__)
     assert find_store() == tmp_path / cache / "netdesign" / "cases.sqlite"
 
 
