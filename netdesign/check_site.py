@@ -18,8 +18,8 @@ from netdesign import __version__
 from netdesign.checks import Standard
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import RowEnvelope
 from netdesign.envelope_record import record_envelope
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.rowcheck.effects import RowEffects, find_effects

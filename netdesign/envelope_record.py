@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from netdesign.envelope.grid import Case
 from netdesign.envelope.parameters import PARAMETERS, Box
-from netdesign.envelope.search import Confirmation, RowEnvelope
+from netdesign.envelope.rows import Confirmation, RowEnvelope
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.search.sensitivity import (
     Sensitivity,

@@ -47,8 +47,8 @@ def _write_value(value: Any, margin: str) -> str:
 
     The quick encoder knows no margins, but any separator: so it writes lists and
     objects of plain values, in which most of a document lies. pydantic would be
-    quicker, but spells numbers its own way, another one from version to version
-    (1e-05 as 1e-5 or 0.00001, 1e+22 as 1e22): a study has the same bytes everywhere.
+    quicker, but spells numbers otherwise, and not alike from version to version
+    (1e-07 as 1e-7, 1e-05 as 0.00001, 1e+22 as 1e22); studies have the same bytes.
     """
     inside = f"{margin} "
     encode = _build_encoder(inside).encode

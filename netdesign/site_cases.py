@@ -16,15 +16,10 @@ from netdesign.envelope.confirm import (
 )
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowEnvelope,
-    RowTask,
-    Wave,
-    refine_settings,
-    search_rows,
-)
+from netdesign.envelope.search import Wave, search_rows
 from netdesign.errors import ModelError
 from netdesign.monitoring import follow_monitoring
 from netdesign.progress import Phase

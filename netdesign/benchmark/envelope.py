@@ -26,16 +26,10 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.grid import Interval
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowEnvelope,
-    RowTask,
-    build_point_task,
-    list_grid,
-    run_grid,
-    search_rows,
-)
+from netdesign.envelope.search import run_grid, search_rows
 from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import Job, ProcessPool
 from netdesign.errors import ModelError

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.solve import Settings
     from netdesign.envelope.parameters import Box
+    from netdesign.envelope.rows import RowTask
     from netdesign.envelope.runner import Runner
-    from netdesign.envelope.search import RowTask
     from netdesign.progress import Phase, RunProgress
     from netdesign.study import EnvelopeRecord
 
@@ -197,7 +197,7 @@ def _build_task(
     scene: Scene, confirming: Settings | None, box: Box, accuracy: float
 ) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.search import RowTask, refine_settings
+    from netdesign.envelope.rows import RowTask, refine_settings
     from netdesign.search.maxima import SearchSettings
 
     settings = SolverSettings(accuracy=accuracy)

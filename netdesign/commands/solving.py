@@ -13,9 +13,9 @@ from netdesign.commands.options import jobs_option
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
+    from netdesign.envelope.rows import RowEnvelope
     from netdesign.envelope.run import CaseResult
     from netdesign.envelope.runner import Runner
-    from netdesign.envelope.search import RowEnvelope
     from netdesign.envelope.workers import Job
     from netdesign.progress import RunProgress
     from netdesign.site.model import Site

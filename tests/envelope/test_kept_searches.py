@@ -10,8 +10,9 @@ from netdesign.envelope import search as search_module
 from netdesign.envelope import store as store_module
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowTask
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import RowTask, search_rows
+from netdesign.envelope.search import search_rows
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.store import CaseStore, name_search
 from netdesign.envelope.workers import OwnProcess
