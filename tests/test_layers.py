@@ -23,7 +23,7 @@ ROWS = (
     {"words"},
     {ROOT},
     {"edge"},
-    {"numerics", "resistance"},
+    {"numerics", "resistance", "search"},
     {"snow", "cable", "structure", "checks"},
     {"coupling", "guideline"},
     {"coupling.steady"},
@@ -49,12 +49,13 @@ ROOT_MODULES = {"errors", "outcome", "units", "guards", "quantities", "fault"}
 # Third-party packages, and the modules that may import them.
 THIRD_PARTY = {
     "numpy": (
-        *("numerics.*", "snow.*", "cable.*", "coupling.*", "envelope.*"),
+        *("numerics.*", "snow.*", "cable.*", "coupling.*", "envelope.*", "search.*"),
         *("guideline.comparison", "files.solution", "evidence.*"),
         *("study.record_envelope", "study.record_monitoring"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
     "scipy": ("numerics.newton", "snow.*", "envelope.store", "evidence.*"),
+    "platformdirs": ("envelope.store",),
     "distributed": ("envelope.workers",),
     "skfem": (
         *("snow.mesh", "snow.kernel", "snow.forms"),

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.parameters import Box
+    from netdesign.envelope.rows import RowTask
     from netdesign.envelope.runner import Runner
-    from netdesign.envelope.search import RowTask
     from netdesign.solving.solve import Settings
     from netdesign.study.records import EnvelopeRecord
 
@@ -197,8 +197,8 @@ def _build_task(
     scene: Scene, confirming: Settings | None, box: Box, accuracy: float
 ) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.adaptive import SearchSettings
-    from netdesign.envelope.search import RowTask, refine_settings
+    from netdesign.envelope.rows import RowTask, refine_settings
+    from netdesign.search.maxima import SearchSettings
 
     settings = SolverSettings(accuracy=accuracy)
     is_mesh = isinstance(confirming, SolverSettings)

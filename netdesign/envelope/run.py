@@ -117,11 +117,6 @@ def run_cases(
     ]
 
 
-def solve_case(task: CaseTask) -> CaseResult:
-    """Solve one case here and resolve its support."""
-    return run_cases([task])[0]
-
-
 def build_job(task: CaseTask) -> Job | None:
     """What workers solve of a task; None where the model refused its scene."""
     if task.scene is None:

@@ -263,11 +263,6 @@ def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
     return Blocks(base.dofs, values, n_paired=0)
 
 
-def assemble_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> sparse.csr_matrix:
-    """Matrix (n_dofs, n_dofs) of a base modulus (n_edges, n_points)."""
-    return build_base_stiffness(mesh, modulus).to_matrix(mesh.n_dofs)
-
-
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
     """Velocity along the ground, shape (n_edges, n_points)."""
     return np.asarray(velocity[mesh.base.dofs] @ mesh.base.shape.T)

@@ -18,9 +18,10 @@ from netdesign import __version__
 from netdesign.checks import Standard
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import RowEnvelope, Wave
+from netdesign.envelope.search import Wave
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw

@@ -21,25 +21,20 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.adaptive import RESOLVED_SHARE, Point, SearchSettings
 from netdesign.envelope.grid import Interval
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowEnvelope,
-    RowTask,
-    build_point_task,
-    list_grid,
-    run_grid,
-    search_rows,
-)
+from netdesign.envelope.search import run_grid, search_rows
 from netdesign.envelope.store import CaseStore
 from netdesign.envelope.workers import Job, ProcessPool
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.clock import Clock
 from netdesign.evidence.benchmark.peaks import measure_peaks
 from netdesign.evidence.benchmark.whole_site import Render, measure_site
+from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
+from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout
