@@ -49,14 +49,22 @@ ROOT_MODULES = {"errors", "outcome", "units", "guards", "quantities", "fault"}
 # Third-party packages, and the modules that may import them.
 THIRD_PARTY = {
     "numpy": (
-        *("numerics.*", "snow.*", "cable.*", "coupling.*", "envelope.*", "search.*"),
+        *(
+            "numerics.*",
+            "snow.*",
+            "cable.*",
+            "coupling.*",
+            "envelope.*",
+            "search.*",
+            "solving.*",
+        ),
         *("guideline.comparison", "files.solution", "evidence.*"),
         *("study.record_envelope", "study.record_monitoring"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
-    "scipy": ("numerics.newton", "snow.*", "envelope.store", "evidence.*"),
-    "platformdirs": ("envelope.store",),
-    "distributed": ("envelope.workers",),
+    "scipy": ("numerics.newton", "snow.*", "solving.store", "evidence.*"),
+    "platformdirs": ("solving.store",),
+    "distributed": ("solving.workers",),
     "skfem": (
         *("snow.mesh", "snow.kernel", "snow.forms"),
         "evidence.benchmark.reference_path",

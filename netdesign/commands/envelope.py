@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.parameters import Box
     from netdesign.envelope.rows import RowTask
-    from netdesign.envelope.runner import Runner
+    from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
     from netdesign.study.records import EnvelopeRecord
 
@@ -97,9 +97,9 @@ def envelope(
     from netdesign.edge.output import require_free, write_files
     from netdesign.edge.progress import show_phases
     from netdesign.envelope.parameters import require_valid
-    from netdesign.envelope.session import open_runner
-    from netdesign.envelope.store import find_store
     from netdesign.files.scene import read_scene
+    from netdesign.solving.session import open_runner
+    from netdesign.solving.store import find_store
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)

@@ -12,9 +12,9 @@ from netdesign.commands.options import jobs_option
 
 if TYPE_CHECKING:
     from netdesign.edge.progress import RunProgress
-    from netdesign.envelope.runner import Runner
-    from netdesign.envelope.workers import Job
     from netdesign.site.model import Site
+    from netdesign.solving.runner import Runner
+    from netdesign.solving.workers import Job
     from netdesign.study.cases import CheckRun
 
 
@@ -50,8 +50,8 @@ def open_run(
 ) -> Iterator[tuple[Runner, RunProgress]]:
     """Workers, store and progress for the check of a site, open while it lasts."""
     from netdesign.edge.progress import show_phases
-    from netdesign.envelope.session import open_runner
-    from netdesign.envelope.store import find_store
+    from netdesign.solving.session import open_runner
+    from netdesign.solving.store import find_store
     from netdesign.study.cases import list_phases
 
     with (

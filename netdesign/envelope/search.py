@@ -22,14 +22,14 @@ from netdesign.envelope.rows import (
     list_grid,
 )
 from netdesign.envelope.run import CaseResult, build_job, resolve_case
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import Batch, Ends
 from netdesign.errors import ModelError
 from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
 from netdesign.search.surrogate import Point
+from netdesign.solving.runner import Runner
 from netdesign.solving.solve import Settings
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import Batch, Ends
 
 _WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
 

@@ -20,11 +20,11 @@ from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import Wave
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.solving.runner import Runner
 from netdesign.structure.layout import place_support
 from netdesign.study.cases import CheckRun, follow_site, search_site, solve_site
 from netdesign.study.effects import RowEffects, find_effects

@@ -20,7 +20,7 @@ from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseResult, CaseTask
 from netdesign.outcome import Outcome
 from netdesign.structure.layout import SupportLayout
-from tests.envelope.small_scene import solve_case
+from tests.solving.small_scene import solve_case
 
 
 def band(value, error=0.1):

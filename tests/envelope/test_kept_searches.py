@@ -7,20 +7,20 @@ from dataclasses import fields, replace
 import pytest
 
 from netdesign.envelope import search as search_module
-from netdesign.envelope import store as store_module
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.rows import RowTask
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import search_rows
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.store import CaseStore, name_search
-from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import MaximaSearch, SearchSettings
-from tests.envelope.made_up_workers import Spoiling
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
+from netdesign.solving import store as store_module
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.store import CaseStore, name_search
+from netdesign.solving.workers import OwnProcess
 from tests.search.synthetic import assert_same
+from tests.solving.made_up_workers import Spoiling
+from tests.solving.small_scene import COARSE, LAYOUT, build_scene
 
 BOX = Box(
     intervals=(
@@ -78,7 +78,7 @@ def test_the_text_of_every_module_counts(tmp_path, monkeypatch):
         for path in ("search/maxima.py", "structure/head.py", "guards.py"):
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text("#" if path == place else "")
-        monkeypatch.setattr(store_module, "__file__", str(root / "envelope/store.py"))
+        monkeypatch.setattr(store_module, "__file__", str(root / "solving/store.py"))
         store_module._identify.cache_clear()
         names.add(store_module.identify_program())
     store_module._identify.cache_clear()

@@ -11,15 +11,15 @@ from netdesign.envelope import rows
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
-from tests.envelope.made_up_workers import Recording, Spoiling
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene, solve_case
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import ProcessPool
+from tests.solving.made_up_workers import Recording, Spoiling
+from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
 BOX = Box(

@@ -25,10 +25,7 @@ from netdesign.envelope.grid import Interval
 from netdesign.envelope.parameters import Box
 from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import run_grid, search_rows
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import Job, ProcessPool
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.clock import Clock
 from netdesign.evidence.benchmark.peaks import measure_peaks
@@ -37,6 +34,9 @@ from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import Job, ProcessPool
 from netdesign.structure.layout import SupportLayout
 
 SCHEMA = "netdesign.bench-envelope/1"

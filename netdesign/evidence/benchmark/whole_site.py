@@ -9,13 +9,13 @@ from pathlib import Path
 
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import SolverSettings
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import build_workers
 from netdesign.evidence.benchmark.clock import Clock
 from netdesign.site.model import NetRow, Site
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import write_site_workbook
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import build_workers
 from netdesign.study.cases import CheckRun
 from netdesign.study.check_site import check_site
 from netdesign.study.records import Study

@@ -5,7 +5,6 @@ import json
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import search_rows
 from netdesign.evidence.benchmark import envelope
 from netdesign.evidence.benchmark.envelope import (
@@ -14,6 +13,7 @@ from netdesign.evidence.benchmark.envelope import (
     measure_excess,
     run_envelope_bench,
 )
+from netdesign.solving.runner import Runner
 
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 NOT_CLOSED = {94, 123}  # of 200 random rows

@@ -12,8 +12,8 @@ from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.commands import report as report_command
 from netdesign.commands import verify as verify_command
-from netdesign.envelope.runner import Runner
 from netdesign.site.reader import read_site
+from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
 from netdesign.study.audit import audit_study
 from netdesign.study.check_site import _record_provenance

@@ -22,10 +22,10 @@ from types import TracebackType
 from typing import Any
 
 from netdesign import __version__
-from netdesign.envelope.state import CaseEnd, decode_end, encode_end
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
 from netdesign.search.known_search import KnownSearch, decode_search, encode_search
+from netdesign.solving.state import CaseEnd, decode_end, encode_end
 
 _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file

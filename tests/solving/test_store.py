@@ -12,14 +12,14 @@ from platformdirs.macos import MacOS
 from platformdirs.unix import Unix
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.envelope import store as module
 from netdesign.envelope.grid import Case
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import CaseEnd, SolvedState, decode_end, encode_end
-from netdesign.envelope.store import CaseStore, StoreError, find_store, name_case
-from netdesign.envelope.workers import Job, solve_job
 from netdesign.outcome import Outcome
-from tests.envelope.small_scene import COARSE, build_scene
+from netdesign.solving import store as module
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd, SolvedState, decode_end, encode_end
+from netdesign.solving.store import CaseStore, StoreError, find_store, name_case
+from netdesign.solving.workers import Job, solve_job
+from tests.solving.small_scene import COARSE, build_scene
 
 CASE = Case(density=300.0, friction_angle=math.radians(30), inclination=0.5)
 SCENE = build_scene(CASE)
