@@ -64,7 +64,9 @@ def test_each_quantity_goes_through_its_range(number):
     values = parameter.list_values(23)
     assert (values[0], values[-1]) == pytest.approx(parameter.bounds, rel=1e-12)
     assert (np.diff(values) > 0.0).all()
-    scenes = lines._list_scenes(number, 11, parameter, 5)
+    scenes = lines._list_scenes(
+        lines._draw_base(number, 11, parameter), parameter, parameter.list_values(5)
+    )
     assert isinstance(scenes[2], Scene)
     built = [one for one in scenes if isinstance(one, Scene)]
     assert len(set(built)) == len(built)
@@ -162,6 +164,7 @@ def a_line(**changes):
         "solved": 200,
         "refused": 0,
         "jumps": [],
+        "bends": 0,
         "largest_jump": 0.4,
         "ratios": [0.3] * 20,
         "missing": [],
