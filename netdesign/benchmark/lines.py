@@ -3,8 +3,7 @@
 A line is a random scene in which one quantity goes through its whole range. Two
 meshes that agree by accident state an error that is too small; on a line that shows
 as a jump between neighbours, wherever on the line it happens. A jump stays as large
-where it is closed in on; a bend, as at a density where the creep law changes its branch,
-becomes ever smaller.
+where it is closed in on; a bend, as where the creep law changes its branch, does not.
 """
 
 from __future__ import annotations
