@@ -83,9 +83,9 @@ _MUCH_SLACK = 0.1
 _SETTLED = 5.0
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
-# Linear solves after which rounds on one mesh are given up: so many, or so many times
-# its triangles (some 1 s).
-_LEAST_WORK, _MOST_WORK = 100, 4e4
+# Linear solves after which rounds on one mesh are given up: so many, of layered snow
+# fewer, or so many over its triangles (some 1 s).
+_LEAST_WORK, _LEAST_WORK_LAYERED, _MOST_WORK = 100, 40, 4e4
 _FAILED_FLOW = 20  # of them, for a flow that does not converge
 # Share of suction, over the largest accepted, that no finer mesh takes back.
 _HOPELESS_SUCTION = 2.0
@@ -317,7 +317,7 @@ def _couple(
     hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    allowed = max(_LEAST_WORK, _MOST_WORK / problem.template.triangles.shape[1])
+    allowed = _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
     moved, solves, tried = 1.0 if guess is None else _REFINED, 0, 0
@@ -364,6 +364,12 @@ def _couple(
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {tried} rounds",
     )
+
+
+def _allow_solves(problem: SteadyProblem) -> float:
+    """Linear solves that rounds on one mesh may take."""
+    least = _LEAST_WORK_LAYERED if len(problem.law.layers) > 1 else _LEAST_WORK
+    return max(least, _MOST_WORK / problem.template.triangles.shape[1])
 
 
 def _has_settled(
