@@ -369,7 +369,7 @@ def _couple(
 def _allow_solves(problem: SteadyProblem) -> float:
     """Linear solves that rounds on one mesh may take."""
     least = _LEAST_WORK_LAYERED if len(problem.law.layers) > 1 else _LEAST_WORK
-    return max(least, _MOST_WORK / problem.template.triangles.shape[1])
+    return float(max(least, _MOST_WORK / problem.template.triangles.shape[1]))
 
 
 def _has_settled(
