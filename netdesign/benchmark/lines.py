@@ -209,13 +209,11 @@ def follow_line(number: int, *, seed: int, accuracy: float, points: int) -> Line
     reasons: dict[str, None] = {}
     for place, scene in enumerate(_list_scenes(base, parameter, values)):
         try:
-            if isinstance(scene, ModelError):
-                raise scene
-            solution = solve_steady(scene, settings, on_failure="raise")
-            assert isinstance(solution, Solution)
+            solution = _solve(scene, settings)
         except (ModelError, SolveError) as error:
             reasons[str(error)] = None
             continue
+        assert isinstance(scene, Scene)
         ratio = None
         if place in checked:
             try:
@@ -284,11 +282,7 @@ def _close_in(
     """
 
     def solve(value: float) -> Point:
-        scene = _build(base, parameter, value)
-        if isinstance(scene, ModelError):
-            raise scene
-        solution = solve_steady(scene, settings, on_failure="raise")
-        assert isinstance(solution, Solution)
+        solution = _solve(_build(base, parameter, value), settings)
         return _record(jump["place"], solution, None)
 
     end = ENDS.index(jump["end"])
@@ -310,6 +304,14 @@ def _close_in(
         "over_stated": step / (here.errors[end] + there.errors[end]),
         "elements": [here.elements, there.elements],
     }
+
+
+def _solve(scene: Scene | ModelError, settings: SolverSettings) -> Solution:
+    if isinstance(scene, ModelError):
+        raise scene
+    solution = solve_steady(scene, settings, on_failure="raise")
+    assert isinstance(solution, Solution)
+    return solution
 
 
 def _step_between(here: Point, there: Point, end: int) -> float:
