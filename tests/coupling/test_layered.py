@@ -126,7 +126,7 @@ def test_rounds_end_when_pulls_are_found():
     )
     ground = GroundLaw(kind="sliding", slip_length=1.3)
     scene = Scene(snowpack=pack, ground=ground, net=net)
-    levels = (MESH_LEVELS[1], MESH_LEVELS[2])
+    levels = MESH_LEVELS[:3]
     rough, tight = (
         solve_steady(
             scene, SolverSettings(accuracy=accuracy, levels=levels), on_failure="raise"
