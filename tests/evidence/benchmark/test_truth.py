@@ -3,15 +3,18 @@
 import numpy as np
 import pytest
 
+from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import SolveError
+from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (
     HALVINGS,
     Truth,
     build_truth,
     find_level,
     refine_size,
+    solve_fine,
     solve_truth,
     state_error,
 )
@@ -68,3 +71,19 @@ def test_no_truth_without_convergence():
     failed = FailedSolution(outcome=Outcome.DIVERGED, reason="why")
     with pytest.raises(SolveError, match="why"):
         build_truth(failed)
+
+
+def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatch):
+    held = solved()
+
+    def refuse(*_, **__):
+        refusal = SuctionError(0.0517)
+        refusal.held = held
+        raise refusal
+
+    monkeypatch.setattr(truths, "solve_steady", refuse)
+    found = solve_fine(a_scene(), SolverSettings())
+    assert found.compare(held) == 0.0
+    held = None  # left before the finest mesh: no figure to compare with
+    with pytest.raises(SuctionError):
+        solve_fine(a_scene(), SolverSettings())
