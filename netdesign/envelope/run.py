@@ -8,7 +8,7 @@ from functools import partial
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome

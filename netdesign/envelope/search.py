@@ -154,13 +154,13 @@ class RowSearch:
         self._advance()
 
     def _search_anew(self) -> MaximaSearch:
-        return MaximaSearch(len(self.task.box.axes), self.task.search)
+        return MaximaSearch(len(self.task.ranges.axes), self.task.search)
 
     def _begin(self, search: MaximaSearch | Repetition) -> None:
         """Begin with nothing known of the row's cases."""
         self._search = search
         self._reader = ResultReader(layout=self.task.layout)
-        self._skip = FrictionSkip(self.task.box.axes)
+        self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []
         self._maxima: Maxima | None = None  # known once only confirmations are open
         self._cases = _Cases(self.task, search.ask(), self._skip)
@@ -293,8 +293,8 @@ class Grid(NamedTuple):
 
 def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) -> Grid:
     """Solve a tensor grid with so many samples of each axis."""
-    points = list_grid([counts[name] or 2 for name in task.box.axes])
-    skip = FrictionSkip(task.box.axes)
+    points = list_grid([counts[name] or 2 for name in task.ranges.axes])
+    skip = FrictionSkip(task.ranges.axes)
     if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
         task = replace(task, settings=replace(task.settings, shares_start=True))
     cases = _Cases(task, points, skip)

@@ -16,7 +16,7 @@ from netdesign.envelope.confirm import (
     merge_history,
 )
 from netdesign.envelope.extremes import describe_gap
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask
 from netdesign.outcome import Outcome
 from netdesign.structure.layout import SupportLayout

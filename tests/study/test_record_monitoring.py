@@ -4,7 +4,7 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.rounds import solve_steady
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseTask
 from netdesign.site.model import MonitoringSeries
 from netdesign.structure.layout import SupportLayout
