@@ -21,7 +21,7 @@ from netdesign.envelope.rows import (
     build_point_task,
     list_grid,
 )
-from netdesign.envelope.run import CaseResult, build_job, resolve_case
+from netdesign.envelope.run import CaseResult, resolve_case
 from netdesign.errors import ModelError
 from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
@@ -58,8 +58,8 @@ class _Cases:
     ) -> None:
         self._points, self._skip = points, skip
         self._tasks = [build_point_task(task, point, settings) for point in points]
-        asked = zip(points, map(build_job, self._tasks), strict=True)
-        self._jobs = {point: job for point, job in asked if job is not None}
+        asked = zip(points, self._tasks, strict=True)
+        self._jobs = {point: one.job for point, one in asked if one.job is not None}
         self._ends: dict[Point, CaseEnd] = {}
         self._lines = self._list_lines()
 
