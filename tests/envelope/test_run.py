@@ -73,7 +73,7 @@ def forces_of_moved_pulls(one, solution, foot_angle, head_angle):
         for pull, angle in ((solution.foot, foot_angle), (solution.head, head_angle))
     )
     return compute_anchor_forces(
-        place_support(one.layout, tuple(one.scene.net.head)),
+        place_support(one.layout, tuple(one.job.scene.net.head)),
         foot_pull_per_m=foot,
         head_pull_per_m=head,
         post_spacing=one.layout.post_spacing,
