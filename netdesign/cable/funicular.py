@@ -12,12 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 _GAUSS = 1.0 / np.sqrt(3.0)
 _UNIT = np.eye(2)

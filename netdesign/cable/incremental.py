@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import Outcome
 
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 Nodes = NDArray[np.intp]
 
 _PATIENCE = 3  # rounds without fewer broken conditions before fewer nodes change

@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.funicular import tension_offsets
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from netdesign.numerics.arrays import Floats, Ints
 
 _MOST_STEPS, _MOST_HALVINGS = 30, 20
 

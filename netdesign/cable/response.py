@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
 from netdesign.cable.tension import (
@@ -20,9 +19,8 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 # A segment that bends more than this between its ends is no arc of a smooth curve.
 LARGEST_BEND = 1.0

@@ -14,14 +14,11 @@ from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 
 _ACCEPTED_CLIMB = 0.5
 _SHORTEST_STEP = 1e-12

@@ -9,12 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 _LARGEST_FRICTION = np.tan(np.radians(89.0))
 

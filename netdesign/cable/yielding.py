@@ -15,7 +15,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import (
     NetResponse,
@@ -26,11 +25,8 @@ from netdesign.cable.response import (
 )
 from netdesign.cable.sliding import NetState, SlidingStep
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Mask, Signs
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
-Mask = NDArray[np.bool_]
 
 _MOST_ITERATIONS = 40
 # Over the chord: Newton's method is quadratic, the next step would be its square.

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance, Solution
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
 
 # Share of suction on a net above which the two-sided contact is no model of it. The
 # last per cent of a net below the surface may be pulled: 2.4 % was seen at most

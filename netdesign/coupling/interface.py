@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.refine import Looseness
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import (
     Contact,
     free_unknowns,
@@ -22,8 +22,6 @@ from netdesign.snow.flow import (
 )
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
 
 # Forces left on free nodes, over the weight, that are more than rounding elsewhere.
 _ROUNDING = 1e-9

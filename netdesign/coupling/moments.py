@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 # On a plateau, per e-fold of time: end pulls change by less than the first share of
 # their size, node forces by less than the second of the largest of them; the net goes

@@ -7,11 +7,10 @@ from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
 
-Floats = NDArray[np.float64]
 State = TypeVar("State")
 
 

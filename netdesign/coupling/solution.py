@@ -6,16 +6,15 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
 
-Floats = NDArray[np.float64]
 # What a reader must know of a net that was to hold the snow on both sides.
 RELEASED = (
     "the snow would pull on the net more than a two-sided contact stands for: solved "
@@ -173,10 +172,10 @@ class Solution:
     sag: float
     net_curve: Floats
     net_forces: Floats
-    net_slides: NDArray[np.bool_]
+    net_slides: Mask
     mesh_nodes: Floats
-    mesh_edges: NDArray[np.int64]
-    mesh_triangles: NDArray[np.int64]
+    mesh_edges: Ints
+    mesh_triangles: Ints
     mesh_density: Floats
     largest_velocity: float
     balance: Balance
@@ -224,10 +223,10 @@ class WallSolution:
     moment_about_foot: float
     wall_nodes: Floats
     wall_forces: Floats
-    wall_slides: NDArray[np.bool_]
+    wall_slides: Mask
     mesh_nodes: Floats
-    mesh_edges: NDArray[np.int64]
-    mesh_triangles: NDArray[np.int64]
+    mesh_edges: Ints
+    mesh_triangles: Ints
     mesh_density: Floats
     largest_velocity: float
     balance: Balance

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign import __version__
 from netdesign.coupling.history.transient import TransientSettings
@@ -20,15 +19,13 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.coupling.steady.bound import PullBound
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.fluidity import FLUIDITY_EXPONENT, PAPER_FLUIDITY
 from netdesign.solving.solve import Settings
 from netdesign.units import day_from_second, kilonewton_from_newton, mm_per_day
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def write_solution_document(

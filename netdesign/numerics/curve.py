@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
+
 Point = tuple[float, float]
 
 _LEAST_STEP = 1e-9  # points that are rounded may coincide

@@ -14,9 +14,10 @@ from functools import lru_cache
 import numpy as np
 
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import NET_REACH, Floats, Ints, MeshTemplate, place_nodes
+from netdesign.snow.mesh import NET_REACH, MeshTemplate, place_nodes
 
 _UPSTREAM_REACH = 1.0  # the mesh follows the upstream end over this many thicknesses
 _LARGEST_SWEEP = 0.5  # share of a triangle that one part of a remap may take

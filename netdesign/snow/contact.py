@@ -9,13 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
-
-Mask = NDArray[np.bool_]
+from netdesign.snow.mesh import MeshTemplate
 
 # A node is released only when its shear exceeds the friction by this share of it.
 _RELEASE_MARGIN = 1e-9

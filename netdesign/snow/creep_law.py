@@ -9,12 +9,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source paper
 # Relative density from which snow counts as ice, a = 1 and b = 0 nearly; Elmer/Ice

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.contact import (
     Contact,
@@ -49,7 +50,6 @@ from netdesign.snow.law import (
     total_stress,
 )
 from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
-from netdesign.snow.mesh import Floats
 
 # What a Newton step leaves: a share of itself where contacts still change over, else
 # a multiple of its square (measured on random scenes: 95 % stay below the sum).

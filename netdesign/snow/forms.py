@@ -17,8 +17,8 @@ import skfem
 from skfem.element import DiscreteField
 from skfem.helpers import dot, grad
 
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.kernel import QUADRATURE_DEGREE, PlacedMesh
-from netdesign.snow.mesh import Floats
 
 
 @lru_cache(maxsize=2)

@@ -12,9 +12,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.ground import GroundKind
 from netdesign.snow.kernel import Element, point_heights
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
 # Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).

@@ -14,15 +14,14 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.snow.mesh import MeshTemplate
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
 
-Mask = NDArray[np.bool_]
 
 # Above these half bandwidths SuperLU is faster (measured at 470 to 4100 unknowns).
 _WIDEST_CHOLESKY, _WIDEST_LU = 220, 120

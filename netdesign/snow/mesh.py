@@ -20,10 +20,8 @@ from numpy.typing import NDArray
 
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 # Radii of rings are powers of equal steps: what a triangle near a singular point adds
 # to the forces falls with its size. Depth over width of the outermost triangles; the
@@ -395,7 +393,7 @@ def _squeeze(points: Floats, far: float) -> Floats:
     return np.column_stack([np.minimum(distance, far) + far * log, height])
 
 
-def _is_clear(points: Floats, line: Floats) -> NDArray[np.bool_]:
+def _is_clear(points: Floats, line: Floats) -> Mask:
     """Points outside the circles over a level line's pieces, and not close to them.
 
     A piece whose circle is empty is an edge of the Delaunay triangulation. A point

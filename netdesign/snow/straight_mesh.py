@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.kernel import (
     Element,
     PlacedMesh,
@@ -20,7 +21,7 @@ from netdesign.snow.kernel import (
     map_gradients,
     reference_element,
 )
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 # Places in a triangle of each midpoint and of the two vertices beside it.
 _MIDPOINTS = ((3, 0, 1), (4, 1, 2), (5, 0, 2))

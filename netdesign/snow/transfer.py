@@ -6,10 +6,11 @@ from functools import lru_cache
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact
 from netdesign.snow.flow import FlowState
 from netdesign.snow.kernel import PlacedMesh, interpolate_reference
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 
 def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowState:

@@ -9,13 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.fluidity import compute_fluidity
-
-Floats = NDArray[np.float64]
 
 _PARTS = 8  # of each interval between two readings, for the integral
 

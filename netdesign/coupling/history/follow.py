@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.instant import Instant
@@ -17,12 +16,10 @@ from netdesign.coupling.history.state import (
     TransientState,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 
 
 class _Net(NamedTuple):

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import NetResponse, hold_net
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
@@ -29,11 +28,10 @@ from netdesign.coupling.history.step import (
     solve_linear,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.law import squared_size
 from netdesign.snow.straight_mesh import unfold_velocity
-
-Floats = NDArray[np.float64]
 
 # Error that a Newton iteration leaves, over the square of its change (measured: less).
 _LEFT_SHARE = 10.0

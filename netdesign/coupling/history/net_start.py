@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.net_at_rest import (
@@ -17,11 +16,11 @@ from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.steady.start import guess_pressure
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 
-Floats = NDArray[np.float64]
 Start = Literal["steady", "straight", "sagged"]
 
 TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.state import TransientProblem, TransientState
@@ -16,9 +15,8 @@ from netdesign.coupling.moments import (
     largest_pull,
     select_counted,
 )
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.settling import largest_density
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling.balance import check_balance, negative_share
@@ -15,8 +14,6 @@ from netdesign.coupling.history.run import Run
 from netdesign.coupling.moments import History, Moment
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
-
-Floats = NDArray[np.float64]
 
 
 def scale_history(

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.incremental import (
     CableState,
@@ -40,11 +39,10 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.guards import require_count, require_positive, require_within
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
 from netdesign.snow.mesh import MeshSize, build_template
-
-Floats = NDArray[np.float64]
 
 # Of the step: whole and halved.
 _ERROR = ErrorModel(share=1.0, floor=0.0)

@@ -9,15 +9,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats, Ints, Signs
 from netdesign.snow.body import SnowBody
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.settling import Settling
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Signs = NDArray[np.int8]
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
 # net below it.

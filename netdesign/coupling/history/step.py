@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.body import SnowBody
 from netdesign.snow.kernel import (
@@ -45,10 +45,6 @@ from netdesign.snow.linear import (
 )
 from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.clock import Clock
@@ -37,10 +36,9 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.guards import require_count, require_positive, require_within
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template
-
-Floats = NDArray[np.float64]
 
 # Meshes from the fewest triangles upwards; as for the steady state, sectors around the
 # net's ends are worth more than triangles along its middle. Corners much smaller than

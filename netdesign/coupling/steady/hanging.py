@@ -9,19 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.cable.parted import PartedCable, part_cable
 from netdesign.coupling.steady.start import guess_pressure
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshTemplate
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

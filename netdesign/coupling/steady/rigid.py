@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.balance import check_balance, measure_balance
 from netdesign.coupling.interface import (
@@ -31,8 +30,6 @@ from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -6,15 +6,13 @@ Theory: coupling/THEORY.md, eq. (K0).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.funicular import Funicular, linearise_curve
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import FlowState, linearise_reaction
 from netdesign.snow.kernel import PlacedMesh, turn_normals
 from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
 
 
 def linearise_round(

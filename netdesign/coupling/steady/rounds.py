@@ -16,7 +16,6 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
 from netdesign.coupling.balance import (
@@ -52,6 +51,7 @@ from netdesign.coupling.steady.hanging import (
     start_hanging,
 )
 from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
@@ -59,8 +59,6 @@ from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
-
-Floats = NDArray[np.float64]
 
 # What iterations may leave of the accuracy asked for; the meshes take the rest.
 _ITERATED_SHARE = 0.04

@@ -15,7 +15,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
@@ -38,6 +37,7 @@ from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.spread import spread
 from netdesign.evidence.benchmark.statistics import share
 from netdesign.evidence.benchmark.truth import build_truth
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
 
 LINES_SCHEMA = "netdesign.lines/1"
@@ -46,7 +46,6 @@ TRUTHS = 5  # points of a line that are held against a finer mesh
 LARGEST_OUTSIDE = 0.05  # share of the true errors beyond the stated ones
 LARGEST_EXCESS = 1.5  # of a true error over the stated one
 
-Floats = NDArray[np.float64]
 
 # Truths: finer than any level in every direction, so that all have the same one.
 _TRUE_SIZE = MeshSize(

@@ -9,11 +9,10 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.envelope.adaptive import Maxima, SearchSettings, search_maxima
+from netdesign.numerics.arrays import Floats
 
-Floats = NDArray[np.float64]
 Response = Callable[[Floats], Floats]
 
 _SAMPLES = 21  # of each axis, for the true maximum

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 import skfem
-from numpy.typing import NDArray
 from skfem.element import DiscreteField
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact, free_unknowns, friction_shares
 from netdesign.snow.flow import FlowState
 from netdesign.snow.forms import (
@@ -35,8 +35,6 @@ from netdesign.snow.law import (
     linearise_sliding,
 )
 
-Floats = NDArray[np.float64]
-
 _BASE_DEGREE = 7  # four Gauss points an edge, as the kernel
 
 
@@ -44,7 +42,7 @@ class _Base(NamedTuple):
     """Velocities on the ground; ``order`` takes the kernel's points to scikit-fem's."""
 
     basis: skfem.FacetBasis
-    order: NDArray[np.int64]
+    order: Ints
 
 
 def advance(

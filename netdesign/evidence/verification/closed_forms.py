@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.manufactured import build_square
 from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.creep_law import (
     ZWINGER_2007,
     compute_bulk_factor,
@@ -22,8 +22,6 @@ from netdesign.snow.kernel import build_placed_mesh, interpolate
 from netdesign.snow.law import FlowLaw, FlowLayer
 from netdesign.snow.mesh import place_nodes
 from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
-
-Floats = NDArray[np.float64]
 
 _ROUNDING = 1e-12
 _ELMER = "Porous Law for snow and firn in Elmer/Ice (2012)"

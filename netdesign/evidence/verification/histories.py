@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.run import Run
 from netdesign.coupling.history.staggered import StaggeredSettings, run_exchange
@@ -20,8 +19,7 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.coupled import build_scene
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 _HORIZON = 0.06  # creep time
 _DRAGS = (0.1, 0.05)

@@ -11,15 +11,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.kernel import Element, PlacedMesh, build_placed_mesh, interpolate
 from netdesign.snow.law import FlowLaw, FlowLayer
 from netdesign.snow.mesh import MeshTemplate, place_nodes, triangulate
 
-Floats = NDArray[np.float64]
 Vector = tuple[Any, Any, Any]  # (xx, yy, xy)
 
 EXPONENT = 3

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import (
     PlacedMesh,
@@ -25,7 +25,6 @@ from netdesign.snow.law import (
     squared_size,
 )
 
-Floats = NDArray[np.float64]
 _LARGEST_ITERATIONS = 60
 _TOLERANCE = 1e-9
 
@@ -53,7 +52,7 @@ def solve_prescribed(
     law: FlowLaw,
     mesh: PlacedMesh,
     *,
-    held: NDArray[np.bool_],
+    held: Mask,
     values: Floats,
     body_force: Floats,
 ) -> PrescribedFlow:
