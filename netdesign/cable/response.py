@@ -37,7 +37,7 @@ class NetResponse:
     foot_pull, head_pull : ndarray, shape (2,)
         Pulls of the first and the last segment on their ends [N/m].
     sliding : SlidingStep
-        Tensions, unstressed lengths, and which nodes glide.
+        Tensions, unstressed lengths, and which nodes slide.
     """
 
     forces: Floats

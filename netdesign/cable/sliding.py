@@ -1,9 +1,9 @@
 """Friction of the net that slides through its nodes, for one step.
 
-Which nodes glide, and how far, follows from one strictly convex function of the
+Which nodes slide, and how far, follows from one strictly convex function of the
 material coordinates S_i of the nodes. Each Newton step keeps the friction as it is,
 kinks included, and solves the step's own problem exactly by a sweep from foot to
-head and back; so nothing is guessed about which nodes glide, and nothing stalls.
+head and back; so nothing is guessed about which nodes slide, and nothing stalls.
 Theory: cable/THEORY.md, eqs (C13) to (C17).
 """
 
@@ -66,7 +66,7 @@ class SlidingStep:
     iterations: int
 
     @property
-    def glide(self) -> Signs:
+    def slide_signs(self) -> Signs:
         """Direction at each node, shape (n,): 1 net to foot, -1 to head, 0 sticks."""
         return np.sign(self.slides).astype(np.int8)
 
@@ -221,9 +221,9 @@ def _log_tensions(problem: _Problem, point: _Point) -> Floats:
 def _find_breach(problem: _Problem, point: _Point, log_tensions: Floats) -> float:
     """Largest residual of (C14)."""
     steps = np.diff(log_tensions)
-    gliding = np.abs(steps + problem.bounds * np.sign(point.slides))
+    sliding = np.abs(steps + problem.bounds * np.sign(point.slides))
     sticking = np.maximum(np.abs(steps) - problem.bounds, 0.0)
-    return float(np.where(point.slides != 0.0, gliding, sticking).max(initial=0.0))
+    return float(np.where(point.slides != 0.0, sliding, sticking).max(initial=0.0))
 
 
 def _find_rounding(problem: _Problem, point: _Point) -> float:

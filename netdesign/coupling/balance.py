@@ -11,7 +11,7 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 
 # Share of suction on a net above which the two-sided contact is no model of it. The
 # last per cent of a net below the surface may be pulled: 2.4 % was seen at most
@@ -40,7 +40,7 @@ class SuctionError(SolveError):
 
 
 def measure_balance(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     forces: SupportForces,
     held: Floats,
@@ -52,14 +52,14 @@ def measure_balance(
     ``held`` is the sum of the net's end pulls, or the wall's force, shape (2,);
     ``tension`` holds all tensions of the net, None for a wall.
     """
-    weight = compute_weight(law, mesh)
+    weight = compute_weight(problem, mesh)
     size = float(np.hypot(*weight))
     missing = weight - forces.on_ground - held
     normal, tangential = _net_components(mesh, forces.on_net)
     pressed = np.maximum(normal, 0.0)
     excess = np.zeros(1)
-    if np.isfinite(law.friction):
-        excess = np.abs(tangential) - law.friction * pressed
+    if np.isfinite(problem.friction):
+        excess = np.abs(tangential) - problem.friction * pressed
     return Balance(
         weight_along_slope=float(weight[0]) * force_scale,
         relative_residual=max(float(np.hypot(*missing)), forces.unbalanced) / size,
@@ -82,8 +82,16 @@ def check_balance(
 ) -> None:
     """Refuse a state that is not in balance, or that hangs on what cannot hold it.
 
-    ``friction_tolerance`` is how far the contact was iterated; the other figures keep
-    ``tolerance``.
+    Theory: coupling/THEORY.md, (K1) to (K4).
+
+    Parameters
+    ----------
+    balance : Balance
+        Of the state.
+    tolerance : float
+        Largest force missing, and shear beyond the friction limit, over the weight [-].
+    friction_tolerance : float, optional
+        The latter, where the contact is iterated less closely [-].
 
     Raises
     ------

@@ -21,7 +21,7 @@ from netdesign.snow.flow import (
     remove_rounding,
 )
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 
 # Forces left on free nodes, over the weight, that are more than rounding elsewhere.
 _ROUNDING = 1e-9
@@ -51,7 +51,7 @@ class SupportForces:
 
 
 def find_support_forces(
-    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> tuple[FlowState, SupportForces]:
     """Forces of a converged flow; its rounding is removed first where it shows.
 
@@ -60,29 +60,29 @@ def find_support_forces(
     SingularError
         If nothing holds the snow.
     """
-    forces = compute_support_forces(law, mesh, state)
-    weight = float(np.hypot(*compute_weight(law, mesh)))
+    forces = compute_support_forces(problem, mesh, state)
+    weight = float(np.hypot(*compute_weight(problem, mesh)))
     if forces.unbalanced <= _ROUNDING * weight:
         return state, forces
-    mended = remove_rounding(law, mesh, state)
-    return mended, compute_support_forces(law, mesh, mended)
+    mended = remove_rounding(problem, mesh, state)
+    return mended, compute_support_forces(problem, mesh, mended)
 
 
 def compute_support_forces(
-    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> SupportForces:
     """Forces on net and ground, from the stresses of the snow alone."""
-    residual = compute_residual(law, mesh, state)
+    residual = compute_residual(problem, mesh, state)
     supports = -mesh.to_slope_axes(residual)
     template = mesh.template
-    on_net = share_net_forces(law, mesh, residual)
+    on_net = share_net_forces(problem, mesh, residual)
     ground = supports[:, template.ground[1:]]
     on_ground = ground.sum(axis=1) + supports[:, template.net[0]] - on_net[:, 0]
-    if law.ground != "no-slip":
+    if problem.ground != "no-slip":
         on_ground[0] = 0.0
     if state.base_shear is not None:
         on_ground[0] = float((mesh.base.weights * state.base_shear).sum())
-    free = free_unknowns(law, mesh, state.contact)
+    free = free_unknowns(problem, mesh, state.contact)
     free[net_components(mesh)[1]] = False  # friction, tested on its own
     free[mesh.n_velocities :] = False
     return SupportForces(
@@ -93,7 +93,9 @@ def compute_support_forces(
     )
 
 
-def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats:
+def share_net_forces(
+    problem: FlowProblem, mesh: PlacedMesh, reaction: Floats
+) -> Floats:
     """Forces on the net (2, n_net) of reactions (n_dofs,), the foot's corner shared.
 
     The corner node is held by net and ground. Along a ground without reactions at
@@ -104,7 +106,7 @@ def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats
     on_net = -mesh.net_in_slope_axes(reaction)
     corner = on_net[:, 0].copy()
     on_net[:, 0] = on_net[:, 1] / 4.0
-    if law.ground != "no-slip":
+    if problem.ground != "no-slip":
         on_net[0, 0] = corner[0]
     return on_net
 

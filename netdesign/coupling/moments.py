@@ -35,7 +35,7 @@ CRITERION = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Moment:
+class HistoryPoint:
     """One recorded time; units are those of the run that records.
 
     Attributes
@@ -111,7 +111,7 @@ class History:
 
     Attributes
     ----------
-    moments : tuple of Moment
+    moments : tuple of HistoryPoint
         [s, N/m, m, m/s].
     plateau : Plateau
         [s].
@@ -125,7 +125,7 @@ class History:
         Why it ended before its horizon; empty if it did not.
     """
 
-    moments: tuple[Moment, ...]
+    moments: tuple[HistoryPoint, ...]
     plateau: Plateau
     start: str
     densifies: bool
@@ -133,14 +133,14 @@ class History:
     ended: str
 
     @property
-    def at_plateau(self) -> Moment | None:
-        """Moment at which the plateau is proven to begin."""
+    def at_plateau(self) -> HistoryPoint | None:
+        """Point at which the plateau is proven to begin."""
         if self.plateau.index is None:
             return None
         return self.moments[self.plateau.index]
 
 
-def find_plateau(moments: Sequence[Moment]) -> Plateau:
+def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
     """First span of one e-fold of time over which the criterion holds."""
     begin: int | None = None
     for place in range(1, len(moments)):
@@ -156,7 +156,7 @@ def find_plateau(moments: Sequence[Moment]) -> Plateau:
     return Plateau(reached=False, time=None, index=None)
 
 
-def judge_plateau(moments: Sequence[Moment], plateau: Plateau) -> Plateau:
+def judge_plateau(moments: Sequence[HistoryPoint], plateau: Plateau) -> Plateau:
     """The plateau with the drift since it began, not reached if that is too fast.
 
     Snow that settles and gathers at the net is other snow in the end; a history of it
@@ -171,7 +171,7 @@ def judge_plateau(moments: Sequence[Moment], plateau: Plateau) -> Plateau:
     return replace(plateau, drift=drift, reached=abs(drift) <= PULL_DRIFT)
 
 
-def _drift_between(first: Moment, later: Moment) -> float:
+def _drift_between(first: HistoryPoint, later: HistoryPoint) -> float:
     """The larger change of an end pull, signed, over its size and per e-fold."""
     changes = [
         float(np.hypot(*new) / np.hypot(*old)) - 1.0
@@ -181,8 +181,8 @@ def _drift_between(first: Moment, later: Moment) -> float:
 
 
 def select_counted(
-    moments: Sequence[Moment], plateau: Plateau, *, is_guessed: bool
-) -> Sequence[Moment]:
+    moments: Sequence[HistoryPoint], plateau: Plateau, *, is_guessed: bool
+) -> Sequence[HistoryPoint]:
     """Moments whose pulls are those of the scene's snow on its net.
 
     Those until the snow has crept by 1 % on average, or until a plateau begins if that
@@ -206,7 +206,7 @@ def largest_pull(pulls: Sequence[Floats]) -> Floats:
     return max(pulls, key=lambda pull: float(np.hypot(*pull)))
 
 
-def _is_steady(before: Moment, after: Moment) -> bool:
+def _is_steady(before: HistoryPoint, after: HistoryPoint) -> bool:
     if not before.strain >= LEAST_STRAIN:
         return False
     efolds = np.log(after.time / before.time)

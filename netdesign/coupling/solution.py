@@ -96,7 +96,7 @@ def list_skipped(scene: Scene, mesh: PlacedMesh) -> Skipped:
     pack = scene.snowpack
     is_mixed = mesh.n_dofs > mesh.n_velocities
     return Skipped(
-        upslope_length=pack.upslope_length - scene.reach * pack.thickness,
+        upslope_length=pack.upslope_length - scene.modelled_aspect * pack.thickness,
         pressure_unknowns=0 if is_mixed else mesh.template.n_vertices,
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from netdesign import __version__
 from netdesign.coupling.history.transient import TransientSettings
-from netdesign.coupling.moments import COUNTED_STRAIN, History, Moment
+from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
     RELEASED,
@@ -63,7 +63,7 @@ def write_solution_document(
         "provenance": {
             "version": __version__,
             "creep_law": solution.scene.creep_law.name,
-            "element": solution.scene.flow_law.element,
+            "element": solution.scene.flow_problem.element,
             "settings": _write_settings(settings),
         },
     }
@@ -150,7 +150,7 @@ def _write_history(solution: Solution | WallSolution) -> dict[str, Any]:
     }
 
 
-def _write_moment(moment: Moment) -> dict[str, Any]:
+def _write_moment(moment: HistoryPoint) -> dict[str, Any]:
     return {
         "time_d": day_from_second(moment.time),
         "foot_kN_per_m": _size(moment.foot),

@@ -16,10 +16,10 @@ import numpy as np
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
-from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import NET_REACH, MeshTemplate, place_nodes
+from netdesign.snow.law import FlowProblem
+from netdesign.snow.mesh import NET_FOLLOWED, MeshTemplate, place_nodes
 
-_UPSTREAM_REACH = 1.0  # the mesh follows the upstream end over this many thicknesses
+_UPSTREAM_FOLLOWED = 1.0  # the mesh follows the upstream end over this many thicknesses
 _LARGEST_SWEEP = 0.5  # share of a triangle that one part of a remap may take
 _MOST_PARTS = 64
 _LEAST_HEIGHT = 1e-15  # of a triangle's corner over another: no division by 0
@@ -121,7 +121,9 @@ def build_topology(template: MeshTemplate) -> Topology:
     )
 
 
-def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowBody:
+def build_body(
+    problem: FlowProblem, template: MeshTemplate, net_curve: Floats
+) -> SnowBody:
     """Undeformed snow against a net's curve (2, n_net), all nodes of the template."""
     topology = build_topology(template)
     vertices = place_nodes(template, net_curve)[:, : template.n_vertices]
@@ -130,9 +132,9 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
         raise SolveError(
             Outcome.OUT_OF_VALIDITY, f"the start's mesh folds over: {_LESS_BULGE}"
         )
-    shares = _share_layers(law, vertices[1, topology.triangles])
-    density = shares @ np.array([layer.density for layer in law.layers])
-    heat = shares @ np.array([layer.density * layer.warmth for layer in law.layers])
+    shares = _share_layers(problem, vertices[1, topology.triangles])
+    density = shares @ np.array([layer.density for layer in problem.layers])
+    heat = shares @ np.array([layer.density * layer.warmth for layer in problem.layers])
     return SnowBody(
         topology=topology,
         vertices=vertices,
@@ -141,7 +143,7 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
     )
 
 
-def _share_layers(law: FlowLaw, corners: Floats) -> Floats:
+def _share_layers(problem: FlowProblem, corners: Floats) -> Floats:
     """What each layer takes of the areas of triangles, shape (n, n_layers).
 
     Layers lie at their heights, wherever the net's curve has carried the triangles
@@ -149,7 +151,7 @@ def _share_layers(law: FlowLaw, corners: Floats) -> Floats:
     """
     low, middle, high = np.sort(corners, axis=1).T
     below = [np.zeros(low.size)]
-    for layer in law.layers[:-1]:
+    for layer in problem.layers[:-1]:
         corner = np.maximum(layer.top - low, 0.0) ** 2
         corner /= np.maximum(middle - low, _LEAST_HEIGHT) * (high - low)
         rest = np.maximum(high - layer.top, 0.0) ** 2
@@ -231,7 +233,7 @@ def _place_vertices(
     template = topology.template
     distance, height = template.nodes[:, : template.n_vertices]
     foot, top = net[:, 0], net[:, -1]
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_REACH, template.aspect))
+    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
     # along the ground and the surface, spaced as in the template
     end = displaced[0, topology.ground[-1]]
     base_x = foot[0] + (end - foot[0]) * distance / template.aspect
@@ -245,8 +247,8 @@ def _place_vertices(
     placed += follow * (side - (1.0 - height) * foot[:, None] - height * top[:, None])
     back = displaced[:, topology.upstream]
     side = _interpolate(height, template.nodes[1, topology.upstream], back)
-    reach = min(_UPSTREAM_REACH, template.aspect / 2.0)
-    fade = np.maximum(0.0, 1.0 - (template.aspect - distance) / reach)
+    length = min(_UPSTREAM_FOLLOWED, template.aspect / 2.0)
+    fade = np.maximum(0.0, 1.0 - (template.aspect - distance) / length)
     placed += fade * (side - (1.0 - height) * back[:, :1] - height * back[:, -1:])
     placed[:, topology.net] = net
     placed[1, topology.ground] = 0.0
@@ -322,7 +324,7 @@ def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Flo
 
 
 def _sweep(topology: Topology, old: Floats, new: Floats) -> Floats:
-    """Areas that edges sweep on their left side, negative on their right."""
+    """Areas A of (N21) that edges sweep on their left, negative on their right."""
     first, second = topology.edges
     (ux, uy), (wx, wy) = new[:, second] - old[:, first], new[:, first] - old[:, second]
     return np.asarray((ux * wy - uy * wx) / 2.0)

@@ -1,6 +1,6 @@
 """Where the snow sticks, slips, or lets go, on the net and on the ground.
 
-Theory: snow/THEORY.md, eqs (F6) and (F7). Components of the unknowns of a net node
+Theory: snow/THEORY.md, eqs (N14) and (N15). Components of the unknowns of a net node
 are (normal, tangential); pressures and shears are forces of the snow on its support.
 """
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
 
 # A node is released only when its shear exceeds the friction by this share of it.
@@ -61,22 +61,26 @@ def start_contact(mesh: PlacedMesh) -> Contact:
 
 
 def update_contact(
-    law: FlowLaw, mesh: PlacedMesh, contact: Contact, velocity: Floats, reaction: Floats
+    problem: FlowProblem,
+    mesh: PlacedMesh,
+    contact: Contact,
+    velocity: Floats,
+    reaction: Floats,
 ) -> Contact:
     """State that follows from the last velocities and reactions, (n_dofs,) each."""
     normal, tangential = net_components(mesh)
     pressure = -reaction[normal]
     is_open = contact.is_open
-    if law.net_contact == "one-sided":
+    if problem.net_contact == "one-sided":
         is_open = _let_go(is_open, pressure, velocity[normal])
     is_lifted = contact.is_lifted
-    if law.ground_contact == "one-sided":
+    if problem.ground_contact == "one-sided":
         upward = 2 * mesh.template.ground[1:] + 1
         is_lifted = _let_go(is_lifted, reaction[upward], -velocity[upward])
         is_lifted &= may_lift(mesh.template)
     return Contact(
         sign=_update_slip(
-            law, contact, pressure, -reaction[tangential], velocity[tangential]
+            problem, contact, pressure, -reaction[tangential], velocity[tangential]
         ),
         is_pressed=(pressure > 0.0) & ~is_open,
         is_open=is_open,
@@ -90,8 +94,8 @@ def may_lift(template: MeshTemplate) -> Mask:
     Not within a thickness of the upslope end: the snowpack goes on there, only the
     calculation ends, and its free end would rock on the ground.
     """
-    reach = max(template.aspect - 1.0, template.aspect / 2.0)
-    return np.asarray(template.nodes[0, template.ground[1:]] < reach)
+    end = max(template.aspect - 1.0, template.aspect / 2.0)
+    return np.asarray(template.nodes[0, template.ground[1:]] < end)
 
 
 def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:
@@ -129,7 +133,7 @@ def _choose(changes: Mask, *, only_first: bool) -> Ints:
     return np.concatenate([row[: (row.size + 1) // 2] for row in rows])
 
 
-def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
+def free_unknowns(problem: FlowProblem, mesh: PlacedMesh, contact: Contact) -> Mask:
     """Mask (n_dofs,) of unknowns that neither net nor ground holds."""
     free = np.ones(mesh.n_dofs, dtype=bool)
     normal, tangential = net_components(mesh)
@@ -138,23 +142,25 @@ def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     free[normal] = contact.is_open
     free[tangential] = contact.is_open | (contact.sign != 0)
     free[2 * ground + 1] = contact.is_lifted
-    if law.ground == "no-slip":
+    if problem.ground == "no-slip":
         free[2 * ground] = contact.is_lifted
     return free
 
 
-def friction_shares(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Floats | None:
+def friction_shares(
+    problem: FlowProblem, mesh: PlacedMesh, contact: Contact
+) -> Floats | None:
     """What of each normal row goes to the tangential row after it; None if nothing.
 
     Shape (n_dofs,), not zero at the tangential unknowns of slipping nodes. With it
-    their equation reads R_t = tan(phi) R_n sign, (F6).
+    their equation reads R_t = tan(phi) R_n sign, (N14).
     """
     _, tangential = net_components(mesh)
     slips = (contact.sign != 0) & contact.is_pressed
-    if not slips.any() or law.friction == 0.0:
+    if not slips.any() or problem.friction == 0.0:
         return None
     shares = np.zeros(mesh.n_dofs)
-    shares[tangential[slips]] = -law.friction * contact.sign[slips]
+    shares[tangential[slips]] = -problem.friction * contact.sign[slips]
     return shares
 
 
@@ -165,12 +171,16 @@ def net_components(mesh: PlacedMesh) -> tuple[Ints, Ints]:
 
 
 def _update_slip(
-    law: FlowLaw, contact: Contact, pressure: Floats, shear: Floats, velocity: Floats
+    problem: FlowProblem,
+    contact: Contact,
+    pressure: Floats,
+    shear: Floats,
+    velocity: Floats,
 ) -> Ints:
-    """Eq. (F6): slipping against one's sign sticks, too much shear releases."""
-    if np.isinf(law.friction):
+    """Eq. (N14): slipping against one's sign sticks, too much shear releases."""
+    if np.isinf(problem.friction):
         return np.zeros_like(contact.sign)
-    limit = law.friction * np.maximum(pressure, 0.0)
+    limit = problem.friction * np.maximum(pressure, 0.0)
     against_sign = velocity * contact.sign <= 0.0
     exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
     released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
@@ -185,5 +195,5 @@ def _update_slip(
 
 
 def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:
-    """Eq. (F7): a held node that would pull lets go, one that moves back is held."""
+    """Eq. (N15): a held node that would pull lets go, one that moves back is held."""
     return np.where(is_apart, outward <= 0.0, push < 0.0)

@@ -33,7 +33,7 @@ def build_basis(mesh: PlacedMesh) -> skfem.Basis:
 
 
 def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Integral of eps(w) . C eps(v): matrix of the tangent, eq. (F4).
+    """Integral of eps(w) . C eps(v): matrix of the tangent, eq. (N9).
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix
 
 
 def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Taylor-Hood tangent: eps(w) . (C eps(v) + c p) + q (c . eps(v) + k p), (F10).
+    """Taylor-Hood tangent: eps(w) . (C eps(v) + c p) + q (c . eps(v) + k p), (N20).
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
 def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
     """Integral of eps(w) . sigma: internal nodal forces (n_dofs,), slope's axes.
 
-    The stress has the shape (n_triangles, n_points, 3). It is in equilibrium, (F1),
+    The stress has the shape (n_triangles, n_points, 3). It is in equilibrium, (N6),
     where these forces equal those of ``assemble_gravity_form``.
     """
     form = skfem.LinearForm(_internal_power)

@@ -3,7 +3,7 @@
 The sparsity of a template never changes, so its unknowns are ordered once for a small
 bandwidth and each problem goes straight into LAPACK's banded storage: Cholesky where
 the matrix is symmetric and positive definite, LU where friction or pressures are in it.
-Wide meshes go to SuperLU.
+Wide meshes go to SuperLU. Theory: snow/THEORY.md, section 5.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ def solve_blocks(
         Unknowns that nothing holds.
     friction : ndarray, shape (n_dofs,), optional
         At each tangential (odd) unknown, what of the row before it is added to its
-        own row, eq. (F6); 0 elsewhere.
+        own row, eq. (N14); 0 elsewhere.
     is_definite : bool
         K is symmetric and positive definite, friction aside.
 
@@ -172,9 +172,9 @@ def solve_blocks(
     load[held] = 0.0
     if is_definite and ordering.band <= _WIDEST_CHOLESKY:
         if friction is None:
-            right = _in_order(ordering, load)
+            rhs = _in_order(ordering, load)
             masked = [_mask(part, free) for part in parts]
-            return _solve_cholesky(ordering, masked, right, held)[ordering.place]
+            return _solve_cholesky(ordering, masked, rhs, held)[ordering.place]
         if np.count_nonzero(friction) <= _MOST_SLIPPING * ordering.band:
             return _solve_slipping(ordering, parts, friction, load, free)
     if friction is not None:
@@ -205,15 +205,15 @@ def _build_ordering(
     rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
     columns = graph.indices.astype(np.int64)
     orders = _list_orders(graph, template)
-    narrowest = min(orders, key=lambda order: _find_reach(order, rows, columns))
+    narrowest = min(orders, key=lambda order: _find_bandwidth(order, rows, columns))
     start = _place_in(_narrow(narrowest, rows, columns), size)
-    reach = int(np.abs(start[rows] - start[columns]).max())
+    bandwidth = int(np.abs(start[rows] - start[columns]).max())
     place = np.empty(int(size.sum()), dtype=np.int64)
     place[: 2 * n_nodes : 2] = start
     place[1 : 2 * n_nodes : 2] = start + 1
     if has_pressures:
         place[2 * n_nodes :] = start[: template.n_vertices] + 2
-    return Ordering(place=place, band=reach + int(size.max()) - 1)
+    return Ordering(place=place, band=bandwidth + int(size.max()) - 1)
 
 
 def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]:
@@ -244,9 +244,9 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
     for _ in range(_SWEEPS + 1):
         place = np.empty(order.size)
         place[order] = np.arange(order.size)
-        reach = _find_reach(order, rows, columns)
-        if reach < narrowest:
-            best, narrowest = order, reach
+        bandwidth = _find_bandwidth(order, rows, columns)
+        if bandwidth < narrowest:
+            best, narrowest = order, bandwidth
         first = np.minimum.reduceat(place[columns], begins)
         last = np.maximum.reduceat(place[columns], begins)
         moved = (1.0 - _SWEEP) * place + _SWEEP * (first + last) / 2.0
@@ -254,7 +254,7 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
     return best
 
 
-def _find_reach(order: Ints, rows: Ints, columns: Ints) -> int:
+def _find_bandwidth(order: Ints, rows: Ints, columns: Ints) -> int:
     """How far apart neighbours are in an order, at most."""
     place = np.argsort(order)
     return int(np.abs(place[rows] - place[columns]).max())
@@ -289,13 +289,13 @@ def _scale_of(values: Floats) -> float:
 
 
 def _solve_cholesky(
-    ordering: Ordering, parts: Sequence[Blocks], right: Floats, held: Mask
+    ordering: Ordering, parts: Sequence[Blocks], rhs: Floats, held: Mask
 ) -> Floats:
     """Solutions of right sides that are in order already; they stay so."""
     matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
-        matrix.T, right, lower=1, overwrite_ab=1, overwrite_b=1
+        matrix.T, rhs, lower=1, overwrite_ab=1, overwrite_b=1
     )
     if fault != 0:
         raise SingularError("not positive definite")
@@ -309,15 +309,15 @@ def _solve_slipping(
     load: Floats,
     free: Mask,
 ) -> Floats:
-    """The symmetric matrix with a few rows added, by Woodbury's formula."""
+    """Solution with a few rows added to the symmetric matrix: Woodbury's (N24)."""
     slipping = np.flatnonzero(friction)
     columns = load.size // len(load)
-    right = np.zeros((len(load), columns + slipping.size), order="F")
-    right[ordering.place, :columns] = load.reshape(-1, columns)
-    right[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
+    rhs = np.zeros((len(load), columns + slipping.size), order="F")
+    rhs[ordering.place, :columns] = load.reshape(-1, columns)
+    rhs[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
     masked = [_mask(part, free) for part in parts]
-    answers = _solve_cholesky(ordering, masked, right, ~free)
-    plain, inverse = answers[:, :columns], answers[:, columns:]
+    solutions = _solve_cholesky(ordering, masked, rhs, ~free)
+    plain, inverse = solutions[:, :columns], solutions[:, columns:]
     rows = _collect_friction(ordering, parts, friction, free)
     small = rows @ inverse
     small.flat[:: slipping.size + 1] += 1.0
@@ -351,9 +351,9 @@ def _collect_friction(
 
 
 def _in_order(ordering: Ordering, load: Floats) -> Floats:
-    right = np.empty_like(load, order="F")
-    right[ordering.place] = load
-    return right
+    rhs = np.empty_like(load, order="F")
+    rhs[ordering.place] = load
+    return rhs
 
 
 def _solve_lu(

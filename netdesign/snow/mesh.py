@@ -2,9 +2,9 @@
 
 The reference region is the rectangle of a straight net normal to the slope, in
 units of the snow thickness: xi is the distance upslope of the net, eta the height
-above the ground. Around the net's two ends, where the pressure is singular, rings
-of triangles shrink geometrically. Every case of one aspect ratio shares the
-reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
+above the ground. Rings of triangles surround the net's two ends, where the pressure is
+singular; their radii are fourth powers of equal steps. Every case of one aspect ratio
+shares the reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ from netdesign.outcome import Outcome
 # to the forces falls with its size. Depth over width of the outermost triangles; the
 # largest radius, and the share of the distance between layers' sides that it may take.
 _RING_POWER, _RING_DEPTH = 4.0, 1.8
-_RING_REACH, _RING_GAP = 0.45, 0.4
+_RING_RADIUS, _RING_GAP = 0.45, 0.4
 # Sizes over distances from an end times sectors, and how fast columns widen likewise.
 _RING_SHARE, _GROWTH = 1.8, 1.6
 _CLEARANCE = 1.3  # other points keep this many ring reaches away
-_BESIDE = _CLEARANCE * _RING_REACH
+_BESIDE = _CLEARANCE * _RING_RADIUS
 _LEAST_ROWS = 2  # of triangles in each layer
 _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
@@ -40,7 +40,7 @@ _FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
 # A short snowpack's upslope end on ground that holds it is felt at the net: columns of
 # at most this share of the length, over the sectors.
 _END_SHARE = 0.5
-NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
+NET_FOLLOWED = 3.0  # upslope of this many thicknesses the mesh does not follow the net
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -259,7 +259,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_REACH, template.aspect))
+    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
@@ -279,20 +279,20 @@ def _end_points(size: MeshSize) -> Floats:
 
 def _quarter_rings(sectors: int, corner: float) -> Floats:
     angles = np.linspace(0.0, np.pi / 2, sectors + 1)
-    return _ring_points(sectors, corner, _RING_REACH, angles)
+    return _ring_points(sectors, corner, _RING_RADIUS, angles)
 
 
-def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
+def _junction_points(size: MeshSize, height: float, radius: float) -> Floats:
     """Rings around the place on the net where two layers meet."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
-    rings = _ring_points(size.sectors, np.sqrt(size.corner), reach, angles)
+    rings = _ring_points(size.sectors, np.sqrt(size.corner), radius, angles)
     return np.asarray(rings + np.array([0.0, height]))
 
 
-def _ring_points(sectors: int, corner: float, reach: float, angles: Floats) -> Floats:
+def _ring_points(sectors: int, corner: float, radius: float, angles: Floats) -> Floats:
     """Rings of points (n, 2) around the origin, and the origin."""
-    outer = reach ** (1.0 / _RING_POWER)
-    inner = min(corner, reach / 2.0) ** (1.0 / _RING_POWER)
+    outer = radius ** (1.0 / _RING_POWER)
+    inner = min(corner, radius / 2.0) ** (1.0 / _RING_POWER)
     width = np.pi / 2 / sectors
     count = _RING_POWER * (1.0 - inner / outer) / (_RING_DEPTH * width)
     radii = np.linspace(outer, inner, max(1, round(count)) + 1) ** _RING_POWER
@@ -347,11 +347,11 @@ def _add_rings(
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
     for below, height, above in _neighbours(interfaces):
-        reach = min(_RING_REACH, _RING_GAP * min(height - below, above - height))
-        line = _interface_points(size, height, reach, first)
-        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * reach
+        radius = min(_RING_RADIUS, _RING_GAP * min(height - below, above - height))
+        line = _interface_points(size, height, radius, first)
+        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * radius
         is_clear = (_is_clear(points, line) & apart) | (points[:, 0] >= first)
-        rings = _junction_points(size, height, reach)
+        rings = _junction_points(size, height, radius)
         points = np.vstack([points[is_clear], line, rings])
     return points
 
@@ -363,11 +363,11 @@ def _neighbours(interfaces: tuple[float, ...]) -> list[tuple[float, float, float
 
 
 def _interface_points(
-    size: MeshSize, height: float, reach: float, first: float
+    size: MeshSize, height: float, radius: float, first: float
 ) -> Floats:
     """Points along an interface from its rings to the first whole column."""
-    gap = reach / _RING_GAP
-    places = [min(reach, first / 2.0)]
+    gap = radius / _RING_GAP
+    places = [min(radius, first / 2.0)]
     while places[-1] < first:
         to_end = np.hypot(places[-1], min(height, 1.0 - height))
         near = min(places[-1], _RING_SHARE / size.sectors * to_end)

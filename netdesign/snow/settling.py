@@ -8,7 +8,7 @@ import numpy as np
 
 from netdesign.snow.body import SnowBody
 from netdesign.snow.creep_law import DENSEST_SNOW, CreepLaw, compute_factors
-from netdesign.snow.law import FlowLaw, Material, sample_material
+from netdesign.snow.law import FlowProblem, Material, sample_material
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,21 +35,23 @@ class Settling:
     least_density: float = 1.0
 
 
-def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material:
+def build_material(
+    settling: Settling, problem: FlowProblem, body: SnowBody
+) -> Material:
     """Material at the quadrature points of the body as it is now.
 
     Numbers, or arrays (n_triangles, 1): a triangle has one density.
     """
     if not settling.densifies:
-        return sample_material(law, body.topology.template)
+        return sample_material(problem, body.topology.template)
     density = np.maximum(body.density, settling.least_density)
     shear, bulk = compute_factors(settling.creep_law, settling.mean_density * density)
     start = np.array([settling.mean_density])
     reference, _ = compute_factors(settling.creep_law, start)
-    power = (law.exponent + 1.0) / 2.0
+    power = (problem.exponent + 1.0) / 2.0
     return Material(
         bulk_ratio=(shear / bulk)[:, None],
-        fluidity=(body.warmth * (shear / reference) ** power)[:, None],
+        fluidity_ratio=(body.warmth * (shear / reference) ** power)[:, None],
         density=body.density[:, None],
     )
 

@@ -71,7 +71,7 @@ def compute_edge_width(
     """Loaded width of the first or last support of a row.
 
     Half a bay, and the end effect as the width under plain load that brings the
-    same force. Theory: structure/THEORY.md, eqs. (S8) and (S9).
+    same force. Theory: structure/THEORY.md, eqs. (S9) and (S10).
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def find_governing_width(post_spacing: float, edge: LoadedWidth | None) -> Loade
 def compute_lateral_factor(share: float) -> float:
     """Size of a force with its sideways part, over its size in the section [-].
 
-    ``share`` [-] of the force acts along the row; (S10), an upper bound.
+    ``share`` [-] of the force acts along the row; (S11), an upper bound.
     """
     require_within("lateral share", share, 0.0, 1.0)
     return math.hypot(1.0, share)

@@ -83,12 +83,12 @@ def build_start(
         lengths = _spread_length(problem, curve)
     if not curve[1, 1:].min() > 0.0:
         raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
-    body = build_body(problem.law, template, curve)
+    body = build_body(problem.snow, template, curve)
     return TransientState(
         time=0.0,
         body=body,
         lengths=lengths,
-        glide=np.zeros(lengths.size - 1, dtype=np.int8),
+        slide_signs=np.zeros(lengths.size - 1, dtype=np.int8),
         top="on-net" if problem.has_freeboard else "held",
         velocity=np.zeros((2, template.nodes.shape[1])),
         moved=np.zeros_like(body.vertices),
@@ -104,7 +104,7 @@ def _hang_parabola(
         fractions = fractions / fractions[-1]
     pressure = 0.0
     if start == "sagged":
-        pressure = guess_pressure(problem.law, template.aspect)
+        pressure = guess_pressure(problem.snow, template.aspect)
     return _parabola(problem.head, _find_sag(problem, pressure), fractions)
 
 

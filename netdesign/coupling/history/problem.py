@@ -23,12 +23,12 @@ def build_problem(
         )
     thickness = scene.snowpack.thickness
     return TransientProblem(
-        law=scene.flow_law,
+        snow=scene.flow_problem,
         settling=Settling(
             creep_law=scene.creep_law,
             mean_density=scene.snowpack.relative_density,
             densifies=densifies,
-            least_density=min(layer.density for layer in scene.flow_law.layers),
+            least_density=min(layer.density for layer in scene.flow_problem.layers),
         ),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,

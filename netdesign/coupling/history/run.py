@@ -10,7 +10,7 @@ import numpy as np
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
-    Moment,
+    HistoryPoint,
     Plateau,
     largest_pull,
     select_counted,
@@ -27,7 +27,7 @@ class Run:
     ----------
     problem : TransientProblem
         Scene.
-    moments : tuple of Moment
+    moments : tuple of HistoryPoint
         After every step.
     plateau : Plateau
         Whether it came to rest.
@@ -44,7 +44,7 @@ class Run:
     """
 
     problem: TransientProblem
-    moments: tuple[Moment, ...]
+    moments: tuple[HistoryPoint, ...]
     plateau: Plateau
     state: TransientState
     instant: Instant
@@ -55,7 +55,7 @@ class Run:
     is_guessed: bool
 
     @property
-    def counted(self) -> Sequence[Moment]:
+    def counted(self) -> Sequence[HistoryPoint]:
         """Moments whose pulls are those of the scene's snow on its net."""
         return select_counted(self.moments, self.plateau, is_guessed=self.is_guessed)
 
@@ -67,8 +67,8 @@ def record_moment(
     way: Floats | float,
     strain: float,
     step: float,
-) -> tuple[Moment, Floats]:
-    """Moment at the end of a step, and the net vertices' ways (n,) until then.
+) -> tuple[HistoryPoint, Floats]:
+    """Point at the end of a step, and the net vertices' ways (n,) until then.
 
     ``state`` is that after the step, ``way`` and ``strain`` those before it.
     """
@@ -78,7 +78,7 @@ def record_moment(
     ways = way + across * step
     tensions = instant.response.sliding.tensions
     ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
-    moment = Moment(
+    moment = HistoryPoint(
         time=state.time,
         foot=instant.foot_pull,
         head=instant.head_pull,

@@ -33,7 +33,7 @@ from netdesign.coupling.history.run import Run, measure_run, record_moment
 from netdesign.coupling.history.run_result import build_solution, scale_history
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.history.transient import TRANSIENT_LEVELS
-from netdesign.coupling.moments import Moment, find_plateau, judge_plateau
+from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
@@ -48,9 +48,9 @@ from netdesign.snow.mesh import MeshSize, build_template
 _ERROR = ErrorModel(share=1.0, floor=0.0)
 # Share of the time in which net and drag come to rest that a step may take.
 _STABLE_SHARE = 0.3
-# Shear beyond the friction limit, over the weight: increments keep the limit only as
-# steps vanish.
-_FRICTION_TOLERANCE = 1e-2
+# Force missing from the balance, over the weight. Shear beyond the friction limit, over
+# the weight: increments keep the limit only as steps vanish.
+_BALANCE_TOLERANCE, _FRICTION_TOLERANCE = 1e-8, 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
 _ADVICE = "the method transient has no such limit of explicit steps"
@@ -120,7 +120,7 @@ def solve_staggered(
 
     Verified by
     -----------
-    tests/coupling/test_staggered.py, ``netdesign verify``
+    tests/coupling/history/test_staggered.py, ``netdesign verify``
     """
     try:
         return _solve(scene, settings or StaggeredSettings())
@@ -142,7 +142,14 @@ def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
         runs[-1], scene, Clock(), start=settings.start, densifies=True
     )
     return build_solution(
-        scene, runs, foot, head, history, "staggered", 1e-8, _FRICTION_TOLERANCE
+        scene,
+        runs,
+        foot,
+        head,
+        history,
+        "staggered",
+        _BALANCE_TOLERANCE,
+        _FRICTION_TOLERANCE,
     )
 
 
@@ -166,7 +173,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     state = build_start(problem, template, start)
     cable = _start_cable(problem, state)
     step = settings.step_share * _longest_step(problem, aspect)
-    moments: list[Moment] = []
+    moments: list[HistoryPoint] = []
     way: Floats | float = 0.0
     solves, mass = 0, float(state.body.mass.sum())
     while state.time < settings.horizon:
@@ -248,7 +255,7 @@ def _follow(
         cable,
         measure_arcs(points),
         compute_turning_angles(points),
-        friction=problem.law.friction,
+        friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
     if increment.outcome is not Outcome.CONVERGED:

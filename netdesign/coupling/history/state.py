@@ -12,7 +12,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints, Signs
 from netdesign.snow.body import SnowBody
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.settling import Settling
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
@@ -28,7 +28,7 @@ HEAD_GAP = 2e-3
 class TransientProblem:
     """What stays the same while the snow moves, dimensionless."""
 
-    law: FlowLaw
+    snow: FlowProblem
     settling: Settling
     head: Floats
     length: float  # unstressed, of the whole net
@@ -53,7 +53,7 @@ class TransientState:
         The snow.
     lengths : ndarray, shape (n_segments,)
         Unstressed lengths of the net between its nodes.
-    glide : ndarray of int, shape (n_segments - 1,)
+    slide_signs : ndarray of int, shape (n_segments - 1,)
         How the net slid through its nodes in the last step, as in ``NetGuess``.
     top : str
         What the snow's upper corner does.
@@ -70,7 +70,7 @@ class TransientState:
     time: float
     body: SnowBody
     lengths: Floats
-    glide: Signs
+    slide_signs: Signs
     top: Top
     velocity: Floats
     moved: Floats

@@ -26,7 +26,7 @@ from netdesign.coupling.history.run import (
 from netdesign.coupling.history.run_result import build_solution, scale_history
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
-    Moment,
+    HistoryPoint,
     Plateau,
     find_plateau,
     judge_plateau,
@@ -73,6 +73,8 @@ _TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is rep
 _ERROR_SHARE = 0.25
 # Of the largest pulls of a history (coupling/THEORY.md, section 6).
 _ERROR = ErrorModel(share=2.0, floor=5e-3)
+# Balance of a whole history, over what is asked of a step.
+_WHOLE_BALANCE = 100.0
 _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 
 
@@ -153,7 +155,7 @@ def solve_transient(
 
     Verified by
     -----------
-    tests/coupling/test_transient.py, ``netdesign verify``
+    tests/coupling/history/test_transient.py, ``netdesign verify``
     """
     settings = settings or TransientSettings()
     clock = clock or Clock()
@@ -231,7 +233,7 @@ class _Walk:
     step: float
     step_share: float
     horizon: float
-    moments: list[Moment] = field(default_factory=list)
+    moments: list[HistoryPoint] = field(default_factory=list)
     instant: Instant | None = None
     way: Floats | float = 0.0
     fallen: float = 0.0
@@ -320,7 +322,7 @@ class _Walk:
         return _ERROR_SHARE * distance / allowed
 
     def _sensitive_way(self, instant: Instant) -> float:
-        """Way of the net's middle that would change its tension by its own size."""
+        """Way of the net's middle that changes its tension by its own size, (K8)."""
         head = self.problem.head
         chord = float(np.hypot(*head))
         x, y = instant.points
@@ -402,5 +404,5 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
             densifies=settings.densifies,
         ),
         "transient",
-        100.0 * settings.balance_tolerance,
+        _WHOLE_BALANCE * settings.balance_tolerance,
     )

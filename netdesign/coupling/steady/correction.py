@@ -86,7 +86,7 @@ def _find_step(problem: SteadyProblem, played: Round) -> Floats:
     hanging, size = played.hanging, miss.size
     try:
         tangent = linearise_round(
-            problem.law,
+            problem.snow,
             played.mesh,
             played.flow.state,
             hanging.cable,

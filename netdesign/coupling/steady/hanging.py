@@ -17,7 +17,7 @@ from netdesign.coupling.steady.start import guess_pressure
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
 
 
@@ -27,7 +27,7 @@ class SteadyProblem:
 
     Attributes
     ----------
-    law : FlowLaw
+    snow : FlowProblem
         Creep, ground and friction.
     template : MeshTemplate
         Reference mesh.
@@ -39,7 +39,7 @@ class SteadyProblem:
         ES, the force of a strain of 1.
     """
 
-    law: FlowLaw
+    snow: FlowProblem
     template: MeshTemplate
     head: Floats
     length: float
@@ -86,7 +86,7 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     chord = float(np.hypot(*problem.head))
     along = problem.head / chord
     outward = np.array([along[1], -along[0]])
-    pressure = guess_pressure(problem.law, problem.template.aspect)
+    pressure = guess_pressure(problem.snow, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
     marks = _list_marks(problem)

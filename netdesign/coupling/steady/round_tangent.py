@@ -12,11 +12,11 @@ from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import FlowState, linearise_reaction
 from netdesign.snow.kernel import PlacedMesh, turn_normals
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 
 
 def linearise_round(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     state: FlowState,
     cable: Funicular,
@@ -28,7 +28,7 @@ def linearise_round(
 
     Parameters
     ----------
-    law : FlowLaw
+    problem : FlowProblem
         Creep, ground and friction.
     mesh, state : PlacedMesh, FlowState
         Snow against the curve that was given.
@@ -47,6 +47,6 @@ def linearise_round(
     speed = state.unknowns[tangential]
     # velocity along the net turns into one out of the snow: v.n = 0 in a turned n
     across = -speed[:, None, None] * turn_normals(mesh)[1:]
-    loads = np.tensordot(linearise_reaction(law, mesh, state), across, 1)
+    loads = np.tensordot(linearise_reaction(problem, mesh, state), across, 1)
     curve = linearise_curve(cable, forces, lengths, stiffness)
     return np.tensordot(curve[:, :count, :, :count], loads, 2)

@@ -124,7 +124,7 @@ def solve_steady(
 
     Verified by
     -----------
-    tests/coupling/test_steady.py, tests/verification/test_reference_scene.py
+    tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
     """
     try:
         return _solve(scene, settings or SolverSettings())
@@ -261,7 +261,7 @@ def _require_pressure(end: _Coupled) -> None:
     SuctionError
         With some margin: the finest mesh decides.
     """
-    on_net = share_net_forces(end.problem.law, end.mesh, end.state.reaction)
+    on_net = share_net_forces(end.problem.snow, end.mesh, end.state.reaction)
     suction = measure_suction(end.mesh, on_net)
     if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
         raise SuctionError(suction)
@@ -292,8 +292,8 @@ def _find_stuck(scene: Scene, settings: SolverSettings) -> _Coupled | None:
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
     thickness = scene.snowpack.thickness
     return SteadyProblem(
-        law=scene.reach_law,
-        template=build_template(scene.reach, size, scene.layer_tops),
+        snow=scene.steady_flow_problem,
+        template=build_template(scene.modelled_aspect, size, scene.layer_tops),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
         slack=net.slack,
@@ -377,7 +377,7 @@ def _hang_round(
     flow: FlowResult,
 ) -> Round:
     """The net under the forces of a flow."""
-    on_net = share_net_forces(problem.law, mesh, flow.state.reaction)
+    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
     found = hang_again(problem, hanging, on_net)
     image = find_contact_curve(problem, found)
     return Round(curve=curve, mesh=mesh, flow=flow, hanging=found, image=image)
@@ -410,7 +410,7 @@ def _flow_along(
 ) -> FlowResult:
     """Converged flow along a net at rest."""
     flow = solve_flow(
-        problem.law,
+        problem.snow,
         mesh,
         start,
         tolerance=tolerance,
@@ -424,13 +424,13 @@ def _flow_along(
 
 def _fail(problem: SteadyProblem, outcome: Outcome, what: str) -> SolveError:
     """The failure, with what in the scene is known to leave no steady state."""
-    law, causes = problem.law, []
-    if "one-sided" in (law.ground_contact, law.net_contact):
+    snow, causes = problem.snow, []
+    if "one-sided" in (snow.ground_contact, snow.net_contact):
         causes.append(
             "snow lifts off a one-sided support and settles again; a two-sided "
             "contact, or more friction on the net, is accepted"
         )
-    rates = [layer.fluidity for layer in law.layers]
+    rates = [layer.fluidity_ratio for layer in snow.layers]
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
         causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
@@ -474,7 +474,7 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
             "net is needed",
         )
     nodes = place_nodes(problem.template, curve)
-    mesh = build_placed_mesh(problem.template, nodes, problem.law.element)
+    mesh = build_placed_mesh(problem.template, nodes, problem.snow.element)
     if not mesh.is_valid:
         above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
         raise SolveError(
@@ -494,13 +494,13 @@ def _start_curve(
     curve = find_contact_curve(guess.problem, hanging)
     known = locate_nodes(guess.problem.template, hanging)
     wanted = locate_nodes(problem.template, hanging)
-    # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
+    # between its nodes as smooth as the net is, which a polygon is not
     return interpolate_curve(known, curve, wanted)
 
 
 def _finish(end: _Coupled) -> tuple[_Coupled, SupportForces]:
     """Forces from the stresses alone, and the net that hangs under these."""
-    state, forces = find_support_forces(end.problem.law, end.mesh, end.state)
+    state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
     hanging = hang_again(end.problem, end.hanging, forces.on_net)
     return replace(end, state=state, hanging=hanging), forces
 
@@ -511,7 +511,7 @@ def _build_solution(
     """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
     end, forces = _finish(states[-1])
     thickness, scale = scene.snowpack.thickness, scene.force_scale
-    cable, mesh, law = end.hanging.cable, end.mesh, end.problem.law
+    cable, mesh, snow = end.hanging.cable, end.mesh, end.problem.snow
     foot, head = (
         EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
         for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
@@ -536,7 +536,7 @@ def _build_solution(
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
-        balance=measure_balance(law, mesh, forces, held, cable.tension, scale),
+        balance=measure_balance(snow, mesh, forces, held, cable.tension, scale),
         cost=Cost(
             linear_solves=sum(state.linear_solves for state in states),
             rounds=sum(state.rounds for state in states),

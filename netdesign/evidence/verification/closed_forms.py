@@ -19,7 +19,7 @@ from netdesign.snow.creep_law import (
     compute_strain_rate,
 )
 from netdesign.snow.kernel import build_placed_mesh, interpolate
-from netdesign.snow.law import FlowLaw, FlowLayer
+from netdesign.snow.law import FlowLayer, FlowProblem
 from netdesign.snow.mesh import place_nodes
 from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
 
@@ -177,7 +177,7 @@ def _solve_slab(divisions: int, slope: float, axis: int) -> tuple[float, float]:
     on_ground = mesh.nodes[1] == 0.0
     on_side = (template.nodes[0] == 0.0) | (template.nodes[0] == 1.0)
     gravity = (math.sin(slope), -math.cos(slope))
-    law = FlowLaw(
+    law = FlowProblem(
         exponent=_N,
         layers=(FlowLayer(bulk_ratio=_BULK_RATIO),),
         gravity=gravity,

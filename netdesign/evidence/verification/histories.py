@@ -13,7 +13,7 @@ from netdesign.coupling.history.transient import (
     TransientSettings,
     run_history,
 )
-from netdesign.coupling.moments import Moment
+from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.rounds import solve_steady
@@ -110,7 +110,7 @@ def _largest_return(run: Run) -> float:
     return worst
 
 
-def _sizes(moments: list[Moment], end: str) -> Floats:
+def _sizes(moments: list[HistoryPoint], end: str) -> Floats:
     return np.array([float(np.hypot(*getattr(moment, end))) for moment in moments])
 
 
