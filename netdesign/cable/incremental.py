@@ -223,7 +223,7 @@ def _sliding_ratios(increment: _Increment, signs: Signs) -> Floats:
 
 
 def _revise_signs(increment: _Increment, tensions: Floats, signs: Signs) -> Signs:
-    """What each node would do under these tensions; ``signs`` where that holds."""
+    """Signs of the nodes under these tensions; ``signs`` where nothing changes."""
     lower, upper = tensions[:-1], tensions[1:]
     margin = _ROUNDING * increment.across * (np.abs(upper) + np.abs(lower))
     starts = (signs == 0) & (_excess(increment, tensions) > margin)
@@ -234,7 +234,7 @@ def _revise_signs(increment: _Increment, tensions: Floats, signs: Signs) -> Sign
 
 
 def _choose_worst(excess: Floats, signs: Signs, broken: Nodes) -> Nodes:
-    """Of the nodes that break a condition: all wrong sliders, else the worst."""
+    """All wrong sliders among the nodes that break a condition, else the worst node."""
     stopping: Nodes = broken[signs[broken] != 0]
     return stopping if stopping.size else broken[[np.argmax(excess[broken])]]
 

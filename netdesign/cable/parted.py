@@ -1,4 +1,4 @@
-"""How much of a cable lies between given heights, under given nodal forces.
+"""Parts of a cable between given heights, under given nodal forces.
 
 Theory: cable/THEORY.md, eqs (C5a) and (C5b).
 """
@@ -29,9 +29,9 @@ class PartedCable:
     rises : ndarray, shape (n_parts,)
         Height that each part has to gain; their sum is the head's.
     head_x : float
-        How far the upper end lies beside the lower one.
+        X of the upper end from the lower one [any unit of length].
     length : float
-        Unstressed, of all parts.
+        Unstressed, of all parts [unit of ``head_x``].
     stiffness : float
         ES, in the unit of the forces.
     """

@@ -28,7 +28,7 @@ _ROUNDING = float(np.finfo(float).eps)
 
 
 class NetState(StrEnum):
-    """Whether the net carries."""
+    """State of the net: all of it carries, some of it, or none."""
 
     TIGHT = "tight"
     PARTLY_SLACK = "partly_slack"
@@ -140,7 +140,7 @@ class _Problem:
 
     @property
     def elongation(self) -> float:
-        """What is left to stretch; the part is slack without it."""
+        """Length that is left to stretch; the part is slack without it."""
         return float(self.final.sum() - self.old.sum())
 
 
@@ -227,7 +227,7 @@ def _find_breach(problem: _Problem, point: _Point, log_tensions: Floats) -> floa
 
 
 def _find_rounding(problem: _Problem, point: _Point) -> float:
-    """What the last digit of a length is to an elongation, at worst."""
+    """Rounding of the lengths over the smallest elongation."""
     lengths = np.maximum(problem.final, problem.old)
     return _ROUNDING * float((lengths / point.elongations).max())
 

@@ -19,7 +19,7 @@ _LARGEST_FRICTION = np.tan(np.radians(89.0))
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class NodeForces:
-    """What the net does to the snow at its nodes, and to its two ends; they sum to 0.
+    """Forces of the net on the snow at its nodes and on its two ends; they sum to 0.
 
     Attributes
     ----------
@@ -203,7 +203,20 @@ def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
 
 
 def require_lengths(name: str, lengths: Floats) -> None:
-    """Refuse an array unless all its entries are finite and above zero."""
+    """Refuse an array unless all its entries are finite and above zero.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    lengths : ndarray
+        Any shape [m].
+
+    Raises
+    ------
+    ModelError
+        With the first entry that is not.
+    """
     sound = np.isfinite(lengths) & (lengths > 0.0)
     if not sound.all():
         first = int(np.argmin(sound))

@@ -43,7 +43,7 @@ _LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class YieldingNodes:
-    """Where the snow's nodes go under the net's forces.
+    """The snow's nodes as they yield to the net's forces.
 
     Attributes
     ----------
@@ -60,7 +60,18 @@ class YieldingNodes:
     compliance: Floats
 
     def place(self, forces: Floats) -> Floats:
-        """Positions (2, n) under other forces (2, n)."""
+        """Positions under other forces.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (2, n)
+            Of the net on the nodes [unit of ``YieldingNodes.forces``].
+
+        Returns
+        -------
+        ndarray, shape (2, n)
+            Positions [unit of ``YieldingNodes.positions``].
+        """
         more = self.compliance @ (forces - self.forces).ravel()
         return np.asarray(self.positions + more.reshape(2, -1))
 
@@ -85,12 +96,20 @@ class NetGuess:
 
     @classmethod
     def at_rest(cls, place: Floats, signs: Signs) -> NetGuess:
-        """Nothing has slid yet."""
+        """Guess in which nothing has slid yet.
+
+        Parameters
+        ----------
+        place : ndarray, shape (2, n)
+            Nodes, any unit of length.
+        signs : ndarray of int, shape (n,)
+            1, -1 or 0 as in ``slide_signs``.
+        """
         return cls(place=place, slides=np.zeros(signs.size), slide_signs=signs)
 
 
 class _Given(NamedTuple):
-    """What stays the same in one solve."""
+    """Data that stay the same in one solve."""
 
     nodes: YieldingNodes
     head: Floats
@@ -242,7 +261,7 @@ def _find_slack(stretch: Floats, share: Floats) -> Mask:
 
 
 def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
-    """Where a net without tension first holds the snow: part of the way it is pushed.
+    """Place where a net without tension first holds the snow: part of its way.
 
     A straight net has no stiffness across itself, so Newton's method has no direction
     there.

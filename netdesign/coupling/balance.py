@@ -47,10 +47,22 @@ def measure_balance(
     tension: Floats | None,
     force_scale: float,
 ) -> Balance:
-    """Balance of a state, whose forces are scaled by ``force_scale`` [N/m].
+    """Balance of a state.
 
-    ``held`` is the sum of the net's end pulls, or the wall's force, shape (2,);
-    ``tension`` holds all tensions of the net, None for a wall.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    forces : SupportForces
+        Of the snow on net and ground.
+    held : ndarray, shape (2,)
+        Sum of the net's end pulls, or the wall's force [rho g d^2].
+    tension : ndarray or None
+        All tensions of the net [rho g d^2]; None for a wall.
+    force_scale : float
+        rho g d^2 [N/m].
     """
     weight = compute_weight(problem, mesh)
     size = float(np.hypot(*weight))
@@ -73,7 +85,20 @@ def measure_balance(
 
 
 def measure_suction(mesh: PlacedMesh, on_net: Floats) -> float:
-    """What forces (2, n_net) pull on the net, over what they press [-]."""
+    """Pull of forces on the net over their pressure.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    on_net : ndarray, shape (2, n_net)
+        Forces of the snow on the net, any unit.
+
+    Returns
+    -------
+    float
+        [-]; 1 where they pull as much as they press, or more.
+    """
     return negative_share(_net_components(mesh, on_net)[0])
 
 
@@ -129,9 +154,18 @@ def _net_components(mesh: PlacedMesh, on_net: Floats) -> tuple[Floats, Floats]:
 
 
 def negative_share(forces: Floats) -> float:
-    """Sum of negative entries over the sum of positive ones, from 0 to 1.
+    """Sum of negative entries over the sum of positive ones.
 
-    1 where they pull as much as they press, or more: also where nothing presses.
+    Parameters
+    ----------
+    forces : ndarray
+        Any shape and unit.
+
+    Returns
+    -------
+    float
+        0 to 1 [-]; 1 where they pull as much as they press, or more: also where nothing
+        presses.
     """
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())

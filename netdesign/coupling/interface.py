@@ -41,7 +41,7 @@ class SupportForces:
         Downward nodal forces on the ground where it may let go: without the node at
         the foot and the last thickness upslope.
     unbalanced : float
-        Norm of the forces left on nodes that nothing holds.
+        Norm of the forces left on nodes that nothing holds [rho g d^2].
     """
 
     on_net: Floats
@@ -54,6 +54,15 @@ def find_support_forces(
     problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> tuple[FlowState, SupportForces]:
     """Forces of a converged flow; its rounding is removed first where it shows.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        A converged flow.
 
     Raises
     ------
@@ -71,7 +80,17 @@ def find_support_forces(
 def compute_support_forces(
     problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> SupportForces:
-    """Forces on net and ground, from the stresses of the snow alone."""
+    """Forces on net and ground, from the stresses of the snow alone.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        With its stresses.
+    """
     residual = compute_residual(problem, mesh, state)
     supports = -mesh.to_slope_axes(residual)
     template = mesh.template
@@ -96,12 +115,26 @@ def compute_support_forces(
 def share_net_forces(
     problem: FlowProblem, mesh: PlacedMesh, reaction: Floats
 ) -> Floats:
-    """Forces on the net (2, n_net) of reactions (n_dofs,), the foot's corner shared.
+    """Forces on the net of reactions, the foot's corner shared.
 
     The corner node is held by net and ground. Along a ground without reactions at
     nodes (free or sliding) its X-force is all the net's; what else the net takes
     there follows from the next node: a quarter of a midpoint's force, as under uniform
     traction. The share is one corner element wide; coupling/THEORY.md, section 3.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    reaction : ndarray, shape (n_dofs,)
+        Of net and ground on the snow, node axes [rho g d^2].
+
+    Returns
+    -------
+    ndarray, shape (2, n_net)
+        In the slope's axes, foot to head [rho g d^2].
     """
     on_net = -mesh.net_in_slope_axes(reaction)
     corner = on_net[:, 0].copy()
@@ -112,6 +145,12 @@ def share_net_forces(
 
 
 def measure_looseness(contact: Contact) -> Looseness:
-    """How loosely net and ground hold the snow."""
+    """Slip along the net and loss of contact of a state.
+
+    Parameters
+    ----------
+    contact : Contact
+        On net and ground.
+    """
     lifts = contact.is_lifted.any() or contact.is_open.any()
     return Looseness(slip=float((contact.sign != 0).mean()), lifts=bool(lifts))

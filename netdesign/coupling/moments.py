@@ -1,4 +1,4 @@
-"""What a transient or staggered solve records, and whether it has come to rest."""
+"""Records of a transient or staggered solve, and whether it has come to rest."""
 
 from __future__ import annotations
 
@@ -36,24 +36,24 @@ CRITERION = (
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class HistoryPoint:
-    """One recorded time; units are those of the run that records.
+    """One recorded time: of a ``Run`` dimensionless, of a ``History`` in SI units.
 
     Attributes
     ----------
     time : float
-        Since the start.
+        Since the start [time scale, or s].
     foot, head : ndarray, shape (2,)
-        Pulls on the net's ends.
+        Pulls on the net's ends [rho g d^2, or N/m].
     tension_min, tension_max : float
-        Along the net.
+        Along the net [rho g d^2, or N/m].
     on_net : ndarray, shape (2, n)
-        Forces of the snow on the net's vertices above the foot.
+        Forces of the snow on the net's vertices above the foot [rho g d^2, or N/m].
     max_relative_density : float
         Of the snow [-].
     way : float
-        Longest way of a net vertex across the net so far.
+        Longest way of a net vertex across the net so far [thickness, or m].
     speed : float
-        Largest velocity of a net vertex across the net.
+        Largest velocity of a net vertex across the net [velocity scale, or m/s].
     strain : float
         Mean size of the snow's creep strain so far [-].
     residual : float
@@ -75,14 +75,14 @@ class HistoryPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plateau:
-    """Whether, and from when on, the forces of a history hardly change.
+    """Span of a history over which its forces hardly change, if there is one.
 
     Attributes
     ----------
     reached : bool
         The criterion was met over a span, and the pulls have not left it since.
     time : float or None
-        Begin of that span; None without one.
+        Begin of that span [time scale, or s]; None without one.
     index, end : int or None
         Number of its first moment, and of that which proves it.
     drift : float or None
@@ -141,7 +141,13 @@ class History:
 
 
 def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
-    """First span of one e-fold of time over which the criterion holds."""
+    """First span of one e-fold of time over which the criterion holds.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    """
     begin: int | None = None
     for place in range(1, len(moments)):
         if not _is_steady(moments[place - 1], moments[place]):
@@ -161,6 +167,13 @@ def judge_plateau(moments: Sequence[HistoryPoint], plateau: Plateau) -> Plateau:
 
     Snow that settles and gathers at the net is other snow in the end; a history of it
     must not pass for one that rests.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    plateau : Plateau
+        As ``find_plateau`` gives it.
     """
     if plateau.index is None or plateau.end is None:
         return plateau
@@ -191,6 +204,15 @@ def select_counted(
     along the net find their places. A net whose first shape is guessed pulls by that
     guess for longer: its moments count from that on which proves the plateau. Without a
     plateau all count.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    plateau : Plateau
+        Of this history.
+    is_guessed : bool
+        The net's first shape was a guess.
     """
     if plateau.index is None or plateau.end is None:
         return moments
@@ -202,7 +224,18 @@ def select_counted(
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:
-    """The vector of largest size."""
+    """The vector of largest size.
+
+    Parameters
+    ----------
+    pulls : sequence of ndarray, shape (2,)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (2,)
+        In that unit.
+    """
     return max(pulls, key=lambda pull: float(np.hypot(*pull)))
 
 

@@ -15,14 +15,22 @@ State = TypeVar("State")
 
 
 class Estimate(NamedTuple):
-    """A vector with its estimated discretisation error."""
+    """A vector with its estimated discretisation error.
+
+    Attributes
+    ----------
+    vector : ndarray, shape (2,)
+        In the unit of the solve.
+    error : float
+        In the same unit.
+    """
 
     vector: Floats
     error: float
 
 
 class Looseness(NamedTuple):
-    """How loosely its supports hold the snow.
+    """Looseness with which its supports hold the snow.
 
     Attributes
     ----------
@@ -40,7 +48,7 @@ _FIRM = Looseness()
 
 
 class ErrorModel(NamedTuple):
-    """What the meshes so far say of the error of the last one, eq. (K5).
+    """Error of the last mesh, as the meshes so far tell it, eq. (K5).
 
     Attributes
     ----------

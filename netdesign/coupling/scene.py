@@ -257,10 +257,10 @@ class SolverSettings:
     Attributes
     ----------
     accuracy : float
-        Relative error allowed in each end force; the mesh is refined until the
+        Relative error allowed in each end force [-]; the mesh is refined until the
         estimate is below it.
     stress_tolerance : float
-        Relative error that the last Newton step may leave; a 25th of the accuracy
+        Relative error that the last Newton step may leave [-]; a 25th of the accuracy
         if that is less.
     shape_tolerance : float
         Movement of the net in the last round, over the snow thickness; a 25th of the

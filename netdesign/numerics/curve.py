@@ -58,7 +58,7 @@ def trace_curve(points: Sequence[Point], pieces: int) -> list[list[Point]]:
     Parameters
     ----------
     points : sequence of Point
-        At least two.
+        At least two, in any unit.
     pieces : int
         Straight ones, between two points.
 

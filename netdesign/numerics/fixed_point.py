@@ -33,8 +33,8 @@ def mix_anderson(
 
     Returns
     -------
-    ndarray
-        The next iterate, of that shape.
+    ndarray, of that shape
+        The next iterate.
 
     Source
     ------

@@ -27,7 +27,7 @@ class Minimum:
     point : ndarray, shape (n,)
         Last iterate.
     gradient_norm : float
-        Euclidean norm of the gradient there.
+        Euclidean norm of the gradient there [unit of the gradient].
     iterations : int
         Newton steps taken.
     """

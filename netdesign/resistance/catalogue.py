@@ -17,7 +17,14 @@ from netdesign.errors import ModelError
 class Datum:
     """A number of the catalogue with where it comes from.
 
-    ``status`` is "secondary" or "assumed", as in the limit profiles.
+    Attributes
+    ----------
+    value : float
+        In the unit that its function names.
+    status : str
+        "secondary" or "assumed", as in the limit profiles.
+    source : str
+        Publication.
     """
 
     value: float

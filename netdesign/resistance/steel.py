@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from netdesign.guards import require_positive, require_within
+from netdesign.guards import require_within
 
 
 def compute_bar_resistance(diameter: float, strength: float) -> float:
@@ -53,10 +53,3 @@ def compute_rope_resistance(
     require_within("breaking factor", breaking_factor, 0.1, 0.7)
     require_within("termination factor", termination, 0.1, 1.0)
     return breaking_factor * diameter**2 * grade * termination
-
-
-def compute_rope_area(diameter: float, area_factor: float) -> float:
-    """Metallic area of a wire rope, C d^2 [m2], from diameter [m] and C [-]."""
-    require_within("rope diameter", diameter, 0.004, 0.1, "m")
-    require_positive("area factor", area_factor)
-    return area_factor * diameter**2

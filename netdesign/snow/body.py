@@ -47,7 +47,7 @@ class Topology:
         Ends of each edge.
     left, right : ndarray of int, shape (n_edges,)
         Triangles on both sides of each edge; right is -1 on the boundary.
-    net, ground, surface, upstream : ndarray of int
+    net, ground, surface, upstream : ndarray of int, shape (n,)
         Vertices along the boundary: net from foot to head, ground and surface going
         upslope, upstream end from the ground up.
     bottom : ndarray of int, shape (n_ground - 1,)
@@ -75,11 +75,11 @@ class SnowBody:
     topology : Topology
         Of its mesh.
     vertices : ndarray, shape (2, n_vertices)
-        Positions.
+        Positions [thickness].
     mass : ndarray, shape (n_triangles,)
-        Of each triangle; the initial mean density is 1.
+        Of each triangle [initial mean density times thickness^2].
     warmth : ndarray, shape (n_triangles,)
-        Fluidity over the scene's, from layer temperatures.
+        Fluidity over the scene's, from layer temperatures [-].
     """
 
     topology: Topology
@@ -89,12 +89,12 @@ class SnowBody:
 
     @property
     def areas(self) -> Floats:
-        """Of the triangles; at most 0 for one that has turned over."""
+        """Areas (n_triangles,) [thickness^2]; at most 0 for a triangle turned over."""
         return compute_areas(self.topology, self.vertices)
 
     @property
     def density(self) -> Floats:
-        """Of each triangle over the initial mean."""
+        """Densities (n_triangles,) over the initial mean [-]."""
         return np.asarray(self.mass / self.areas)
 
 
@@ -124,7 +124,22 @@ def build_topology(template: MeshTemplate) -> Topology:
 def build_body(
     problem: FlowProblem, template: MeshTemplate, net_curve: Floats
 ) -> SnowBody:
-    """Undeformed snow against a net's curve (2, n_net), all nodes of the template."""
+    """Undeformed snow against a net's curve.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Layers of the snow.
+    template : MeshTemplate
+        Reference mesh.
+    net_curve : ndarray, shape (2, n_net)
+        Nodes of the net, foot to head [thickness].
+
+    Raises
+    ------
+    SolveError
+        If a triangle of the mesh is turned over.
+    """
     topology = build_topology(template)
     vertices = place_nodes(template, net_curve)[:, : template.n_vertices]
     areas = compute_areas(topology, vertices)
@@ -144,7 +159,7 @@ def build_body(
 
 
 def _share_layers(problem: FlowProblem, corners: Floats) -> Floats:
-    """What each layer takes of the areas of triangles, shape (n, n_layers).
+    """Shares of the layers in the areas of triangles, shape (n, n_layers).
 
     Layers lie at their heights, wherever the net's curve has carried the triangles
     whose corners have the heights ``corners``, shape (n, 3).
@@ -162,7 +177,20 @@ def _share_layers(problem: FlowProblem, corners: Floats) -> Floats:
 
 
 def compute_areas(topology: Topology, vertices: Floats) -> Floats:
-    """Signed areas of the triangles between vertices (2, n)."""
+    """Signed areas of the triangles.
+
+    Parameters
+    ----------
+    topology : Topology
+        Its triangles.
+    vertices : ndarray, shape (2, n_vertices)
+        Positions [thickness].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles,)
+        [thickness^2]; at most 0 for a triangle that has turned over.
+    """
     (ax, bx, cx), (ay, by, cy) = vertices[:, topology.triangles].transpose(0, 2, 1)
     return np.asarray(((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2.0)
 
@@ -292,7 +320,7 @@ def _interpolate(wanted: Floats, known: Floats, points: Floats) -> Floats:
 
 
 def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Floats:
-    """What each triangle holds after its vertices have moved through resting snow.
+    """Contents of each triangle after its vertices moved through resting snow.
 
     Donor cells: an edge takes what it sweeps over from the triangle that it enters.
     ``carried`` has shape (n_fields, n_triangles); a long way is taken in parts.

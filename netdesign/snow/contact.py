@@ -1,4 +1,4 @@
-"""Where the snow sticks, slips, or lets go, on the net and on the ground.
+"""Contact of the snow with net and ground: where it sticks, slips, or lets go.
 
 Theory: snow/THEORY.md, eqs (N14) and (N15). Components of the unknowns of a net node
 are (normal, tangential); pressures and shears are forces of the snow on its support.
@@ -67,7 +67,20 @@ def update_contact(
     velocity: Floats,
     reaction: Floats,
 ) -> Contact:
-    """State that follows from the last velocities and reactions, (n_dofs,) each."""
+    """State that follows from the last velocities and reactions.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State under which both were found.
+    velocity, reaction : ndarray, shape (n_dofs,)
+        Unknowns of the last iterate, and forces of net and ground on the snow, in node
+        axes [velocity scale, rho g d^2].
+    """
     normal, tangential = net_components(mesh)
     pressure = -reaction[normal]
     is_open = contact.is_open
@@ -89,10 +102,20 @@ def update_contact(
 
 
 def may_lift(template: MeshTemplate) -> Mask:
-    """Ground nodes (n_ground - 1,) where a one-sided ground can let go.
+    """Ground nodes where a one-sided ground can let go.
 
     Not within a thickness of the upslope end: the snowpack goes on there, only the
     calculation ends, and its free end would rock on the ground.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray of bool, shape (n_ground - 1,)
+        Of the ground's nodes but the foot.
     """
     end = max(template.aspect - 1.0, template.aspect / 2.0)
     return np.asarray(template.nodes[0, template.ground[1:]] < end)
@@ -104,6 +127,13 @@ def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Conta
     Where changing every node at once goes round in circles, changing the first half
     of each row of neighbours rarely does, and changing a single node on the net and
     one on the ground, the first (Murty's rule), hardly ever.
+
+    Parameters
+    ----------
+    contact, wanted : Contact
+        As it is, and as the last iterate asks for.
+    only_first : bool
+        Only the first change on the net, and the first on the ground.
     """
     sign, is_open = contact.sign.copy(), contact.is_open.copy()
     is_pressed = contact.is_pressed.copy()
@@ -134,7 +164,22 @@ def _choose(changes: Mask, *, only_first: bool) -> Ints:
 
 
 def free_unknowns(problem: FlowProblem, mesh: PlacedMesh, contact: Contact) -> Mask:
-    """Mask (n_dofs,) of unknowns that neither net nor ground holds."""
+    """Unknowns that nothing holds.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State of every support node.
+
+    Returns
+    -------
+    ndarray of bool, shape (n_dofs,)
+        True where neither net nor ground holds.
+    """
     free = np.ones(mesh.n_dofs, dtype=bool)
     normal, tangential = net_components(mesh)
     foot, ground = mesh.template.ground[0], mesh.template.ground[1:]
@@ -150,10 +195,22 @@ def free_unknowns(problem: FlowProblem, mesh: PlacedMesh, contact: Contact) -> M
 def friction_shares(
     problem: FlowProblem, mesh: PlacedMesh, contact: Contact
 ) -> Floats | None:
-    """What of each normal row goes to the tangential row after it; None if nothing.
+    """Shares of the normal rows that go to the tangential rows; None if nothing.
 
-    Shape (n_dofs,), not zero at the tangential unknowns of slipping nodes. With it
-    their equation reads R_t = tan(phi) R_n sign, (N14).
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State of every support node.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,), or None
+        Not 0 at the tangential unknowns of slipping nodes [-]. With it their equation
+        reads R_t = tan(phi) R_n sign, (N14).
     """
     _, tangential = net_components(mesh)
     slips = (contact.sign != 0) & contact.is_pressed
@@ -165,7 +222,18 @@ def friction_shares(
 
 
 def net_components(mesh: PlacedMesh) -> tuple[Ints, Ints]:
-    """Normal and tangential unknowns of the net nodes above the foot."""
+    """Unknowns of the net nodes above the foot.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+
+    Returns
+    -------
+    ndarray of int, ndarray of int, shape (n_net - 1,)
+        Normal and tangential unknowns.
+    """
     above_foot = mesh.template.net[1:]
     return 2 * above_foot, 2 * above_foot + 1
 

@@ -2,8 +2,8 @@
 
 The stress, not the velocity, is iterated. The creep law gives the strain rate as a
 *polynomial* of the stress. So Newton's method on the complementary energy needs fewer
-steps than the usual one, whose viscosity is unbounded where the snow hardly deforms, and
-every full step is in equilibrium exactly (N10). Theory: snow/THEORY.md, section 2.
+steps than the usual one, whose viscosity is unbounded where the snow hardly deforms.
+Every full step is in equilibrium exactly (N10). Theory: snow/THEORY.md, section 2.
 """
 
 from __future__ import annotations
@@ -85,18 +85,41 @@ class FlowState:
     contact: Contact
 
     def largest_velocity(self, mesh: PlacedMesh) -> float:
-        """Of all nodes, dimensionless."""
+        """Largest velocity of all nodes.
+
+        Parameters
+        ----------
+        mesh : PlacedMesh
+            Of the state.
+
+        Returns
+        -------
+        float
+            [velocity scale].
+        """
         return float(np.hypot(*mesh.to_slope_axes(self.unknowns)).max())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FlowResult:
-    """End of a flow solve; ``state`` is usable only if converged."""
+    """End of a flow solve.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Converged, or why not.
+    state : FlowState
+        Usable only if converged.
+    linear_solves : int
+        Taken.
+    change : float
+        Relative error that the last step left, (N16) [-].
+    """
 
     outcome: Outcome
     state: FlowState
     linear_solves: int
-    change: float  # relative error that the last step left, eq. (N16) [-]
+    change: float
 
 
 class _Linear(NamedTuple):
@@ -230,6 +253,15 @@ def remove_rounding(
     layers, leaves the rounding of its velocities in the balance. A last correction,
     small, is added to the stresses themselves.
 
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        A converged state.
+
     Raises
     ------
     SingularError
@@ -257,7 +289,22 @@ def remove_rounding(
 def compute_residual(
     problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> Floats:
-    """Internal less external nodal forces (n_dofs,): the reactions of the supports."""
+    """Internal less external nodal forces: the reactions of the supports.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        With its stresses.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
     material = sample_material(problem, mesh.template)
     force = assemble_stress(mesh, total_stress(problem, state.stress))
     force -= _gravity_load(problem, material, mesh)
@@ -267,7 +314,20 @@ def compute_residual(
 
 
 def compute_weight(problem: FlowProblem, mesh: PlacedMesh) -> Floats:
-    """Weight of the snow on the mesh, and load on its end, shape (2,) [rho g d^2]."""
+    """Weight of the snow on the mesh, and load on its end.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+
+    Returns
+    -------
+    ndarray, shape (2,)
+        In the slope's axes [rho g d^2].
+    """
     material = sample_material(problem, mesh.template)
     weight = np.array(problem.gravity) * float((mesh.weights * material.density).sum())
     return np.asarray(weight + np.array([problem.end_load, 0.0]))
@@ -293,7 +353,7 @@ def _estimate_left(
 
 
 def _left(change: float) -> float:
-    """What a step of this relative size leaves."""
+    """Relative error that a step of this relative size leaves."""
     return float(np.minimum(change, _LINEAR_PART * change + _SQUARE_FACTOR * change**2))
 
 

@@ -26,6 +26,11 @@ def build_basis(mesh: PlacedMesh) -> skfem.Basis:
     """Quadratic velocities on a placed mesh, its net edges parabolas.
 
     Components are numbered as in the kernel: (X, Y) of node 0, of node 1, ...
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
     """
     curved = skfem.MeshTri2(doflocs=mesh.nodes, t=mesh.template.triangles[:3])
     velocity = skfem.ElementVector(skfem.ElementTriP2())
@@ -86,17 +91,42 @@ def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
 
 
 def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
-    """Integral of eps(w) . sigma: internal nodal forces (n_dofs,), slope's axes.
+    """Integral of eps(w) . sigma: internal nodal forces.
 
-    The stress has the shape (n_triangles, n_points, 3). It is in equilibrium, (N6),
-    where these forces equal those of ``assemble_gravity_form``.
+    The stress is in equilibrium, (N6), where these forces equal those of
+    ``assemble_gravity_form``.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    stress : ndarray, shape (n_triangles, n_points, 3)
+        (xx, yy, xy) at the quadrature points [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In the slope's axes [rho g d^2].
     """
     form = skfem.LinearForm(_internal_power)
     return np.asarray(form.assemble(build_basis(mesh), stress=_field(stress)))
 
 
 def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Floats:
-    """Integral of w . g / |g|: nodal forces of gravity (n_dofs,), slope's axes."""
+    """Integral of w . g / |g|: nodal forces of gravity.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    gravity : tuple of float, shape (2,)
+        Over g, in the slope's axes [-].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In the slope's axes [rho g d^2].
+    """
     form = skfem.LinearForm(_gravity_power)
     return np.asarray(form.assemble(build_basis(mesh), x=gravity[0], y=gravity[1]))
 

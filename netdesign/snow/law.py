@@ -1,4 +1,4 @@
-"""What governs one instant of flow, dimensionless, and its tangents.
+"""Problem of one instant of flow, dimensionless, and the tangents of its laws.
 
 Lengths are in snow thicknesses d, stresses in rho g d with the mean density, strain
 rates in B a^((n+1)/2) (rho g d)^n with the B and a of the reference layer. Theory:
@@ -97,7 +97,13 @@ class FlowProblem:
 
 
 class Material(NamedTuple):
-    """Layer properties where they are needed: numbers, or arrays over points."""
+    """Layer properties where they are needed: numbers, or arrays over points.
+
+    Attributes
+    ----------
+    bulk_ratio, fluidity_ratio, density : float or ndarray
+        As in ``FlowLayer`` [-]; shape (n_triangles, n_points) or (n_triangles, 1).
+    """
 
     bulk_ratio: float | Floats
     fluidity_ratio: float | Floats
@@ -110,21 +116,53 @@ class Material(NamedTuple):
         return np.asarray(_SHEAR + coupling[..., None, None] * _VOLUME)
 
     def sample_fluidity_ratio(self, triangles: Ints) -> Floats:
-        """Fluidity of some triangles, shape (n, 1); points of one have the same."""
+        """Fluidity ratio of some triangles.
+
+        Parameters
+        ----------
+        triangles : ndarray of int, shape (n,)
+            Their numbers.
+
+        Returns
+        -------
+        ndarray, shape (n, 1)
+            [-]; points of one triangle have the same.
+        """
         if np.ndim(self.fluidity_ratio) == 0:
             return np.full((triangles.size, 1), self.fluidity_ratio)
         return np.asarray(np.asarray(self.fluidity_ratio)[triangles, :1])
 
 
 class Tangent(NamedTuple):
-    """A law linearised about a stress: intercept + modulus times strain rate."""
+    """A law linearised about a stress: intercept + modulus times strain rate.
+
+    Attributes
+    ----------
+    modulus : ndarray, shape (.., R, R), or (n_edges, n_points) on the ground
+        Stress over strain rate [-].
+    intercept : ndarray, shape (.., R), or (n_edges, n_points) on the ground
+        Stress without strain rate [rho g d].
+    """
 
     modulus: Floats
     intercept: Floats
 
 
 def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
-    """Properties at the quadrature points; plain numbers for uniform snow."""
+    """Properties at the quadrature points.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its layers.
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    Material
+        Numbers for uniform snow, else arrays of shape (n_triangles, n_points).
+    """
     if len(problem.layers) == 1:
         layer = problem.layers[0]
         return Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
@@ -171,11 +209,22 @@ def linearise_creep(
 def linearise_sliding(
     problem: FlowProblem, shear: Floats, fluidity_ratio: Floats | None = None
 ) -> Tangent:
-    """Tangent of the law of a sliding ground (N12); arrays (n_edges, n_points).
+    """Tangent of the law of a sliding ground, (N12) and (N22).
 
-    Slip is the shear of the snow that lies on the ground. ``fluidity_ratio``, shape
-    (n_edges, 1), is that snow's, B a^((n+1)/2), over the reference; that of the
-    lowest layer if it is not given.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Exponent and slip ratio.
+    shear : ndarray, shape (n_edges, n_points)
+        Shear stress on the ground [rho g d].
+    fluidity_ratio : ndarray, shape (n_edges, 1), optional
+        Of the snow on the ground, B a^((n+1)/2) over the reference [-]; default is that
+        of the lowest layer.
+
+    Returns
+    -------
+    Tangent
+        Modulus and intercept, shape (n_edges, n_points) each.
     """
     viscosity, _, share = _scalars(problem, shear**2, shear**2)
     slip = problem.slip_ratio * (
@@ -187,10 +236,24 @@ def linearise_sliding(
 def advance_stress(
     problem: FlowProblem, tangent: Tangent, strain: Floats, more: Floats | None = None
 ) -> Floats:
-    """Stress, in the form that ``linearise_creep`` takes, after a step.
+    """Stress after a step.
 
-    ``more`` is strain on top, added last: large velocities that deform little would
-    otherwise leave their rounding in the balance of forces.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    tangent : Tangent
+        Of the creep law.
+    strain : ndarray, shape (n_triangles, n_points, R)
+        Generalised strain after the step [-].
+    more : ndarray, optional
+        Strain on top, of that shape [-]. It is added last: large velocities that deform
+        little would otherwise leave their rounding in the balance of forces.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
     """
     stress = hold_stress(tangent, strain)
     pressure = strain[..., 3:]
@@ -204,7 +267,20 @@ def advance_stress(
 
 
 def hold_stress(tangent: Tangent, strain: Floats) -> Floats:
-    """Generalised stress of the linearised law at a strain."""
+    """Generalised stress of the linearised law at a strain.
+
+    Parameters
+    ----------
+    tangent : Tangent
+        Of the creep law.
+    strain : ndarray, shape (n_triangles, n_points, R)
+        Generalised strain [-].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        [rho g d].
+    """
     return np.asarray(tangent.intercept + (tangent.modulus @ strain[..., None])[..., 0])
 
 
@@ -213,6 +289,18 @@ def total_stress(problem: FlowProblem, stress: Floats) -> Floats:
 
     In the mixed element the fourth row, conjugate to the pressure, is left out: it
     belongs to the law, not to equilibrium.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    stress : ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        [rho g d].
     """
     if problem.element == "velocity":
         return stress
@@ -224,7 +312,22 @@ def total_stress(problem: FlowProblem, stress: Floats) -> Floats:
 def squared_invariant(
     problem: FlowProblem, material: Material, stress: Floats
 ) -> Floats:
-    """Squared stress invariant, eq. (N8) or (N18)."""
+    """Squared stress invariant.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    material : Material
+        At the points.
+    stress : ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points)
+        S^2 of (N8) or (N18) [(rho g d)^2].
+    """
     if problem.element == "mixed":
         deviator, pressure = stress[..., :3], stress[..., 3]
         return _quadratic(_DEVIATOR_COMPLIANCE, deviator) + pressure**2 / (

@@ -37,9 +37,16 @@ class SingularError(Exception):
 
 
 class Blocks(NamedTuple):
-    """Dense blocks of a matrix: dofs (n, C) and values (n, C, C).
+    """Dense blocks of a matrix.
 
-    The first ``n_paired`` columns are velocities in pairs, two per node.
+    Attributes
+    ----------
+    dofs : ndarray of int, shape (n, C)
+        Unknowns of each block.
+    values : ndarray, shape (n, C, C)
+        Its entries.
+    n_paired : int
+        So many of the first columns are velocities in pairs, two per node.
     """
 
     dofs: Ints
@@ -47,7 +54,18 @@ class Blocks(NamedTuple):
     n_paired: int
 
     def to_matrix(self, size: int) -> sparse.csr_matrix:
-        """The matrix itself, (size, size)."""
+        """The matrix itself.
+
+        Parameters
+        ----------
+        size : int
+            Number of unknowns.
+
+        Returns
+        -------
+        sparse matrix, shape (size, size)
+            Sum of the blocks.
+        """
         import scipy.sparse as sparse
 
         count = self.dofs.shape[1]
@@ -58,7 +76,18 @@ class Blocks(NamedTuple):
         )
 
     def multiply(self, unknowns: Floats) -> Floats:
-        """Product with a vector (n_dofs,)."""
+        """Product of the matrix with a vector.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Any unit.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs,)
+            Product.
+        """
         parts = self.values @ unknowns[self.dofs][..., None]
         sums = np.bincount(self.dofs.ravel(), parts.ravel(), minlength=unknowns.size)
         return np.asarray(sums)
@@ -75,7 +104,7 @@ class Ordering:
     band : int
         Half bandwidth.
     known : dict
-        Places found before, by the arrays of unknowns they are of.
+        Places found before, shape (n,), by the arrays of unknowns they are of.
     """
 
     place: Ints
@@ -85,10 +114,22 @@ class Ordering:
     )
 
     def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
-        """Sum of the parts in LAPACK's banded storage, shape (n_dofs, height).
+        """Sum of the parts in LAPACK's banded storage.
 
-        The lower half band alone, or the whole with room for pivots. All parts in one
+        All parts in one
         sum: storage is larger than what they hold, each pass over it costs.
+
+        Parameters
+        ----------
+        parts : sequence of Blocks
+            Of the matrix.
+        lower : bool
+            The lower half band alone; else the whole, with room for pivots.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs, height)
+            Height is band + 1 or 3 band + 1.
         """
         height = self.band + 1 if lower else 3 * self.band + 1
         size = self.place.size * height
@@ -123,7 +164,17 @@ class Ordering:
 def build_ordering(
     template: MeshTemplate, *, has_pressures: bool, couples_net: bool
 ) -> Ordering:
-    """Order of small bandwidth; ``couples_net`` joins all net vertices."""
+    """Order of small bandwidth, (N23).
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    has_pressures : bool
+        Every vertex has a pressure, too.
+    couples_net : bool
+        All net vertices are neighbours.
+    """
     return _build_ordering(template, has_pressures, couples_net)
 
 
@@ -156,8 +207,8 @@ def solve_blocks(
 
     Returns
     -------
-    ndarray
-        Of the shape of ``force``.
+    ndarray, of the shape of ``force``
+        In the unit of velocities [velocity scale].
 
     Raises
     ------
@@ -255,7 +306,7 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
 
 
 def _find_bandwidth(order: Ints, rows: Ints, columns: Ints) -> int:
-    """How far apart neighbours are in an order, at most."""
+    """Largest distance of neighbours in an order."""
     place = np.argsort(order)
     return int(np.abs(place[rows] - place[columns]).max())
 
@@ -331,7 +382,7 @@ def _solve_slipping(
 def _collect_friction(
     ordering: Ordering, parts: Sequence[Blocks], friction: Floats, free: Mask
 ) -> Floats:
-    """What friction adds to the rows of slipping nodes, (n_slipping, n_dofs).
+    """Rows A of (N24), which friction adds at slipping nodes, (n_slipping, n_dofs).
 
     The columns are in order.
     """

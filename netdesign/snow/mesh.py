@@ -50,15 +50,15 @@ class MeshSize:
     Attributes
     ----------
     net_spacing : float
-        Size of triangles along the middle of the net.
+        Size of triangles along the middle of the net [thickness].
     corner : float
-        Size of the smallest triangles, at the net's foot; at its head and where
-        layers meet the net, where the flow is less singular, its square root.
+        Size of the smallest triangles, at the net's foot [thickness]; its square root
+        at the head and where layers meet the net: the flow is less singular there.
     sectors : int
         Number of sectors of each ring around the net's foot; so many times slower,
         too, triangles grow away from the ends. 0 for an even mesh without rings.
     upslope_spacing : float
-        Largest size, far upslope.
+        Largest size, far upslope [thickness].
     subdivisions : int
         How many times every triangle is cut in four.
     head_sectors : int, optional
@@ -164,7 +164,15 @@ def build_template(
 
 
 def triangulate(points: Floats, aspect: float) -> MeshTemplate:
-    """Reference mesh of given points (n, 2) that fill the rectangle to its sides."""
+    """Reference mesh of given points.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        They fill the rectangle to its sides [thickness].
+    aspect : float
+        Upslope length over thickness [-].
+    """
     return _build_mesh(points, _connect(points), aspect)
 
 

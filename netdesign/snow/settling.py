@@ -13,14 +13,14 @@ from netdesign.snow.law import FlowProblem, Material, sample_material
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settling:
-    """How the creep law follows the density.
+    """Creep law that follows the density, or not.
 
     Attributes
     ----------
     creep_law : CreepLaw
         Set of a(D), b(D).
     mean_density : float
-        Relative density D that counts as 1 in the body.
+        Relative density D that counts as 1 in the body [-].
     densifies : bool
         False keeps a and b as they were at the start; mass is kept in any case.
     least_density : float
@@ -38,9 +38,21 @@ class Settling:
 def build_material(
     settling: Settling, problem: FlowProblem, body: SnowBody
 ) -> Material:
-    """Material at the quadrature points of the body as it is now.
+    """Material at the quadrature points of a body.
 
-    Numbers, or arrays (n_triangles, 1): a triangle has one density.
+    Parameters
+    ----------
+    settling : Settling
+        Whether and how the law follows the density.
+    problem : FlowProblem
+        Exponent and layers.
+    body : SnowBody
+        As it is now.
+
+    Returns
+    -------
+    Material
+        Numbers, or arrays of shape (n_triangles, 1): a triangle has one density.
     """
     if not settling.densifies:
         return sample_material(problem, body.topology.template)
@@ -57,5 +69,18 @@ def build_material(
 
 
 def largest_density(settling: Settling, body: SnowBody) -> float:
-    """Largest relative density D of the body, at most ``DENSEST_SNOW``."""
+    """Largest relative density of a body.
+
+    Parameters
+    ----------
+    settling : Settling
+        Its mean density.
+    body : SnowBody
+        As it is now.
+
+    Returns
+    -------
+    float
+        D [-], at most ``DENSEST_SNOW``.
+    """
     return min(settling.mean_density * float(body.density.max()), DENSEST_SNOW)

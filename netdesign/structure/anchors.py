@@ -47,7 +47,7 @@ class GroundForce:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorForces:
-    """What one support does to the ground, per anchor [N].
+    """Forces of one support on the ground, per anchor [N].
 
     Attributes
     ----------

@@ -81,13 +81,35 @@ class Clock:
         )
 
     def to_creep_time(self, time: float) -> float:
-        """Creep time [s] of a time [s]."""
+        """Creep time of a time.
+
+        Parameters
+        ----------
+        time : float
+            [s].
+
+        Returns
+        -------
+        float
+            [s].
+        """
         later = max(0.0, time - self.times[-1])
         known = float(np.interp(time, self.times, self.creep_times))
         return known + later * self.last_rate
 
     def to_time(self, creep_time: float) -> float:
-        """Time [s] of a creep time [s]."""
+        """Time of a creep time.
+
+        Parameters
+        ----------
+        creep_time : float
+            [s].
+
+        Returns
+        -------
+        float
+            [s].
+        """
         later = max(0.0, creep_time - self.creep_times[-1])
         known = float(np.interp(creep_time, self.creep_times, self.times))
         return known + later / self.last_rate

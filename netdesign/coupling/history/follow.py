@@ -33,7 +33,23 @@ class _Net(NamedTuple):
 def follow(
     problem: TransientProblem, state: TransientState, instant: Instant, step: float
 ) -> tuple[TransientState, float]:
-    """State at the end of a step, and the mass of snow that fell over the head.
+    """State at the end of a step.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    instant : Instant
+        Equilibrium at its end.
+    step : float
+        Duration [time scale].
+
+    Returns
+    -------
+    TransientState, float
+        And the mass of snow that fell over the head [mean density times d^2].
 
     Raises
     ------

@@ -41,14 +41,16 @@ _TOP_CHANGES = 3  # of the upper corner, between held and slipping, in one step
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Instant:
-    """Equilibrium at the end of a step.
+    """Equilibrium at the end of a step; dimensionless as in ``TransientState``.
 
     Attributes
     ----------
     displaced : ndarray, shape (2, n_vertices)
         Where the vertices end.
-    velocity, stress, base_shear, top
-        As in ``TransientState``.
+    velocity, stress, base_shear : ndarray
+        Of the same shape and unit as there.
+    top : str
+        What the snow's upper corner does.
     points : ndarray, shape (2, n + 2)
         Foot, net nodes and head.
     response : NetResponse
@@ -154,9 +156,28 @@ def advance_under(
 ) -> Instant:
     """Solve one step of snow under net forces that do not change in it.
 
-    ``response`` is the net at the step's start; the rest is as in ``advance``. Only a
-    base drag keeps such a step from being singular on a ground where the snow glides
-    freely.
+    Only a base drag keeps such a step from being singular on a ground where the snow
+    glides freely.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    step : float
+        Duration [time scale].
+    response : NetResponse
+        The net at the step's start.
+    tolerance : float
+        Relative change of the stress in the last iteration [-].
+    max_iterations : int
+        Newton iterations allowed.
+
+    Raises
+    ------
+    SolveError
+        If the step does not converge.
     """
     equations = assemble_step(problem, replace(state, step=0.0), step)
     unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))

@@ -43,6 +43,13 @@ class NetAtRest:
 def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
     """The net of the steady state on one mesh.
 
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+
     Raises
     ------
     SolveError

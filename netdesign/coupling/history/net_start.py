@@ -1,4 +1,4 @@
-"""Where a history begins: the net's shape, and the snow that lies against it."""
+"""Begin of a history: the net's shape, and the snow that lies against it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,21 @@ _LARGEST_SAG = 0.6  # over the chord
 
 
 def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
-    """What ``build_start`` takes: of a steady start the net as it hangs at rest.
+    """Start in the form that ``build_start`` takes.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the history's mesh.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+
+    Returns
+    -------
+    str or NetAtRest
+        Of a steady start the net as it hangs at rest.
 
     Raises
     ------

@@ -68,9 +68,27 @@ def record_moment(
     strain: float,
     step: float,
 ) -> tuple[HistoryPoint, Floats]:
-    """Point at the end of a step, and the net vertices' ways (n,) until then.
+    """Point of a history at the end of a step.
 
-    ``state`` is that after the step, ``way`` and ``strain`` those before it.
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        After the step.
+    instant : Instant
+        Equilibrium at the step's end.
+    way : ndarray, shape (n,), or float
+        Ways of the net's vertices before the step [thickness]; 0 at first.
+    strain : float
+        Mean creep strain before the step [-].
+    step : float
+        Duration [time scale].
+
+    Returns
+    -------
+    HistoryPoint, ndarray, shape (n,)
+        And the ways after the step [thickness].
     """
     net = state.body.topology.net
     axes = _net_normals(state.body.vertices[:, net])
@@ -95,7 +113,18 @@ def record_moment(
 
 
 def measure_run(run: Run) -> list[Floats]:
-    """Largest pulls that count on foot and head, shape (2,) each."""
+    """Largest pulls that count.
+
+    Parameters
+    ----------
+    run : Run
+        On one mesh.
+
+    Returns
+    -------
+    list of ndarray, shape (2,)
+        On foot and head [rho g d^2].
+    """
     return [
         largest_pull([moment.foot for moment in run.counted]),
         largest_pull([moment.head for moment in run.counted]),

@@ -19,7 +19,21 @@ from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 def scale_history(
     run: Run, scene: Scene, clock: Clock, *, start: str, densifies: bool
 ) -> History:
-    """History of a run in SI units, on the clock of its temperatures."""
+    """History of a run in SI units.
+
+    Parameters
+    ----------
+    run : Run
+        Dimensionless.
+    scene : Scene
+        Its scales.
+    clock : Clock
+        Of its temperatures.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+    densifies : bool
+        The creep law followed the density.
+    """
     plateau = run.plateau
     if plateau.time is not None:
         time = clock.to_time(plateau.time * scene.time_scale)
@@ -45,6 +59,23 @@ def build_solution(
     friction_tolerance: float | None = None,
 ) -> Solution:
     """Solution whose shapes are those at the end of the finest run.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was solved.
+    runs : sequence of Run
+        Of all meshes; the finest is the last.
+    foot, head : EndPull
+        Largest pulls with their errors.
+    history : History
+        Of the finest run.
+    method : str
+        ``transient`` or ``staggered``.
+    balance_tolerance : float
+        Largest force missing over the weight [-].
+    friction_tolerance : float, optional
+        Shear beyond the friction limit over the weight [-]; default is the former.
 
     Raises
     ------

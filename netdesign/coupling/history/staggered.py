@@ -58,7 +58,7 @@ _ADVICE = "the method transient has no such limit of explicit steps"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaggeredSettings:
-    """How the paper's exchange is computed; pure numbers.
+    """Settings of the paper's exchange; pure numbers.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class StaggeredSettings:
     horizon : float
         Creep time to follow, over thickness by velocity scale.
     stress_tolerance : float
-        Relative change of the stress in the last iteration of a step.
+        Relative change of the stress in the last iteration of a step [-].
     max_iterations : int
         Newton iterations of a step.
     size : MeshSize
@@ -155,6 +155,13 @@ def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
 
 def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     """One history by the paper's exchange, dimensionless.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : StaggeredSettings
+        Drag, step, start.
 
     Raises
     ------

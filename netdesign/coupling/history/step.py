@@ -49,15 +49,33 @@ from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Motion:
-    """Displacement of a step as a function of its end velocity: offset + rate v."""
+    """Displacement of a step as a function of its end velocity: offset + rate v.
 
-    offset: Floats  # (2, n_vertices)
+    Attributes
+    ----------
+    offset : ndarray, shape (2, n_vertices)
+        [thickness].
+    rate : float
+        [time scale].
+    guess : ndarray, shape (2, n_vertices)
+        Displacement at which equilibrium is assembled [thickness].
+    """
+
+    offset: Floats
     rate: float
-    guess: Floats  # (2, n_vertices), where equilibrium is assembled
+    guess: Floats
 
     @classmethod
     def of_step(cls, state: TransientState, step: float) -> Motion:
-        """Motion of second order from two steps, (K6); of first order for the first."""
+        """Motion of second order from two steps, (K6); of first order for the first.
+
+        Parameters
+        ----------
+        state : TransientState
+            At the step's start.
+        step : float
+            Duration [time scale].
+        """
         if state.step == 0.0:
             still = np.zeros_like(state.moved)
             return cls(offset=still, rate=step, guess=still)
@@ -70,7 +88,17 @@ class Motion:
 
 
 class SnowIterate(NamedTuple):
-    """Velocities, and the stresses that belong to them once converged."""
+    """Velocities, and the stresses that belong to them once converged.
+
+    Attributes
+    ----------
+    unknowns : ndarray, shape (n_dofs,)
+        Velocities, and pressures of the mixed element, in node axes.
+    stress : ndarray, shape (n_triangles, n_points, R), or None
+        None before the first iteration [rho g d].
+    base_shear : ndarray, shape (n_edges, n_points), or None
+        Of a ground with a shear [rho g d].
+    """
 
     unknowns: Floats
     stress: Floats | None
@@ -123,18 +151,46 @@ class StepEquations:
         return float(np.hypot(*self.mesh.to_slope_axes(self.weight).sum(axis=1)))
 
     def with_top(self, *, slips: bool) -> StepEquations:
-        """The same with an upper corner that slips, or is held."""
+        """The same equations with another upper corner.
+
+        Parameters
+        ----------
+        slips : bool
+            Whether the snow's upper corner slips; else it is held.
+        """
         free = self.free.copy()
         free[self.top + 1] = slips
         return replace(self, free=free, top_slips=slips)
 
     def place_net(self, unknowns: Floats) -> Floats:
-        """Where the velocities carry the net's nodes, (2, n)."""
+        """Net nodes as the velocities carry them.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Velocities at the step's end [velocity scale].
+
+        Returns
+        -------
+        ndarray, shape (2, n)
+            [thickness].
+        """
         moved = self.motion.rate * unknowns[self.net_dofs].reshape(2, -1)
         return np.asarray(self.nodes + moved)
 
     def hold(self, unknowns: Floats) -> Floats:
-        """The unknowns, 0 where held."""
+        """The unknowns, 0 where held.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Any unit.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs,)
+            In that unit.
+        """
         return np.where(self.free, unknowns, 0.0)
 
 
@@ -148,17 +204,36 @@ class _Linear(NamedTuple):
 
 
 class LinearSolution(NamedTuple):
-    """Change of the unknowns without, and per, unit force on each net unknown."""
+    """Change of the unknowns, and its derivative by the forces on the net.
+
+    Attributes
+    ----------
+    linear : _Linear
+        The equations.
+    change : ndarray, shape (n_dofs,)
+        Under the forces of the last iteration.
+    per_force : ndarray, shape (n_dofs, 2 n) or (n_dofs, 0)
+        Per unit force on each net unknown.
+    """
 
     linear: _Linear
-    change: Floats  # (n_dofs,)
-    per_force: Floats  # (n_dofs, 2 n), or no column
+    change: Floats
+    per_force: Floats
 
 
 def assemble_step(
     problem: TransientProblem, state: TransientState, step: float
 ) -> StepEquations:
     """Equations of a step.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    step : float
+        Duration [time scale].
 
     Raises
     ------
@@ -199,10 +274,21 @@ def assemble_step(
 def solve_linear(
     equations: StepEquations, iterate: SnowIterate, forces: Floats, *, per_force: bool
 ) -> LinearSolution:
-    """Newton step of the snow under net forces (2, n), and its change per force.
+    """Newton step of the snow under net forces, and its change per force.
 
     Written for changes of the velocities: what rounding leaves of equilibrium in one
     iteration is mended in the next.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        The last one.
+    forces : ndarray, shape (2, n)
+        Of the net on its nodes [rho g d^2].
+    per_force : bool
+        The change per force is wanted, too.
 
     Raises
     ------
@@ -223,7 +309,19 @@ def solve_linear(
 def advance_iterate(
     equations: StepEquations, iterate: SnowIterate, linear: _Linear, change: Floats
 ) -> SnowIterate:
-    """The iterate after a change of its unknowns."""
+    """The iterate after a change of its unknowns.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        The last one.
+    linear : _Linear
+        The equations linearised about it.
+    change : ndarray, shape (n_dofs,)
+        Of its unknowns [velocity scale].
+    """
     mesh, snow = equations.mesh, equations.problem.snow
     base_shear = linear.base_shear
     if linear.base is not None and base_shear is not None:
@@ -239,7 +337,20 @@ def advance_iterate(
 
 
 def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
-    """Internal forces less the weight (n_dofs,): what supports and net have to give."""
+    """Internal forces less the weight.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        With its stresses.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        Forces that supports and net have to give [rho g d^2]; (K7).
+    """
     mesh, snow = equations.mesh, equations.problem.snow
     assert iterate.stress is not None
     residual = assemble_stress(mesh, total_stress(snow, iterate.stress))
@@ -252,7 +363,20 @@ def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
 def measure_change(
     equations: StepEquations, old: Floats | None, new: Floats | None
 ) -> float:
-    """Relative change of the stress, by its invariant over the body."""
+    """Relative change of the stress, by its invariant over the body.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    old, new : ndarray, shape (n_triangles, n_points, R), or None
+        Stresses [rho g d].
+
+    Returns
+    -------
+    float
+        [-]; 1 without one of them.
+    """
     if old is None or new is None:
         return 1.0
     snow, material = equations.problem.snow, equations.material

@@ -80,7 +80,7 @@ _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransientSettings:
-    """How a history is computed.
+    """Settings of a history.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class TransientSettings:
     stops_at_plateau : bool
         End once the plateau is proven instead of at the horizon.
     stress_tolerance, balance_tolerance : float
-        Of every step, as in ``SolverSettings``.
+        Of every step, as in ``SolverSettings`` [-].
     max_steps, max_iterations : int
         Steps of the run; Newton iterations in one of them.
     levels : tuple of MeshSize

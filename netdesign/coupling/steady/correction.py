@@ -48,7 +48,17 @@ class Round:
 
 
 class Correction(NamedTuple):
-    """A curve, how far its round moved it, and the step that leads on from it."""
+    """A curve, how far its round moved it, and the step that leads on from it.
+
+    Attributes
+    ----------
+    curve, step : ndarray, shape (2, n_net)
+        [thickness].
+    moved : float
+        [thickness].
+    halvings : int
+        Of the step so far.
+    """
 
     curve: Floats
     moved: float
@@ -66,14 +76,24 @@ class Correction(NamedTuple):
 
     @property
     def target(self) -> Floats:
-        """Curve of the next round."""
+        """Curve of the next round, shape (2, n_net) [thickness]."""
         return self.curve + self.step
 
 
 def correct_round(
     problem: SteadyProblem, played: Round, last: Correction | None
 ) -> Correction:
-    """Step after a round; half of the ``last`` one if that made things worse."""
+    """Step after a round; half of the ``last`` one if that made things worse.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    played : Round
+        The last round.
+    last : Correction or None
+        What led to it.
+    """
     if last is not None and last.may_halve and played.moved > last.moved:
         return last.halve()
     step = _find_step(problem, played)

@@ -1,4 +1,4 @@
-"""How the curve that a round gives moves with the curve it was given.
+"""Derivative of the curve that a round gives by the curve that it was given.
 
 Theory: coupling/THEORY.md, eq. (K0).
 """
@@ -34,8 +34,12 @@ def linearise_round(
         Snow against the curve that was given.
     cable : Funicular
         The net under the forces found.
-    forces, lengths, stiffness
-        As given to ``solve_funicular``; the forces of a freeboard are its last.
+    forces : ndarray, shape (2, 2 n + 1)
+        As given to ``solve_funicular``; those of a freeboard are the last [rho g d^2].
+    lengths : ndarray, shape (n,)
+        Unstressed lengths of the elements [thickness].
+    stiffness : float
+        ES [rho g d^2].
 
     Returns
     -------

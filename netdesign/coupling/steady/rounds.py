@@ -137,9 +137,23 @@ def solve_steady(
 def find_end_pulls(
     scene: Scene, size: MeshSize, settings: SolverSettings
 ) -> tuple[Floats, Floats]:
-    """Pulls at foot and head on one mesh, shape (2,) each [N/m], of unknown error.
+    """Pulls at foot and head on one mesh, of unknown error.
 
     A benchmark compares them with the truth; a check takes ``solve_steady``.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
+
+    Returns
+    -------
+    ndarray, ndarray, shape (2,)
+        [N/m].
 
     Raises
     ------
@@ -155,6 +169,15 @@ def find_hanging(
     scene: Scene, size: MeshSize, settings: SolverSettings
 ) -> tuple[SteadyProblem, Hanging]:
     """Net at rest on one mesh, dimensionless: where a history may begin.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
 
     Raises
     ------
@@ -268,7 +291,7 @@ def _require_pressure(end: _Coupled) -> None:
 
 
 def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
-    """What the first mesh starts from; None if from nothing."""
+    """State that the first mesh starts from; None if there is none."""
     if not settings.shares_start:
         return None
     net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
@@ -361,7 +384,7 @@ def _couple(
 def _start_state(
     guess: _Coupled | None, played: Sequence[Round], mesh: PlacedMesh
 ) -> FlowState | None:
-    """What the flow of a round starts from; None if from nothing."""
+    """State that the flow of a round starts from; None if there is none."""
     if played:
         return played[-1].flow.state
     if guess is not None:
@@ -384,7 +407,7 @@ def _hang_round(
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
-    """What the flow of a round may leave, for a net that still moves."""
+    """Error that the flow of a round may leave, for a net that still moves."""
     tighter = _CORRECTED if is_corrected else 1.0
     return tighter * max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
 
@@ -392,7 +415,7 @@ def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> floa
 def _choose_tolerances(
     settings: SolverSettings, *, is_first: bool
 ) -> tuple[float, float]:
-    """What the last Newton step may leave, and how far the last round may move."""
+    """Error that the last Newton step may leave, and way of the last round."""
     rough = _FIRST_MESH if is_first else 1.0
     share = _ITERATED_SHARE * settings.accuracy
     return (

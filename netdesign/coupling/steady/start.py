@@ -8,7 +8,20 @@ from netdesign.snow.law import FlowProblem
 
 
 def guess_pressure(problem: FlowProblem, aspect: float) -> float:
-    """Mean pressure on the net [rho g d]: the snow that its base does not hold."""
+    """Mean pressure on the net of the snow that its base does not hold.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Gravity and ground.
+    aspect : float
+        Upslope length over thickness [-].
+
+    Returns
+    -------
+    float
+        [rho g d].
+    """
     length = {
         "free": aspect,
         "no-slip": 1.0,
