@@ -2,6 +2,10 @@
 
 import os
 from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from netdesign.public import *
 
 # The linear problems are small: threads of the BLAS make them 3 to 10 times slower
 # (measured). Works if NumPy is not loaded yet; a value that is set already is kept.
@@ -9,3 +13,40 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 __version__ = version("netdesign")
+
+# Names for use from Python. ``public.py`` says where each one lives.
+__all__ = [
+    "FailedSolution",
+    "GroundLaw",
+    "Layer",
+    "Net",
+    "NetDesignError",
+    "Scene",
+    "Snowpack",
+    "Solution",
+    "SolveError",
+    "SolverSettings",
+    "TransientSettings",
+    "Wall",
+    "WallSolution",
+    "build_ground_from_glide_factor",
+    "build_layered_snowpack",
+    "solve_rigid",
+    "solve_steady",
+    "solve_transient",
+]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """Public name, loaded when it is first asked for: help needs no solver."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from netdesign import public
+
+        return getattr(public, name)
+
+
+def __dir__() -> list[str]:
+    """Names of the module, those not loaded yet included."""
+    return sorted({*globals(), *__all__})

@@ -12,12 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import netdesign
-from netdesign.envelope.workers import Job, solve_job
 from netdesign.errors import ModelError, NetDesignError, SolveError, StandardError
 from netdesign.fault import Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.snow import mesh
-from tests.envelope.small_scene import COARSE
+from netdesign.solving.workers import Job, solve_job
+from tests.solving.small_scene import COARSE
 
 PACKAGE = Path(netdesign.__file__).parent
 BUGS = (
@@ -83,7 +83,7 @@ def test_a_long_message_is_cut():
 def end_of(monkeypatch, a_scene):
     def solve(error):
         monkeypatch.setattr(
-            "netdesign.envelope.workers.solve_scene", lambda *_: raise_one(error)
+            "netdesign.solving.workers.solve_scene", lambda *_: raise_one(error)
         )
         return solve_job(Job(scene=a_scene(), settings=COARSE))
 

@@ -23,7 +23,8 @@ ROWS = (
     {"words"},
     {ROOT},
     {"edge"},
-    {"numerics", "resistance"},
+    {"numerics"},
+    {"resistance", "search"},
     {"snow", "cable", "structure", "checks"},
     {"coupling", "guideline"},
     {"coupling.steady"},
@@ -36,7 +37,7 @@ ROWS = (
     {"site.template"},
     {"study"},
     {"study.audit", "files"},
-    {"report"},
+    {"report", "public", "examples"},  # examples see the public names only
     {"evidence"},
     {"evidence.verification", "evidence.paper", "evidence.benchmark"},
     {"commands"},
@@ -49,13 +50,22 @@ ROOT_MODULES = {"errors", "outcome", "units", "guards", "quantities", "fault"}
 # Third-party packages, and the modules that may import them.
 THIRD_PARTY = {
     "numpy": (
-        *("numerics.*", "snow.*", "cable.*", "coupling.*", "envelope.*"),
+        *(
+            "numerics.*",
+            "snow.*",
+            "cable.*",
+            "coupling.*",
+            "envelope.*",
+            "search.*",
+            "solving.*",
+        ),
         *("guideline.comparison", "files.solution", "evidence.*"),
         *("study.record_envelope", "study.record_monitoring"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
-    "scipy": ("numerics.newton", "snow.*", "envelope.store", "evidence.*"),
-    "distributed": ("envelope.workers",),
+    "scipy": ("numerics.newton", "snow.*", "solving.store", "evidence.*"),
+    "platformdirs": ("solving.store",),
+    "distributed": ("solving.workers",),
     "skfem": (
         *("snow.mesh", "snow.kernel", "snow.forms"),
         "evidence.benchmark.reference_path",
@@ -68,7 +78,10 @@ THIRD_PARTY = {
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.page.pdf",),
-    "matplotlib": ("report.drawing.*", "site.template.drawing", "evidence.*"),
+    "matplotlib": (
+        *("report.drawing.*", "site.template.drawing", "evidence.*"),
+        "examples.one_net",
+    ),
     "pandas": ("report.view.case_table",),
     "click": ("cli", "commands.*"),
     "rich": ("edge.progress", "report.terminal", "evidence.*", "commands.*"),
@@ -198,10 +211,25 @@ def test_module_keeps_to_its_row(module):
 
 def test_the_package_itself_imports_next_to_nothing():
     source = (PACKAGE / "__init__.py").read_text(encoding="utf-8")
-    assert [one.target for one in find_imports(source, "netdesign")] == [
+    imports = find_imports(source, "netdesign")
+    assert [one.target for one in imports if one.is_immediate] == [
         "os",
         "importlib.metadata.version",
+        "typing.TYPE_CHECKING",
     ]
+    # What it imports later are the public names: the one arrow of the package upwards.
+    assert [one.target for one in imports if not one.is_immediate] == [
+        "netdesign.public.*",
+        "netdesign.public",
+    ]
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("examples.")])
+def test_an_example_uses_public_names_only(module):
+    imports = find_imports(MODULES[module].read_text(encoding="utf-8"), module)
+    own = {one.target for one in imports if one.target.startswith("netdesign")}
+    assert own
+    assert own <= {f"netdesign.{name}" for name in netdesign.__all__}
 
 
 def test_every_module_has_a_room():

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import venv
 import zipfile
 from pathlib import Path
@@ -92,6 +93,19 @@ def test_wheel_holds_every_module(names):
     assert modules <= names
 
 
+def test_wheel_says_that_it_has_types(names):
+    assert "netdesign/py.typed" in names
+
+
+def test_wheel_holds_the_licence(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        (licence,) = (n for n in archive.namelist() if n.endswith("/LICENSE"))
+        assert archive.read(licence) == (ROOT / "LICENSE").read_bytes()
+        (metadata,) = (n for n in archive.namelist() if n.endswith("/METADATA"))
+        stated = archive.read(metadata).decode("utf-8").splitlines()
+    assert {"License-Expression: MIT", "License-File: LICENSE"} <= set(stated)
+
+
 @pytest.mark.parametrize("folder", ["standards", "templates"])
 def test_wheel_holds_the_files_that_the_program_reads(names, folder):
     files = {f"netdesign/_data/{folder}/{f}" for f in files_below(ROOT / folder)}
@@ -103,6 +117,16 @@ def test_wheel_holds_nothing_else(names):
     tops = {name.split("/")[0] for name in names}
     assert {top for top in tops if not top.endswith(".dist-info")} == {"netdesign"}
     assert not [name for name in names if "test" in Path(name).name]
+
+
+def test_source_archive_holds_what_a_wheel_is_built_from(tmp_path):
+    build = ("-m", "hatchling", "build", "--target", "sdist", "--directory", tmp_path)
+    call(sys.executable, *build, cwd=ROOT)
+    (archive,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(archive) as source:
+        paths = {name.partition("/")[2] for name in source.getnames()}
+    assert {"LICENSE", "README.md", "pyproject.toml", "netdesign/py.typed"} <= paths
+    assert {f"standards/{name}" for name in files_below(ROOT / "standards")} <= paths
 
 
 def test_installed_program_runs_from_anywhere(installed, tmp_path):

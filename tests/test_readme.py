@@ -1,4 +1,4 @@
-"""The README's blocks are run, and what they print is compared."""
+"""The blocks of the README are run, and what they print is compared."""
 
 import os
 import re
@@ -6,26 +6,38 @@ import subprocess
 import sys
 from pathlib import Path
 
+import openpyxl
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 NETDESIGN = Path(sys.executable).with_name("netdesign")
 
-# Exit codes of the commands as printed, run one after the other in one folder. The
+# Pages for users, and those that they lead to.
+PAGES = sorted([ROOT / "README.md", *ROOT.glob("netdesign/**/*.md")])
+
+# Exit codes of the two commands as printed, run one after the other in one folder. The
 # workbook that `init` writes has nothing filled in, so checking it is refused.
-EXPECTED_EXIT_CODES = {"init": 0, "check": 3, "standards": 0}
+EXPECTED_EXIT_CODES = {"init": 0, "check": 3}
 
 
-def blocks(language: str) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+def blocks(language: str, text: str = README) -> list[str]:
+    found = re.findall(
+        rf"^( *)```{language}\n(.*?)^ *```", text, re.DOTALL | re.MULTILINE
+    )
+    return [
+        re.sub(rf"^{indent}", "", block, flags=re.MULTILINE) for indent, block in found
+    ]
+
+
+TABLE, CHANGES, PULLS, LAYERS = blocks("text")
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     environment = {
         **os.environ,
         "PATH": f"{NETDESIGN.parent}{os.pathsep}{os.environ['PATH']}",
-        "COLUMNS": "110",
+        "COLUMNS": "160",
     }
     return subprocess.run(
         command,
@@ -38,32 +50,75 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
+def fill(path: Path, cells: dict[str, object]) -> None:
+    """Write values into cells given as ``Sheet!A1``, as the reader is told to."""
+    workbook = openpyxl.load_workbook(path)
+    for place, value in cells.items():
+        sheet, cell = place.split("!")
+        workbook[sheet][cell] = value
+    workbook.save(path)
+
+
 def test_first_screen_holds_both_set_up_commands():
-    first_screen = "\n".join(README.splitlines()[:40])
-    commands = [line for line in first_screen.splitlines() if "venv" in line]
+    first_screen = README.splitlines()[:40]
+    commands = [line for line in first_screen if line.startswith("python3 -m venv")]
     assert len(commands) == 2
     assert commands[0].endswith("&& netdesign check --example")
     assert commands[1].endswith("&& python -m pytest -n 2")
-    # CI runs these two lines as printed
+    # CI runs these two lines as printed: the first two of the file
+    assert re.findall(r"^python3 -m venv.*", README, re.MULTILINE)[:2] == commands
     assert "grep '^python3 -m venv' README.md" in (ROOT / ".ci/run").read_text()
 
 
-def test_example_prints_the_table_shown(tmp_path):
-    shown = blocks("text")[0].splitlines()
-    result = run("netdesign check --example --quiet", tmp_path)
-    assert result.returncode == 1, result.stderr
-    printed = [line.rstrip() for line in result.stdout.splitlines()]
-    assert printed[: len(shown)] == shown
-    outputs = {path.name for path in (tmp_path / "netdesign-out").iterdir()}
-    assert outputs == {"study.json", "report.html", "report.xlsx"}
+def test_both_installs_make_the_same_environment():
+    """The lines for one system each; only those for this one can be tried here."""
+    (posix,) = [block for block in blocks("sh") if "pip install" in block]
+    (windows,) = blocks("powershell")
+    assert posix.splitlines()[0] == "python3 -m venv .venv"
+    assert windows.splitlines()[0] == "py -3 -m venv .venv"
+    assert posix.splitlines()[-1] == windows.splitlines()[-1] == "pip install ."
 
 
-def test_commands_run_as_printed(tmp_path):
+def test_two_commands_run_as_printed(tmp_path):
     lines = blocks("console")[1].splitlines()
     assert len(lines) == len(EXPECTED_EXIT_CODES)
     for line in lines:
         result = run(line, tmp_path)
         assert result.returncode == EXPECTED_EXIT_CODES[line.split()[1]], result.stderr
+
+
+def test_first_site_step_by_step(tmp_path):
+    """The example's table, what would turn its checks, and its mended workbook."""
+    write, check = re.findall(r"\*\* `(netdesign [^`]+)`$", README, re.MULTILINE)
+    assert run(write, tmp_path).returncode == 0
+    first = run(f"{check} --quiet", tmp_path)
+    assert first.returncode == 1, first.stderr
+    printed = [line.rstrip() for line in first.stdout.splitlines()]
+    shown = TABLE.splitlines()
+    assert printed[: len(shown)] == shown
+    assert set(CHANGES.splitlines()) <= set(printed)
+    outputs = {path.name for path in (tmp_path / "first").iterdir()}
+    assert outputs == {"study.json", "report.html", "report.xlsx"}
+
+    workbook = openpyxl.load_workbook(tmp_path / "first.xlsx")
+    assert workbook["Anchors"]["A6"].value == "A25-untested"
+    assert workbook["Nets"]["A8"].value == "R7"
+    assert workbook["Nets"]["P1"].value == "foot anchor"
+    told = re.sub(r"\s+", " ", README)
+    assert "write `310` in `Anchors!C6` and `tested` beside it in `D6`" in told
+    assert "write `A40-tested` in `Nets!P8`" in told
+    fill(
+        tmp_path / "first.xlsx",
+        {"Anchors!C6": 310, "Anchors!D6": "tested", "Nets!P8": "A40-tested"},
+    )
+    (again,) = [block for block in blocks("sh") if "diff" in block]
+    mend, compare = again.splitlines()
+    mended = run(f"{mend} --quiet", tmp_path)
+    assert mended.returncode == 0, mended.stderr
+    assert "Net rows: 7 PASS" in mended.stdout
+    turned = run(compare, tmp_path)
+    assert turned.returncode == 1  # a verdict turned
+    assert "R7: verdict: fail -> pass" in turned.stdout
 
 
 def test_scene_file_is_solved(tmp_path):
@@ -75,9 +130,47 @@ def test_scene_file_is_solved(tmp_path):
 
 def test_python_block_prints_what_is_shown(capsys):
     exec(compile(blocks("python")[0], "README.md", "exec"), {})
-    assert capsys.readouterr().out == blocks("text")[1]
+    assert capsys.readouterr().out == PULLS
 
 
-@pytest.mark.parametrize("link", re.findall(r"\]\(([^)h][^)]*)\)", README))
-def test_links_lead_somewhere(link):
-    assert (ROOT / link).exists()
+def test_example_prints_what_is_shown(tmp_path):
+    result = run("python -m netdesign.examples.layered_pack", tmp_path)
+    assert result.stdout == LAYERS
+
+
+def test_profile_of_ones_own_is_used_as_printed(tmp_path):
+    usage = (ROOT / "netdesign" / "USAGE.md").read_text(encoding="utf-8")
+    copy, validate, check = blocks("console", usage)[0].splitlines()
+    assert run(copy, tmp_path).returncode == 0
+    assert run(validate, tmp_path).returncode == 0
+    read = run(f"{check} --dry-run".replace(" --explain", ""), tmp_path)
+    assert read.returncode == 0, read.stderr
+    assert "7 net rows" in read.stdout
+
+
+def test_every_command_is_named():
+    listed = run("netdesign --help", ROOT).stdout.split("Commands:\n")[1]
+    names = re.findall(r"^  ([a-z]+) ", listed.split("\n\n")[0], re.MULTILINE)
+    assert len(names) > 10
+    for name in names:
+        assert f"netdesign {name}" in README, name
+
+
+LINKS = [
+    (page, link)
+    for page in PAGES
+    for link in re.findall(
+        r'\]\(([^)h#][^)#]*)|<img src="([^"]+)"', page.read_text(encoding="utf-8")
+    )
+]
+
+
+@pytest.mark.parametrize(("page", "link"), [(page, a or b) for page, (a, b) in LINKS])
+def test_links_lead_somewhere(page, link):
+    assert (page.parent / link).exists()
+
+
+def test_picture_is_small():
+    picture = ROOT / "netdesign" / "report" / "example-report.png"
+    assert f'src="{picture.relative_to(ROOT).as_posix()}"' in README
+    assert picture.stat().st_size < 150_000

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.edge.progress import Phase
-    from netdesign.envelope.runner import Runner
     from netdesign.site.model import Site
+    from netdesign.solving.runner import Runner
     from netdesign.study.cases import CheckRun
 
 
@@ -25,7 +25,7 @@ _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""
-    from netdesign.envelope.runner import Runner
+    from netdesign.solving.runner import Runner
     from netdesign.study.cases import list_phases
 
     runner, phases = Runner(), list_phases(site, run, profiles)

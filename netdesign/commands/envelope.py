@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.parameters import Box
-    from netdesign.envelope.runner import Runner
-    from netdesign.envelope.search import RowTask
+    from netdesign.envelope.rows import RowTask
+    from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
     from netdesign.study.records import EnvelopeRecord
 
@@ -97,9 +97,9 @@ def envelope(
     from netdesign.edge.output import require_free, write_files
     from netdesign.edge.progress import show_phases
     from netdesign.envelope.parameters import require_valid
-    from netdesign.envelope.session import open_runner
-    from netdesign.envelope.store import find_store
     from netdesign.files.scene import read_scene
+    from netdesign.solving.session import open_runner
+    from netdesign.solving.store import find_store
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
@@ -197,8 +197,8 @@ def _build_task(
     scene: Scene, confirming: Settings | None, box: Box, accuracy: float
 ) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.adaptive import SearchSettings
-    from netdesign.envelope.search import RowTask, refine_settings
+    from netdesign.envelope.rows import RowTask, refine_settings
+    from netdesign.search.maxima import SearchSettings
 
     settings = SolverSettings(accuracy=accuracy)
     is_mesh = isinstance(confirming, SolverSettings)

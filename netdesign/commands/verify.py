@@ -14,7 +14,7 @@ import click
 
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.options import jobs_option, json_option
-from netdesign.commands.solving import judge_rows, open_rows
+from netdesign.commands.solving import open_run
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
@@ -93,6 +93,7 @@ def _verify_study(
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.checks import load_standard
     from netdesign.study.audit import audit_study
+    from netdesign.study.check_site import check_site
     from netdesign.study.records import load_study
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
@@ -113,9 +114,9 @@ def _verify_study(
         _show_contradictions("its time", list(_contradict_time(study))),
         _show_contradictions("its own arithmetic", audit_study(study, profile, site)),
     ]
-    with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
-        (again,) = judge_rows(site, run, solved, [profile])
-    if failed := tell_faults(solved.runner.faults):
+    with open_run(site, run, executor="", cache=False, quiet=False) as (runner, watch):
+        (again,) = check_site(site, [profile], run, runner, watch)
+    if failed := tell_faults(runner.faults):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]

@@ -12,9 +12,9 @@ from netdesign.checks.result import Band
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.extremes import find_extremes
+from netdesign.envelope.rows import Confirmation, RowEnvelope, build_point_task
 from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import Confirmation, RowEnvelope, build_point_task
+from netdesign.solving.runner import Runner
 
 # In which any snow comes to rest, or never does [s]: a thousand years.
 _LONGEST = 1e3 * 365.25 * 86400.0

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from netdesign.envelope.adaptive import Point
-from netdesign.envelope.state import CaseEnd, SolvedState
+from netdesign.search.surrogate import Point
+from netdesign.solving.state import CaseEnd, SolvedState
 
 _AXIS = "friction_angle"
 _TESTS = 2  # chances that are solved before any is taken

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from netdesign.envelope.adaptive import Maxima, Values, Watched
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed import choose_watched, name_sources, read_signed
+from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
 
 # A gap closer than this share of the numerical error is not worth a case.
-_WORTH = 0.5
+_RESOLUTION = 0.5
 
 
 @dataclass(slots=True, kw_only=True)
@@ -65,7 +65,7 @@ class ResultReader:
         ]
 
     def watch(self) -> dict[int, Watched]:
-        """Quantities to be bounded, by place, each as closely as it is worth."""
+        """Quantities to be bounded, by place, and how closely each."""
         names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
         return {self.quantities.index(name): self._ask_for(name) for name in names}
 
@@ -80,7 +80,7 @@ class ResultReader:
         if name not in self.members and "guy" in name:
             behind += [member for member in self.members if member.endswith("_guy")]
         errors = [self.errors[member] for member in behind if member in self.errors]
-        return Watched(worth=_WORTH * max(errors, default=0.0), floor=floor)
+        return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
 
     def bound_members(self, maxima: Maxima) -> Maxima:
         """Bounds of the members from those of the signed forces behind them."""

@@ -9,14 +9,14 @@ from functools import partial
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.grid import Case
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import CaseEnd, SolvedState
-from netdesign.envelope.workers import Job
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.solving.describe import describe_case
+from netdesign.solving.runner import Runner
 from netdesign.solving.solve import Settings
+from netdesign.solving.state import CaseEnd, SolvedState
+from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
@@ -115,11 +115,6 @@ def run_cases(
         resolve_case(task, None if job is None else next(ends))
         for task, job in zip(tasks, jobs, strict=True)
     ]
-
-
-def solve_case(task: CaseTask) -> CaseResult:
-    """Solve one case here and resolve its support."""
-    return run_cases([task])[0]
 
 
 def build_job(task: CaseTask) -> Job | None:

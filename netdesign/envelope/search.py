@@ -1,208 +1,37 @@
-"""The envelope of one net row: its searched maxima, with forces and confirmation."""
+"""Searches of net rows: the cases that each wants next, until its envelope is known.
+
+A ``RowSearch`` solves nothing: it asks for batches of cases and is told their ends.
+Theory: envelope/THEORY.md.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
-from itertools import chain, islice, product
-from typing import NamedTuple, TypeVar
+from itertools import islice
+from typing import NamedTuple
 
-from netdesign.checks.result import Band
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.adaptive import (
-    Maxima,
-    Point,
-    SearchSettings,
-    Values,
-    Watched,
-    search_maxima,
-)
-from netdesign.envelope.extremes import (
-    Extreme,
-    describe_gap,
-    find_extreme,
-    find_extremes,
-)
 from netdesign.envelope.friction import FrictionSkip
-from netdesign.envelope.grid import Case
-from netdesign.envelope.known_search import KnownSearch
-from netdesign.envelope.parameters import Box, build_case, place_scene
 from netdesign.envelope.result_reader import ResultReader
-from netdesign.envelope.run import (
-    CaseResult,
-    CaseTask,
-    build_job,
-    build_task,
-    resolve_case,
+from netdesign.envelope.rows import (
+    Confirmation,
+    RowEnvelope,
+    RowTask,
+    build_point_task,
+    list_grid,
 )
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import Batch, Ends
+from netdesign.envelope.run import CaseResult, build_job, resolve_case
+from netdesign.errors import ModelError
+from netdesign.search.known_search import KnownSearch, Repetition
+from netdesign.search.maxima import Maxima, MaximaSearch
+from netdesign.search.surrogate import Point
+from netdesign.solving.runner import Runner
 from netdesign.solving.solve import Settings
-from netdesign.structure.layout import SupportLayout
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import Batch, Ends
 
-# A confirmation is solved to this share of the accuracy, on finer meshes.
-_CONFIRMED_SHARE = 0.5
-_TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
 _WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
-
-Conversation = Generator[list[Batch], list[Ends], "RowEnvelope"]
-_End = TypeVar("_End")
-_Search = Generator[tuple[Point, ...], Sequence[Values | None], _End]
-_Watch = Callable[[], Mapping[int, Watched]]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RowTask:
-    """What is searched: a scene, the ranges around it, and how.
-
-    Attributes
-    ----------
-    scene : Scene
-        Holds whatever the box leaves alone.
-    box : Box
-        Ranges.
-    layout : SupportLayout or None
-        Support of the net; None follows the net's own tensions per metre.
-    settings : SolverSettings
-        Of every case.
-    search : SearchSettings
-        When the search ends.
-    confirmed_by : Settings or None
-        How the governing cases are solved again; None leaves that out.
-    build : callable or None
-        Scene of a case, where the values of the box cannot be put into ``scene`` one
-        by one.
-    """
-
-    scene: Scene
-    box: Box
-    layout: SupportLayout | None
-    settings: SolverSettings
-    search: SearchSettings
-    confirmed_by: Settings | None
-    build: Callable[[Case], Scene] | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Confirmation:
-    """A governing case solved again by another fidelity."""
-
-    member: str
-    screened: CaseResult
-    confirmed: CaseResult
-
-    @property
-    def difference(self) -> float | None:
-        """Confirmed over screened force, less 1 [-]; None without a result."""
-        if not self.confirmed.is_converged:
-            return None
-        screened = self.screened.member_forces[self.member].value
-        confirmed = self.confirmed.member_forces[self.member].value
-        return confirmed / screened - 1.0 if screened > 0.0 else 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class RowEnvelope:
-    """End of a row's search. Forces in N per anchor, or N/m without a layout.
-
-    Attributes
-    ----------
-    task : RowTask
-        What was searched.
-    members : tuple of str
-        The quantities that are reported, in the order of ``maxima``.
-    quantities : tuple of str
-        All that were modelled: the members, and the signed forces behind them.
-    results : tuple of CaseResult
-        Every case, in the order of ``maxima.points``.
-    maxima : Maxima
-        Maxima, upper bounds, log and model.
-    confirmations : tuple of Confirmation
-        One for each member that carries a force.
-    skipped, skips_tested : int
-        Cases known without a solve because the snow stuck with less friction
-        already, and how many of those were solved all the same as a test.
-    """
-
-    task: RowTask
-    members: tuple[str, ...]
-    quantities: tuple[str, ...]
-    results: tuple[CaseResult, ...]
-    maxima: Maxima
-    confirmations: tuple[Confirmation, ...]
-    skipped: int
-    skips_tested: int
-
-    @property
-    def gap(self) -> str:
-        """Why the maxima do not cover every case; "" if they do."""
-        failed = describe_gap(self.results) or self._describe_unconfirmed()
-        if failed or self.maxima.is_closed:
-            return failed
-        return (
-            f"after {len(self.results)} cases a force between them could still exceed "
-            "the largest one by more than the gap asked for"
-        )
-
-    def _describe_unconfirmed(self) -> str:
-        """Which governing case could not be solved again; "" if all could."""
-        for one in self.confirmations:
-            if not one.confirmed.is_converged:
-                return (
-                    f"the governing case of {one.member} could not be solved again "
-                    f"({one.confirmed.reason})"
-                )
-        return ""
-
-    def hidden(self, member: str) -> float:
-        """How much larger a member's force may be between the cases [N]."""
-        place = self.members.index(member)
-        return max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
-
-    def force(self, member: str) -> Band:
-        """Largest force of a member at the cases, with its numerical error.
-
-        A confirmation that lies above the bound raises the upper end.
-        """
-        bands = [one.member_forces[member] for one in self.results if one.is_converged]
-        confirmed = [
-            one.confirmed.member_forces[member].high - self.hidden(member)
-            for one in self.confirmations
-            if one.confirmed.is_converged
-        ]
-        return Band(
-            low=max(band.low for band in bands),
-            value=max(band.value for band in bands),
-            high=max([*(band.high for band in bands), *confirmed]),
-        )
-
-    def bound(self, member: str) -> Band:
-        """Largest force of a member over the whole box, with everything unsure.
-
-        The band's upper end adds what may hide between the cases.
-        """
-        force = self.force(member)
-        return replace(force, high=force.high + self.hidden(member))
-
-    def upper_bound(self, member: str) -> float:
-        """Largest force with what may hide, without the numerical error [N]."""
-        return self.force(member).value + self.hidden(member)
-
-    def governing(self, member: str) -> CaseResult:
-        """Case of a member's largest force; carries the coincident forces."""
-        return find_extreme(member, self.results).governing
-
-    @property
-    def extremes(self) -> dict[str, Extreme]:
-        """Largest forces by member, without what may hide between the cases."""
-        found = find_extremes(self.results)
-        return {
-            member: replace(one, force=self.force(member))
-            for member, one in found.items()
-        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -214,70 +43,193 @@ class Wave:
     gap: float
 
 
-def refine_settings(settings: SolverSettings) -> SolverSettings:
-    """Settings of a confirmation: coarsest meshes left out, tighter accuracy.
+class _Cases:
+    """Some points of a row, until all their results are known.
 
-    A screening ends on the second mesh or a little above; this starts on the third
-    where there are enough, so that it ends on a finer one.
+    Those that friction cannot change are not solved.
     """
-    left_out = max(0, min(2, len(settings.levels) - 2))
-    accuracy = max(_TIGHTEST, _CONFIRMED_SHARE * settings.accuracy)
-    return replace(settings, accuracy=accuracy, levels=settings.levels[left_out:])
+
+    def __init__(
+        self,
+        task: RowTask,
+        points: Sequence[Point],
+        skip: FrictionSkip,
+        settings: Settings | None = None,
+    ) -> None:
+        self._points, self._skip = points, skip
+        self._tasks = [build_point_task(task, point, settings) for point in points]
+        asked = zip(points, map(build_job, self._tasks), strict=True)
+        self._jobs = {point: job for point, job in asked if job is not None}
+        self._ends: dict[Point, CaseEnd] = {}
+        self._lines = self._list_lines()
+
+    def _list_lines(self) -> list[list[Point]]:
+        open_points = [point for point in self._jobs if point not in self._ends]
+        return self._skip.list_lines(open_points)
+
+    def ask(self) -> list[Batch]:
+        """Batches to be solved next; none once the rest need no solve."""
+        return [tuple(self._jobs[point] for point in line) for line in self._lines]
+
+    def tell(self, answers: Sequence[Ends]) -> None:
+        """Take the ends of the batches asked for, in their order."""
+        for line, answer in zip(self._lines, answers, strict=True):
+            for point, end in zip(line, answer, strict=False):  # until it sticks
+                self._ends[point] = end
+                self._skip.learn(point, end)
+        self._lines = self._list_lines()
+
+    def finish(self) -> list[CaseResult]:
+        """Results in the order of the points; ends that friction cannot change."""
+        for point in self._jobs:
+            if point not in self._ends:
+                self._ends[point] = self._skip.recall(point)
+        return [
+            resolve_case(task, self._ends.get(point))
+            for point, task in zip(self._points, self._tasks, strict=True)
+        ]
 
 
-def search_row(
-    task: RowTask,
-    on_gap: Callable[[float], None] = lambda _: None,
-    known: KnownSearch | None = None,
-    keep: Callable[[KnownSearch], None] = lambda _: None,
-) -> Conversation:
-    """Ask for the ends of batches until the row's envelope is known.
+class RowSearch:
+    """Search of one row's envelope: asks for the ends of batches, and is told.
 
-    Parameters
+    Attributes
     ----------
     task : RowTask
         What is searched.
-    on_gap : callable, optional
-        Takes the largest gap left after each round of a search [-].
-    known : KnownSearch, optional
-        Of the same task, in an earlier run; repeated instead of searching.
-    keep : callable, optional
-        Takes a search that was not known.
-
-    Yields
-    ------
-    list of Batch
-        To be answered with their ends, in the same order.
-
-    Returns
-    -------
-    RowEnvelope
-        The same for the same ends.
 
     Verified by
     -----------
     tests/envelope/test_search.py
     """
-    found = None
-    if known is not None:
-        found, row = yield from _converse(task, known.repeat)
-    if found is None:
-        search = partial(search_maxima, len(task.box.axes), task.search, on_gap)
-        found, row = yield from _converse(task, search)
-        if not any(one.fault for one in row.results):
-            keep(KnownSearch(maxima=found, watched=row.reader.watch()))
-    maxima, members = row.reader.bound_members(found), row.reader.members
-    confirmations = yield from _confirm(task, members, row.results, maxima)
-    return RowEnvelope(
-        task=task,
-        members=members,
-        quantities=row.reader.quantities,
-        results=tuple(row.results),
-        maxima=maxima,
-        confirmations=confirmations,
-        skipped=row.skip.skipped,
-        skips_tested=row.skip.tested,
-    )
+
+    def __init__(
+        self,
+        task: RowTask,
+        known: KnownSearch | None = None,
+        keep: Callable[[KnownSearch], None] = lambda _: None,
+    ) -> None:
+        """Begin a search.
+
+        Parameters
+        ----------
+        task : RowTask
+            What is searched.
+        known : KnownSearch, optional
+            Of the same task, in an earlier run; repeated instead of searching.
+        keep : callable, optional
+            Takes a search that was not known.
+        """
+        self.task = task
+        self._result: RowEnvelope | None = None
+        self._keep = keep
+        self._begin(self._search_anew() if known is None else Repetition(known))
+        self._advance()
+
+    @property
+    def result(self) -> RowEnvelope:
+        """Envelope of the row; the same for the same ends.
+
+        Raises
+        ------
+        ModelError
+            While something is still asked for.
+        """
+        if self._result is None:
+            raise ModelError("the search of a row has not ended")
+        return self._result
+
+    @property
+    def gap(self) -> float:
+        """Largest gap left after the last round, over its quantity [-]."""
+        return self._search.gap
+
+    def ask(self) -> list[Batch]:
+        """Batches to be solved next; none once the envelope is known."""
+        return self._cases.ask()
+
+    def tell(self, answers: Sequence[Ends]) -> None:
+        """Take the ends of the batches asked for, in their order."""
+        self._cases.tell(answers)
+        self._advance()
+
+    def _search_anew(self) -> MaximaSearch:
+        return MaximaSearch(len(self.task.box.axes), self.task.search)
+
+    def _begin(self, search: MaximaSearch | Repetition) -> None:
+        """Begin with nothing known of the row's cases."""
+        self._search = search
+        self._reader = ResultReader(layout=self.task.layout)
+        self._skip = FrictionSkip(self.task.box.axes)
+        self._results: list[CaseResult] = []
+        self._maxima: Maxima | None = None  # known once only confirmations are open
+        self._cases = _Cases(self.task, search.ask(), self._skip)
+
+    def _advance(self) -> None:
+        """Go on until something has to be solved, or the envelope is known."""
+        while self._result is None and not self._cases.ask():
+            answered = self._cases.finish()
+            if self._maxima is None:
+                self._go_on(answered)
+            else:
+                self._finish(self._maxima, answered)
+
+    def _go_on(self, answered: list[CaseResult]) -> None:
+        """Tell the search what was found, and ask what it wants next."""
+        self._results += answered
+        search, reader = self._search, self._reader
+        search.tell(reader.read(answered), reader.watch())
+        if points := search.ask():
+            self._cases = _Cases(self.task, points, self._skip)
+        elif search.result is None:  # no longer what was known
+            self._begin(self._search_anew())
+        else:
+            self._confirm(search.result)
+
+    def _confirm(self, found: Maxima) -> None:
+        """Keep what was found, and ask for the governing cases once more."""
+        is_new = isinstance(self._search, MaximaSearch)
+        if is_new and not any(one.fault for one in self._results):
+            self._keep(KnownSearch(maxima=found, watched=self._reader.watch()))
+        self._maxima = self._reader.bound_members(found)
+        points = [found.points[place] for place in self._list_confirmed(found)]
+        apart = FrictionSkip(())  # each is solved
+        self._cases = _Cases(self.task, points, apart, self.task.confirmed_by)
+
+    def _list_confirmed(self, maxima: Maxima) -> list[int]:
+        """Places of the cases that govern a member, each once."""
+        if self.task.confirmed_by is None:
+            return []
+        return sorted(set(self._find_governing(maxima).values()))
+
+    def _find_governing(self, maxima: Maxima) -> dict[str, int]:
+        """Place of the governing case of each member that carries a force."""
+        return {
+            member: maxima.governing[place]
+            for place, member in enumerate(self._reader.members)
+            if maxima.maximum[place] > 0.0
+        }
+
+    def _finish(self, maxima: Maxima, confirmed: Sequence[CaseResult]) -> None:
+        again = dict(zip(self._list_confirmed(maxima), confirmed, strict=True))
+        self._result = RowEnvelope(
+            task=self.task,
+            members=self._reader.members,
+            quantities=self._reader.quantities,
+            results=tuple(self._results),
+            maxima=maxima,
+            confirmations=tuple(
+                Confirmation(
+                    member=member,
+                    screened=self._results[place],
+                    confirmed=again[place],
+                )
+                for member, place in self._find_governing(maxima).items()
+                if place in again
+            ),
+            skipped=self._skip.skipped,
+            skips_tested=self._skip.tested,
+        )
 
 
 def search_rows(
@@ -285,7 +237,7 @@ def search_rows(
     runner: Runner,
     on_wave: Callable[[Wave], None] = lambda _: None,
 ) -> list[RowEnvelope]:
-    """Search all rows together: each wave holds the next cases of every row.
+    """Envelopes of all rows, searched together: a wave has the next cases of every row.
 
     Parameters
     ----------
@@ -302,36 +254,34 @@ def search_rows(
     list of RowEnvelope
         In the order of the tasks; equal tasks share one.
     """
-    distinct = list(dict.fromkeys(tasks))
-    finished: dict[RowTask, RowEnvelope] = {}
-    gaps = dict.fromkeys(distinct, math.inf)
-    open_rows = {
-        task: search_row(
-            task,
-            partial(gaps.__setitem__, task),
-            runner.find_search(task),
-            partial(runner.keep_search, task),
+    searches = {
+        task: RowSearch(
+            task, runner.find_search(task), partial(runner.keep_search, task)
         )
-        for task in distinct
+        for task in dict.fromkeys(tasks)
     }
-    # None begins a talk; it ends at once where the model refuses every case
-    answers: dict[RowTask, list[Ends] | None] = dict.fromkeys(distinct)
-    is_begun = False
-    while answers:
-        asked: dict[RowTask, list[Batch]] = {}
-        for task, answer in answers.items():
-            try:
-                asked[task] = open_rows[task].send(answer)  # type: ignore[arg-type]
-            except StopIteration as end:
-                finished[task] = end.value
-        if is_begun:
-            waiting = sum(len(batch) for batches in asked.values() for batch in batches)
-            gap = max((gaps[task] for task in asked), default=0.0)
-            on_wave(Wave(rows_open=len(asked), cases_waiting=waiting, gap=gap))
-        is_begun = True
-        ends = iter(runner.solve_batches(list(chain.from_iterable(asked.values()))))
-        answers = {task: list(islice(ends, len(one))) for task, one in asked.items()}
-    return [finished[task] for task in tasks]
+    while asked := _ask_rows(searches.values()):
+        ends = iter(runner.solve_batches([one for _, its in asked for one in its]))
+        for search, batches in asked:
+            search.tell(list(islice(ends, len(batches))))
+        on_wave(_describe_wave(_ask_rows(searches.values())))
+    return [searches[task].result for task in tasks]
+
+
+_Asked = list[tuple[RowSearch, list[Batch]]]
+
+
+def _ask_rows(searches: Iterable[RowSearch]) -> _Asked:
+    """Searches that go on, with the batches that each waits for."""
+    return [(search, batches) for search in searches if (batches := search.ask())]
+
+
+def _describe_wave(asked: _Asked) -> Wave:
+    return Wave(
+        rows_open=len(asked),
+        cases_waiting=sum(len(batch) for _, batches in asked for batch in batches),
+        gap=max((search.gap for search, _ in asked), default=0.0),
+    )
 
 
 class Grid(NamedTuple):
@@ -347,108 +297,7 @@ def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) ->
     skip = FrictionSkip(task.box.axes)
     if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
         task = replace(task, settings=replace(task.settings, shares_start=True))
-    tasks = [build_point_task(task, point) for point in points]
-    asking = _ask(points, tasks, skip)
-    answer: list[Ends] | None = None  # a generator begins with None
-    while True:
-        try:
-            # the model may have refused every case: then nothing is asked
-            batches = asking.send(answer)  # type: ignore[arg-type]
-        except StopIteration as end:
-            results = [resolve_case(*one) for one in zip(tasks, end.value, strict=True)]
-            return Grid(results=results, skipped=skip.skipped)
-        answer = runner.solve_batches(batches)
-
-
-def list_grid(counts: Sequence[int]) -> list[Point]:
-    """All points of a grid with so many samples of each axis, at least two."""
-    return list(product(*([k / (count - 1) for k in range(count)] for count in counts)))
-
-
-def build_point_task(
-    task: RowTask, point: Point, settings: Settings | None = None
-) -> CaseTask:
-    """Task of one point of a row's box; the row's settings unless others are given."""
-    values = task.box.place(point)
-    return build_task(
-        build_case(task.scene, values),
-        task.build or (lambda _: place_scene(task.scene, values)),
-        task.layout,
-        settings or task.settings,
-    )
-
-
-def _converse(
-    task: RowTask, begin: Callable[[_Watch], _Search[_End]]
-) -> Generator[list[Batch], list[Ends], tuple[_End, _RowCases]]:
-    """Lead a search to its end, and what was learned of the row's cases."""
-    row = _RowCases(
-        reader=ResultReader(layout=task.layout), skip=FrictionSkip(task.box.axes)
-    )
-    search = begin(row.reader.watch)
-    points = next(search)
-    while True:
-        tasks = [build_point_task(task, point) for point in points]
-        ends = yield from _ask(points, tasks, row.skip)
-        answered = [resolve_case(*one) for one in zip(tasks, ends, strict=True)]
-        row.results += answered
-        try:
-            points = search.send(row.reader.read(answered))
-        except StopIteration as end:
-            return end.value, row
-
-
-def _ask(
-    points: Sequence[Point], tasks: Sequence[CaseTask], skip: FrictionSkip
-) -> Generator[list[Batch], list[Ends], list[CaseEnd | None]]:
-    """Ends of some cases; those that friction cannot change are not solved."""
-    asked = zip(points, map(build_job, tasks), strict=True)
-    jobs = {point: job for point, job in asked if job is not None}
-    ends: dict[Point, CaseEnd] = {}
-    while lines := skip.list_lines([point for point in jobs if point not in ends]):
-        answers = yield [tuple(jobs[point] for point in line) for line in lines]
-        for line, answer in zip(lines, answers, strict=True):
-            for point, end in zip(line, answer, strict=False):  # until it sticks
-                ends[point] = end
-                skip.learn(point, end)
-    ends |= {point: skip.recall(point) for point in jobs if point not in ends}
-    return [ends.get(point) for point in points]
-
-
-@dataclass(slots=True, kw_only=True)
-class _RowCases:
-    """The cases of a row during a search, and what reads and spares them."""
-
-    reader: ResultReader
-    skip: FrictionSkip
-    results: list[CaseResult] = field(default_factory=list)
-
-
-def _confirm(
-    task: RowTask,
-    members: Sequence[str],
-    results: Sequence[CaseResult],
-    maxima: Maxima,
-) -> Generator[list[Batch], list[Ends], tuple[Confirmation, ...]]:
-    """Solve the governing cases again by the other fidelity, each once."""
-    if task.confirmed_by is None:
-        return ()
-    loaded = {
-        member: maxima.governing[place]
-        for place, member in enumerate(members)
-        if maxima.maximum[place] > 0.0
-    }
-    places = sorted(set(loaded.values()))
-    tasks = [
-        build_point_task(task, maxima.points[p], task.confirmed_by) for p in places
-    ]
-    batches: list[Batch] = [(job,) for job in map(build_job, tasks) if job is not None]
-    ends = (yield batches) if batches else []
-    again = {
-        place: resolve_case(one, end)
-        for place, one, (end,) in zip(places, tasks, ends, strict=True)
-    }
-    return tuple(
-        Confirmation(member=member, screened=results[place], confirmed=again[place])
-        for member, place in loaded.items()
-    )
+    cases = _Cases(task, points, skip)
+    while batches := cases.ask():
+        cases.tell(runner.solve_batches(batches))
+    return Grid(results=cases.finish(), skipped=skip.skipped)

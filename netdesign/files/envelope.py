@@ -9,9 +9,10 @@ from typing import Any
 from netdesign import __version__
 from netdesign.envelope.extremes import describe_gap, find_extremes
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.runner import Counts
-from netdesign.envelope.search import Grid, RowEnvelope
+from netdesign.envelope.search import Grid
+from netdesign.solving.runner import Counts
 from netdesign.study.record_envelope import record_case, record_envelope
 from netdesign.study.records import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton

@@ -228,9 +228,13 @@ def _snowpack(file: SceneFile) -> Snowpack:
 
 def _thickness(snow: SnowTable, slope: float) -> float:
     if (snow.thickness_m is None) == (snow.height_vertical_m is None):
-        raise ModelError(
-            "snow.thickness_m and snow.height_vertical_m: give exactly one of them"
-        )
+        both = "snow.thickness_m and snow.height_vertical_m: give exactly one of them"
+        if snow.layers is not None:
+            both += (
+                "; snow.layers does not replace it: the layers' thicknesses, normal "
+                "to the slope, must add up to the snow's"
+            )
+        raise ModelError(both)
     if snow.thickness_m is not None:
         return snow.thickness_m
     return compute_thickness(snow.height_vertical_m or 0.0, slope)

@@ -48,13 +48,6 @@ def find_bond_stress(ground: str, grouting: str) -> Datum:
     return Datum(value=float(least), status=bond["status"], source=bond["source"])
 
 
-def find_enlargement(soil: str) -> Datum:
-    """Least ratio of the grouted to the drilled diameter [-]."""
-    table = load_catalogue()["enlargement"]
-    least, _ = pick("soil", soil, table["soil"])
-    return Datum(value=float(least), status=table["status"], source=table["source"])
-
-
 def find_rope_factor(construction: str, factor: str) -> Datum:
     """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
     rope = load_catalogue()["rope"]

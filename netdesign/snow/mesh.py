@@ -62,7 +62,8 @@ class MeshSize:
     subdivisions : int
         How many times every triangle is cut in four.
     head_sectors : int, optional
-        Sectors of each ring around the head; else as many as around the foot.
+        Sectors of each ring around the head of uniform snow; else as many as around
+        the foot.
     """
 
     net_spacing: float
@@ -278,10 +279,14 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     return placed
 
 
-def _end_points(size: MeshSize) -> Floats:
-    """Rings around the net's foot and head."""
+def _end_points(size: MeshSize, interfaces: tuple[float, ...]) -> Floats:
+    """Rings around the net's foot and head.
+
+    A stiff layer may hang on the net's head: layered snow has all sectors there.
+    """
+    at_head = None if interfaces else size.head_sectors
     foot = _quarter_rings(size.sectors, size.corner)
-    head = _quarter_rings(size.head_sectors or size.sectors, np.sqrt(size.corner))
+    head = _quarter_rings(at_head or size.sectors, np.sqrt(size.corner))
     return np.vstack([foot, np.array([0.0, 1.0]) + head * np.array([1.0, -1.0])])
 
 
@@ -350,7 +355,7 @@ def _add_rings(
     to_foot = np.hypot(points[:, 0], points[:, 1])
     to_head = np.hypot(points[:, 0], 1.0 - points[:, 1])
     apart = np.minimum(to_foot, to_head) > _BESIDE
-    points = np.vstack([_end_points(size), points[apart]])
+    points = np.vstack([_end_points(size, interfaces), points[apart]])
     # a short snowpack: the rings must not reach beyond its upslope end
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])

@@ -10,7 +10,6 @@ from typing import Literal
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.edge.progress import Phase
-from netdesign.envelope.adaptive import SearchSettings
 from netdesign.envelope.confirm import (
     build_history_settings,
     confirm_envelopes,
@@ -18,18 +17,14 @@ from netdesign.envelope.confirm import (
 )
 from netdesign.envelope.grid import Case, Ranges, build_cases
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowEnvelope,
-    RowTask,
-    Wave,
-    refine_settings,
-    search_rows,
-)
+from netdesign.envelope.search import Wave, search_rows
 from netdesign.errors import ModelError
+from netdesign.search.maxima import SearchSettings
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
+from netdesign.solving.runner import Runner
 from netdesign.study.probe import build_scene
 from netdesign.study.record_monitoring import follow_monitoring
 from netdesign.study.records import MonitoringRecord

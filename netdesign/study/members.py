@@ -22,8 +22,8 @@ from netdesign.envelope.extremes import (
     find_extremes,
 )
 from netdesign.envelope.grid import Case, Ranges
+from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import RowEnvelope
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS

@@ -8,10 +8,10 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
-from netdesign.envelope.runner import Runner
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.snow.snowpack import Snowpack
+from netdesign.solving.runner import Runner
 
 
 def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.envelope.adaptive import RESOLVED_SHARE, Addition
 from netdesign.envelope.grid import Case
 from netdesign.envelope.parameters import PARAMETERS, Box
-from netdesign.envelope.search import Confirmation, RowEnvelope
-from netdesign.envelope.sensitivity import (
+from netdesign.envelope.rows import Confirmation, RowEnvelope
+from netdesign.search.maxima import RESOLVED_SHARE, Addition
+from netdesign.search.sensitivity import (
     Sensitivity,
     find_crossings,
     follow_axis,
@@ -180,10 +180,10 @@ def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
     through = maxima.points[maxima.governing[place]]
     found = []
     for axis, name in enumerate(box.axes):
-        shares, force, claim = follow_axis(
+        shares, force, standard_error = follow_axis(
             maxima.surrogate, through, axis, place, _LINE_POINTS
         )
-        bound = force + envelope.task.search.certainty * claim
+        bound = force + envelope.task.search.certainty * standard_error
         found.append(
             LineRecord(
                 key=PARAMETERS[name].key,
@@ -274,6 +274,6 @@ def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
         quantity=names[one.quantity] if names else "",
         case={PARAMETERS[k].key: show_parameter(k, v) for k, v in values.items()},
         predicted_kN=show(one.predicted),
-        claimed_kN=show(one.claimed),
+        claimed_kN=show(one.standard_error),
         found_kN=show(one.found),
     )

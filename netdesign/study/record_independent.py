@@ -20,7 +20,7 @@ from netdesign.checks.laws import (
     is_law_met,
 )
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.state import SolvedState
+from netdesign.solving.state import SolvedState
 from netdesign.study.records import HeadForce, IndependentRecord
 
 

@@ -9,7 +9,7 @@ from netdesign.errors import ModelError
 
 
 def test_sag_of_a_taut_cable():
-    """physics.md 7.8 by hand: q 10 kN/m, c 4 m, ES 20 MN give f = 0.1817 m."""
+    """FACTS.md, section 10, by hand: q 10 kN/m, c 4 m, ES 20 MN give f = 0.1817 m."""
     sag = compute_parabola_sag(10e3, 4.0, 20e6, 0.0)
     assert sag == pytest.approx((3 * 10e3 * 4.0**4 / (64 * 20e6)) ** (1 / 3), rel=1e-14)
     assert sag == pytest.approx(0.1817, abs=5e-5)  # printed to four places

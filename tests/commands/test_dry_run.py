@@ -3,7 +3,7 @@ import json
 import pytest
 
 from netdesign.commands import dry_run
-from netdesign.envelope import workers
+from netdesign.solving import workers
 from tests.short_example import write_short_example
 
 SEARCH, BESIDE = 7 * 55, 7 * 40

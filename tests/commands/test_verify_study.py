@@ -166,7 +166,7 @@ def test_a_fault_of_the_program_is_no_difference(verify, monkeypatch):
     def fail(*_, **__):
         raise RuntimeError("spoilt")
 
-    monkeypatch.setattr("netdesign.envelope.workers.solve_scene", fail)
+    monkeypatch.setattr("netdesign.solving.workers.solve_scene", fail)
     ended = verify()
     assert ended.code == FAULT
     assert "RuntimeError: spoilt" in ended.err

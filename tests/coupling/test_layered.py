@@ -109,6 +109,35 @@ def test_what_is_not_found_is_given_up_soon(work, friction_deg):
     assert sum(work) <= MOST_WORK
 
 
+def test_rounds_end_when_pulls_are_found():
+    """The net moved by 1e-4 of the thickness, the foot's pull by 1 %."""
+    layers = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
+    pack = build_layered_snowpack(
+        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
+        slope_angle=math.radians(42.0),
+        upslope_length=20.0,
+    )
+    net = Net(
+        height_normal=pack.thickness,
+        inclination=math.radians(35.0),
+        stiffness_per_m=2e7,
+        slack=0.03,
+        friction_angle=math.radians(15.0),
+    )
+    ground = GroundLaw(kind="sliding", slip_length=1.3)
+    scene = Scene(snowpack=pack, ground=ground, net=net)
+    levels = MESH_LEVELS[:3]
+    rough, tight = (
+        solve_steady(
+            scene, SolverSettings(accuracy=accuracy, levels=levels), on_failure="raise"
+        )
+        for accuracy in (0.005, 0.0005)
+    )
+    assert rough.cost.elements == tight.cost.elements
+    assert rough.foot.size == pytest.approx(tight.foot.size, rel=1e-3)
+    assert rough.head.size == pytest.approx(tight.head.size, rel=1e-3)
+
+
 def stiff_over_soft():
     pack = build_layered_snowpack(
         (Layer(thickness=1.56, density=252.0), Layer(thickness=2.19, density=428.0)),

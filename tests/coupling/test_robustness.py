@@ -83,7 +83,7 @@ def test_steady_thinned(a_scene):
 @pytest.mark.parametrize("friction_deg", [2.0, 6.0, 10.0])
 @pytest.mark.parametrize("rows", [2, 10])
 def test_steady_on_plain_meshes(a_scene, friction_deg, rows):
-    """The frictions and meshes on which a prototype stalled (physics.md, section 3)."""
+    """The frictions and meshes on which a prototype stalled (FACTS.md, section 10)."""
     levels = (MESH_LEVELS[0], uniform(rows))
     settings = SolverSettings(accuracy=0.1, levels=levels)
     grid = [(friction_deg, inclination, 0.0, 2e4) for inclination in (0.0, 30.0)]

@@ -154,7 +154,7 @@ def test_temperature_of_one_layer_changes_no_force_on_a_wall(a_scene, temperatur
 
 @pytest.mark.parametrize("densities", [(487.3, 262.1), (213.9, 377.7)])
 def test_slip_is_that_of_the_snow_on_the_ground(a_scene, densities):
-    """A slip length over the creep rate of the lowest layer, section 2 of physics.md.
+    """A slip length over the creep rate of the lowest layer: FACTS.md, section 5.
 
     A base velocity D* B a^((n+1)/2) tau^n of the mean snow is that of the lowest layer
     with another D*: the scene's law must say which of the two it means.
@@ -272,11 +272,11 @@ def test_layers_scale_with_the_mean_density(a_scene):
 def test_one_sided_ground_does_not_pull(a_scene):
     scene = a_scene(inclination_deg=30.0, friction_deg=15.0)
     two, one = sound(scene), sound(replace(scene, ground_contact="one-sided"))
-    assert 0.1 < two.balance.ground_tension_share < 0.2  # physics.md: 12 %
+    assert 0.1 < two.balance.ground_tension_share < 0.2  # FACTS.md, section 11
     assert one.balance.ground_tension_share < 1e-12
     assert one.foot.size == pytest.approx(
         1.022 * two.foot.size, rel=3e-3
-    )  # physics.md: 2 %
+    )  # FACTS.md, section 11
 
 
 def test_one_sided_net_is_not_pulled(a_scene):
@@ -288,7 +288,7 @@ def test_one_sided_net_is_not_pulled(a_scene):
 
 @pytest.mark.parametrize("friction_deg", [0.0, 2.0])
 def test_one_sided_net_on_rough_ground(a_scene, friction_deg):
-    """physics.md, section 4: suction over the top 0.2 % of the net there."""
+    """FACTS.md, section 11: suction over the top 0.2 % of the net there."""
     scene = a_scene(ground="no-slip", inclination_deg=30.0, friction_deg=friction_deg)
     two, one = sound(scene), sound(replace(scene, net_contact="one-sided"))
     assert 0.0 < two.balance.suction_share < 0.005

@@ -16,7 +16,7 @@ from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import SolverSettings
 from netdesign.edge import progress as progress_module
 from netdesign.edge.progress import Phase, RunProgress, show_phases
-from netdesign.envelope import workers
+from netdesign.solving import workers
 from netdesign.solving.solve import solve_scene
 from tests.short_example import write_short_example
 

@@ -9,7 +9,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.envelope.grid import Case
 from netdesign.envelope.run import CaseTask, build_task
 from netdesign.structure.layout import SupportLayout
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
+from tests.solving.small_scene import COARSE, LAYOUT, build_scene
 
 BuildTask = Callable[..., CaseTask]
 

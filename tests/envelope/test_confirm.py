@@ -17,9 +17,10 @@ from netdesign.envelope.confirm import (
 )
 from netdesign.envelope.extremes import describe_gap
 from netdesign.envelope.grid import Case
-from netdesign.envelope.run import CaseResult, CaseTask, solve_case
+from netdesign.envelope.run import CaseResult, CaseTask
 from netdesign.outcome import Outcome
 from netdesign.structure.layout import SupportLayout
+from tests.solving.small_scene import solve_case
 
 
 def band(value, error=0.1):

@@ -7,9 +7,9 @@ import pytest
 
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.friction import FrictionSkip
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import solve_job
 from netdesign.outcome import Outcome
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import solve_job
 
 AXES = ("density", "friction_angle")
 LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
@@ -18,7 +18,7 @@ LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
 @pytest.fixture(scope="module")
 def end():
     """One real end; what matters of it is changed by ``sticking``."""
-    from tests.envelope.test_store import solve_one
+    from tests.solving.test_store import solve_one
 
     return solve_one()
 
@@ -119,7 +119,7 @@ def test_without_a_range_of_friction_all_is_solved(end):
 def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
     """What the skip relies on, on the real thing: rough ground, an upright net."""
     from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-    from netdesign.envelope.workers import Job
+    from netdesign.solving.workers import Job
 
     settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
     ends = [
@@ -133,7 +133,7 @@ def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
 
 def test_friction_hardly_matters_where_snow_slips_by_the_foot_only(a_scene):
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.envelope.workers import Job
+    from netdesign.solving.workers import Job
 
     scenes = [a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (36.0, 45.0)]
     low, high = (

@@ -12,7 +12,7 @@ from netdesign.envelope.parameters import (
 )
 from netdesign.errors import ModelError
 from netdesign.snow.wall import Wall
-from tests.envelope.small_scene import build_scene
+from tests.solving.small_scene import build_scene
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.4, inclination=0.5))
 VALUES = {

@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.envelope import workers
-from netdesign.envelope.run import run_cases, solve_case
-from netdesign.envelope.runner import Runner
+from netdesign.envelope.run import run_cases
 from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
+from netdesign.solving import workers
+from netdesign.solving.runner import Runner
 from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.layout import SupportLayout, place_support
+from tests.solving.small_scene import solve_case
 
 MEMBERS = {
     "foot_anchor",

@@ -7,25 +7,19 @@ from dataclasses import replace
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
-from netdesign.envelope import search
-from netdesign.envelope.adaptive import SearchSettings
+from netdesign.envelope import rows
 from netdesign.envelope.grid import Case, Interval
 from netdesign.envelope.parameters import Box
-from netdesign.envelope.run import solve_case
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowTask,
-    build_point_task,
-    refine_settings,
-    run_grid,
-    search_rows,
-)
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.workers import ProcessPool
+from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
+from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
-from tests.envelope.made_up_workers import Recording, Spoiling
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
+from netdesign.search.maxima import SearchSettings
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import ProcessPool
+from tests.solving.made_up_workers import Recording, Spoiling
+from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
 BOX = Box(
@@ -119,6 +113,26 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
     )
 
 
+def test_a_search_can_be_stepped(found):
+    """By hand, with any solver of batches: the same as all rows together."""
+    finer = found.task.confirmed_by
+    search = RowSearch(replace(TASK, confirmed_by=finer))
+    assert search.gap == math.inf
+    gaps = []
+    while batches := search.ask():
+        assert search.ask() == batches
+        with pytest.raises(ModelError, match="has not ended"):
+            search.result  # noqa: B018
+        search.tell(Runner().solve_batches(batches))
+        gaps.append(search.gap)
+    assert search.result.maxima.points == found.maxima.points
+    assert search.result.maxima.upper_bound == found.maxima.upper_bound
+    assert [one.member for one in search.result.confirmations] == [
+        one.member for one in found.confirmations
+    ]
+    assert 0.0 < gaps[-1] <= TASK.search.gap * (1.0 + 1e-9)
+
+
 def test_rows_that_share_net_and_snow_share_cases(found):
     other = replace(LAYOUT, post_spacing=2.5)
     runner = Runner()
@@ -188,7 +202,7 @@ def refuses(monkeypatch):
     def refuse(*_):
         raise ModelError("refused")
 
-    monkeypatch.setattr(search, "place_scene", refuse)
+    monkeypatch.setattr(rows, "place_scene", refuse)
 
 
 @pytest.mark.usefixtures("refuses")

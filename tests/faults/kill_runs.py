@@ -19,10 +19,10 @@ import time
 from pathlib import Path
 
 from netdesign import cli
-from netdesign.envelope import runner, store, workers
 from netdesign.report import files
 from netdesign.report.page import html
 from netdesign.report.workbook import excel
+from netdesign.solving import runner, store, workers
 
 OUTPUTS = ("study.json", "report.html", "report.xlsx")
 NOW, BEFORE = "1700000000", "1600000000"  # of the run, and of the outputs it finds

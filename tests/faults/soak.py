@@ -17,12 +17,12 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import Job, OwnProcess, ProcessPool
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import Job, OwnProcess, ProcessPool
 
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 STEPS = 20

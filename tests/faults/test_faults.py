@@ -1,8 +1,8 @@
 """Full disks, places that cannot be written, two runs at once, clocks, Ctrl-C.
 
 What is the same for any bytes is tested in ``tests/edge/test_output.py``, dying
-workers in ``tests/envelope/test_workers.py``, damaged stores in
-``tests/envelope/test_store.py``.
+workers in ``tests/solving/test_workers.py``, damaged stores in
+``tests/solving/test_store.py``.
 """
 
 import json
@@ -114,7 +114,7 @@ def test_the_clock_decides_nothing_but_the_date(begin, clean, tmp_path, before, 
 def test_ctrl_c_twice_ends_as_once(begin, clean, tmp_path, pause):
     """In the midst of a pool; nothing is written, and a run continues it."""
     options = ("--out", "out", "--jobs", 2)
-    pool = "import netdesign.envelope.workers as w; w._WORTH_A_POOL = 1\n"
+    pool = "import netdesign.solving.workers as w; w._WORTH_A_POOL = 1\n"
     run = begin(*options, before=pool, start_new_session=True)
     assert "1 solved, about" in run.stderr.readline()
     run.send_signal(signal.SIGINT)
@@ -132,7 +132,7 @@ def test_ctrl_c_twice_ends_as_once(begin, clean, tmp_path, pause):
 
 KILL_A_WORKER = """
 import os, signal
-import netdesign.envelope.workers as w
+import netdesign.solving.workers as w
 w._WORTH_A_POOL = 1
 feed = w.ProcessPool._feed
 def kill_one(pool, waiting):

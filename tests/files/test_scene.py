@@ -365,6 +365,17 @@ def test_layers_that_do_not_add_up(tables):
         build(tables)
 
 
+def test_layers_do_not_replace_the_thickness(tables):
+    del tables["snow"]["density_kg_m3"], tables["snow"]["thickness_m"]
+    with pytest.raises(ModelError) as uniform:
+        build(tables)
+    tables["snow"]["layers"] = LAYERS
+    with pytest.raises(ModelError) as layered:
+        build(tables)
+    assert "layers" not in str(uniform.value)
+    assert "layers does not replace it" in str(layered.value)
+
+
 def test_density_and_layers_exclude_each_other(tables):
     tables["snow"]["layers"] = LAYERS
     with pytest.raises(ModelError, match="exactly one of them"):

@@ -34,8 +34,6 @@ from hypothesis import strategies as st
 from netdesign import cli
 from netdesign.checks import load_standard
 from netdesign.edge.resources import find_resource
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.store import CaseStore, StoreError
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.files.scene import read_scene
 from netdesign.outcome import Outcome
@@ -43,6 +41,8 @@ from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.workbook import write_site_workbook
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.store import CaseStore, StoreError
 from netdesign.study.records import read_document, write_document
 from tests.full_scene import FULL_SCENE
 from tests.report.build_study import build_study

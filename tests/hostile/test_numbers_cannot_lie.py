@@ -16,21 +16,21 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope import store as store_module
-from netdesign.envelope import workers as workers_module
 from netdesign.envelope.grid import Interval
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
+from netdesign.solving import store as store_module
+from netdesign.solving import workers as workers_module
+from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import OwnProcess
 from netdesign.study.cases import CheckRun, search_site, solve_site
 from netdesign.study.check_site import judge_site
 from tests import small_site
-from tests.envelope.made_up_workers import Spoiling
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist
+from tests.solving.made_up_workers import Spoiling
 
 PROFILE = "nf-p-95-304-style"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:3]))

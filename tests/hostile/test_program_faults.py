@@ -14,14 +14,14 @@ import pytest
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope import run as run_module
-from netdesign.envelope import workers as workers_module
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE
 from netdesign.site.model import MonitoringSeries
 from netdesign.solving import solve as solve_module
+from netdesign.solving import workers as workers_module
+from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
+from netdesign.solving.workers import ProcessPool
 from netdesign.study import cases as site_cases
 from netdesign.study import record_monitoring as monitoring
 from netdesign.study.probe import build_scene
@@ -347,4 +347,4 @@ def test_a_fault_in_an_envelope_leaves_a_valid_document(call, scene, spoil, samp
         assert document["outcome"] == "not_proven"
         assert SENTENCE in document["reason"]
         assert "spoilt" not in ended.out
-        assert "ValueError: spoilt 3 times, in envelope/workers.py:" in ended.err
+        assert "ValueError: spoilt 3 times, in solving/workers.py:" in ended.err

@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.errors import ModelError
-from netdesign.resistance.catalogue import find_bond_stress, find_enlargement
+from netdesign.resistance.catalogue import find_bond_stress
 from netdesign.resistance.pull_out import (
     PullOutTests,
     compute_pull_out_from_bond,
@@ -68,7 +68,6 @@ def test_catalogue_gives_the_least_of_a_range_with_its_source():
     stress = find_bond_stress("gravel", "A")
     assert (stress.value, stress.status) == (95.0, "secondary")
     assert "FHWA" in stress.source
-    assert find_enlargement("sandy-gravel").value == 1.2
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from netdesign.errors import SiteDataError
 from netdesign.site.columns.all_tables import PROJECT, PROJECT_ITEMS, RANGE_QUANTITIES
 from netdesign.site.columns.fields import LANGUAGES, find_item
 from netdesign.site.reader import read_site
-from tests.site import ods_files
+from tests.site.cells import ods_files
 from tests.site.conftest import SOUND
 
 PROFILE = "eurocode"

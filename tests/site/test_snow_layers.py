@@ -8,13 +8,13 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.grid import Case
-from netdesign.envelope.runner import Runner
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
+from netdesign.solving.runner import Runner
 from netdesign.study.cases import CheckRun, search_site, solve_site
 from netdesign.study.check_site import judge_site
 from netdesign.study.probe import build_scene
-from tests.envelope.made_up_workers import Recording
+from tests.solving.made_up_workers import Recording
 
 SNOW = [
     ["net row", "layer", "thickness [m]", "density [kg/m3]", "temperature [°C]"],

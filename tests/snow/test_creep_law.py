@@ -20,7 +20,7 @@ from netdesign.snow.creep_law import (
 LAW = BOUTILLIER_2004
 
 
-# standards-facts.md 7.4, computed there from the printed coefficients; four digits.
+# FACTS.md, section 2, worked from the printed coefficients; four digits.
 @pytest.mark.parametrize(
     ("density", "shear", "bulk"),
     [
@@ -48,7 +48,7 @@ def test_dense_branch_is_duva_and_crow():
 
 
 def test_branches_meet():
-    """The fit was made to: physics.md, section 2 (a 1.549 / 1.5455)."""
+    """The fit was made to: FACTS.md, section 2 (a 1.549 / 1.5455)."""
     below = math.nextafter(LAW.branch, 0.0)
     for compute in (compute_shear_factor, compute_bulk_factor):
         step = compute(LAW, below) / compute(LAW, LAW.branch) - 1.0
@@ -73,7 +73,7 @@ def test_ice_is_the_limit():
 
 
 SETS = [
-    # standards-facts.md 7.4, four digits; 7.3 for the continuity of the original set
+    # FACTS.md, section 2, four digits; of the original set where its branches meet
     ("zwinger-2007", 0.50, 206.3, 129.2),
     ("zwinger-2007", 0.60, 42.54, 16.69),
     ("zwinger-2007", 0.40, 1000.0, 1000.0),
@@ -97,7 +97,7 @@ def test_every_set_is_continuous_at_its_branch(law):
 
 
 def test_snow_that_would_shrink_sideways_is_refused():
-    """3a < 2b: the original set below D = 0.504, standards-facts.md 7.4."""
+    """3a < 2b: the original set below D = 0.504, FACTS.md, section 2."""
     law = CREEP_LAWS["gagliardini-1997"]
     require_admissible(law, 0.505)
     with pytest.raises(ModelError, match=r"3a = .* < 2b = .*shrink sideways"):
@@ -115,7 +115,7 @@ def test_calibrated_range_includes_its_bounds():
 
 @pytest.mark.parametrize("density", [0.1, 0.25, 0.4, 0.6, 0.8, 0.85, 0.95])
 def test_uniaxial_compression_does_not_shrink_the_section(density):
-    """3 a >= 2 b: standards-facts.md 7.4; the fit fulfils it above D = 0.097."""
+    """3 a >= 2 b: FACTS.md, section 2; the fit fulfils it above D = 0.097."""
     shear, bulk = compute_shear_factor(LAW, density), compute_bulk_factor(LAW, density)
     assert 3 * shear >= 2 * bulk
 
@@ -208,7 +208,7 @@ def test_fit_without_a_number_is_refused(field, fit):
 
 
 def test_limit_of_the_papers_set():
-    """standards-facts.md 7.4: 3a = 2b at D = 0.097; of zwinger's fit at 0.313."""
+    """FACTS.md, section 2: 3a = 2b at D = 0.097; of zwinger's fit at 0.313."""
     require_admissible(LAW, 0.098)
     with pytest.raises(ModelError, match="boutillier-2004"):
         require_admissible(LAW, 0.096)
@@ -218,7 +218,7 @@ def test_limit_of_the_papers_set():
         require_admissible(unclamped, 0.312)
 
 
-# --- strain rate in space: standards-facts.md 7.5, B = 20 MPa^-3 a^-1, 10 kPa ----
+# --- strain rate in space: FACTS.md, section 3, B = 20 MPa^-3 a^-1, 10 kPa --------
 
 ELMER = CREEP_LAWS["zwinger-2007"]
 PRESSED = -0.01  # [MPa]

@@ -9,21 +9,23 @@ from netdesign.snow.fluidity import (
     WARMEST,
     compute_fluidity,
 )
-from netdesign.units import fluidity_to_mpa_year
+from netdesign.units import fluidity_from_mpa_year
 
 
-# standards-facts.md 7.5: B = 2A in MPa^-3 a^-1, three digits, from the same law.
+# FACTS.md, section 4: B = 2A in MPa^-3 a^-1, three digits, from the same law.
 @pytest.mark.parametrize(
     ("celsius", "expected"),
     [(-20, 10.5), (-15, 18.2), (-10, 30.9), (-5, 101), (-2, 202), (0, 317)],
 )
 def test_values_of_the_source(celsius, expected):
-    found = fluidity_to_mpa_year(compute_fluidity(273.15 + celsius), 3.0)
-    assert found == pytest.approx(expected, rel=5e-3)
+    found = compute_fluidity(273.15 + celsius)
+    assert found == pytest.approx(fluidity_from_mpa_year(expected, 3.0), rel=5e-3)
 
 
 def test_paper_value():
-    assert fluidity_to_mpa_year(PAPER_FLUIDITY, 3.0) == pytest.approx(20.0, rel=1e-14)
+    """20 MPa^-3 a^-1, with a year of 365.25 days."""
+    year = 365.25 * 24.0 * 3600.0
+    assert pytest.approx(20.0 / (1e6**3 * year), rel=1e-14) == PAPER_FLUIDITY
 
 
 def test_branches_meet():

@@ -45,13 +45,13 @@ def test_unknown_kind(kind):
         GroundLaw(kind=kind)
 
 
-# physics.md, section 2, sliding law.
+# FACTS.md, section 9.
 @pytest.mark.parametrize(
     ("glide", "ratio"),
     [(1.1, 0.1), (1.2, 0.25), (1.34, 0.5), (1.52, 1), (1.76, 2), (2.07, 4), (2.45, 8)],
 )
 def test_table_lies_near_that_of_another_code(glide, ratio):
-    """Both within 3 % of each other, the spread that physics.md states."""
+    """Both within 3 % of each other, the spread that FACTS.md, section 9, states."""
     table = load_glide_tables()[DEFAULT_CREEP_LAW]
     stored = dict(zip(table.slip_ratios, table.glide_factors, strict=True))
     assert stored[ratio] == pytest.approx(glide, rel=0.03)

@@ -220,11 +220,14 @@ def test_only_edges_on_the_net_are_curved():
     assert curved.size > 0
 
 
-def test_ends_of_the_net_have_sectors_of_their_own():
+@pytest.mark.parametrize(("interfaces", "at_head"), [((), 3), ((0.37,), 6)])
+def test_ends_of_the_net_have_sectors_of_their_own(interfaces, at_head):
+    """Uniform snow at its head; layered snow has as many there as at the foot."""
     sizes = {"net_spacing": 0.2, "corner": 1e-3, "upslope_spacing": 1.0}
-    template = build_template(5.0, MeshSize(sectors=6, head_sectors=3, **sizes))
+    size = MeshSize(sectors=6, head_sectors=3, **sizes)
+    template = build_template(5.0, size, interfaces)
     x, y = template.nodes[:, : template.n_vertices]
-    for height, sectors in ((0.0, 6), (1.0, 3)):
+    for height, sectors in ((0.0, 6), (1.0, at_head)):
         distance = np.hypot(x, y - height)
         nearest = np.sort(distance)[1]
         assert (distance < nearest * (1.0 + 1e-6)).sum() == 1 + sectors + 1

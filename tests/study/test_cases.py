@@ -12,17 +12,17 @@ from netdesign.envelope import confirm
 from netdesign.envelope.confirm import confirm_envelopes
 from netdesign.envelope.grid import Interval, Ranges
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import ProcessPool
 from netdesign.outcome import Outcome, Verdict
 from netdesign.snow.snowpack import Layer
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
 from netdesign.study.check_site import judge_site
 from netdesign.study.probe import Probe
 from netdesign.study.records import read_document, write_document
-from tests.envelope.made_up_workers import Recording
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
+from tests.solving.made_up_workers import Recording
 
 RANGES = Ranges(
     density=Interval(low=270.0, high=400.0),

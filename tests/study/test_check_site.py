@@ -9,9 +9,9 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.envelope.grid import Interval, build_cases
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.runner import Runner
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
+from netdesign.solving.runner import Runner
 from netdesign.study.cases import count_cases, solve_site
 from netdesign.study.check_site import REPORTED_MEMBERS, judge_site
 from tests.small_site import (

@@ -18,7 +18,7 @@ from tests.short_example import write_short_example
 from tests.test_cli import SHEETS
 
 MEMBERS = ["Foot anchor", "Uphill guy", "Post"]  # the downhill guy is slack
-ALLOWED = 0.05  # over the steady state on sliding ground (winter.md, section 6)
+ALLOWED = 0.05  # over the steady state on sliding ground (FACTS.md, section 12)
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 """What must hold of every steady state, whatever its numbers are.
 
-Truth: global equilibrium, similarity (physics.md, section 2), limits of friction.
+Truth: global equilibrium, similarity (FACTS.md, section 5), limits of friction.
 Nothing here knows a force beforehand.
 """
 
@@ -68,7 +68,7 @@ def test_free_base_hangs_its_weight_on_the_net(solved, inclination, friction_deg
 
 
 def test_bulge_weighs_one_to_three_per_cent(solved):
-    """physics.md, section 1: more than a straight net would hold."""
+    """FACTS.md, section 6: more than a straight net would hold."""
     for inclination in (0.0, 30.0):
         solution = solved(inclination_deg=inclination)
         pack = solution.scene.snowpack

@@ -1,7 +1,7 @@
 """The net's own length, recovered from a coupled state.
 
-Truth: the continuum statement, integral ds / (1 + T / ES) = (1 + slack) c (physics.md,
-section 4). Lengths come from the reported curve, tensions from the reported forces by
+Truth: the continuum statement, integral ds / (1 + T / ES) = (1 + slack) c (FACTS.md,
+section 10). Lengths come from the reported curve, tensions from the reported forces by
 statics; neither the program's material coordinates nor its cable solver are asked.
 """
 

@@ -1,6 +1,6 @@
 """The paper's scene, with psi = 40 deg and ES = 20 MN/m, against another code.
 
-Truth: physics.md, section 7: steady state from two independent codes that agree to
+Truth: FACTS.md, sections 6 and 7: steady state from two independent codes that agree to
 0.1 %, uncertainty of the table below 0.01 kN/m; layered scenes from one of them.
 """
 
@@ -98,8 +98,8 @@ def test_foot_tension_is_not_monotonic_in_friction(solved):
 
 
 # Layered scenes LA and LB: kN per m of width, uncertainty 0.03 %; ours of two levels
-# is as much again. The third figure of physics.md's finding that led to them, on a
-# slip length of 1.5 m, is printed to two digits and without its head.
+# is as much again. The third figure, on a slip length of 1.5 m, is known to two digits
+# and without its head.
 LAYERS = ((1.2, 400.0), (1.0, 320.0), (0.8, 240.0))  # m, kg/m3, from the ground
 LAYERED = {
     "no-slip": (GroundLaw(kind="no-slip"), 27.987, 28.225, 6e-4),

@@ -1,7 +1,7 @@
 """Creep law and flow against closed forms of homogeneous snow.
 
 Truth: closed forms of Gagliardini and Meyssonnier's law as given in the Elmer manual
-(standards-facts.md, 7.5), with its a, b and its printed values; below them the chain
+(FACTS.md, section 3), with its a, b and its printed values; below them the chain
 closed form -> law in three dimensions -> plane law of the program; then whole flows
 whose exact field is known, a confined level snowpack and an infinite slab.
 """
@@ -18,7 +18,7 @@ from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.law import FlowLayer, FlowProblem, Material, linearise_creep
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
-# standards-facts.md, 7.5
+# FACTS.md, section 3
 A, B_BULK = 206.2605, 129.1875
 N, FLUIDITY = 3.0, 20.0  # [-], [MPa^-3 a^-1]
 STRESS = 0.01  # [MPa]
@@ -49,7 +49,7 @@ def plane_strain_rate(stress, **changes):
 
 
 def strain_rate_in_space(stress, a=A, b=B_BULK, n=N):
-    """Inverse law in three dimensions, standards-facts.md 7.1, over the fluidity."""
+    """Inverse law in three dimensions, FACTS.md, section 1, over the fluidity."""
     pressure = -np.trace(stress) / 3
     deviator = stress + pressure * np.eye(3)
     size = math.sqrt(a * (deviator**2).sum() / 2 + b * pressure**2)
@@ -163,7 +163,7 @@ NO_SIDE_PRESSURE = 2.0 / 3.0
 def settlement(height, n):
     """w = -(4/(3a) + 1/b)^(-(n+1)/2) (rho g)^n (h^(n+1) - (h - y)^(n+1)) / (n + 1).
 
-    standards-facts.md 7.5, column under gravity; dimensionless with a out of it:
+    FACTS.md, section 3, column under gravity; dimensionless with a out of it:
     4/3 + r = 2.
     """
     return -(2.0 ** (-(n + 1) / 2)) * (1 - (1 - height) ** (n + 1)) / (n + 1)

@@ -76,11 +76,14 @@ _HALVINGS = 4
 _LAYER_CONTRAST = 1e3
 # So may nets of more slack (over the chord): they hang close to the ground.
 _MUCH_SLACK = 0.1
+# Layered snow may pull by a percent more or less on a net that hardly moves: its pulls
+# may change in the last round by this many times what the net may move.
+_SETTLED = 5.0
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
-# Linear solves after which rounds on one mesh are given up: so many, or so many times
-# its triangles (some 1 s).
-_LEAST_WORK, _MOST_WORK = 100, 4e4
+# Linear solves after which rounds on one mesh are given up: so many, of layered snow
+# fewer, or so many over its triangles (some 1 s).
+_LEAST_WORK, _LEAST_WORK_LAYERED, _MOST_WORK = 100, 40, 4e4
 _FAILED_FLOW = 20  # of them, for a flow that does not converge
 # Share of suction, over the largest accepted, that no finer mesh takes back.
 _HOPELESS_SUCTION = 2.0
@@ -335,7 +338,7 @@ def _couple(
     hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    allowed = max(_LEAST_WORK, _MOST_WORK / problem.template.triangles.shape[1])
+    allowed = _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
     moved, solves, tried = 1.0 if guess is None else _REFINED, 0, 0
@@ -356,7 +359,8 @@ def _couple(
         played.append(now)
         hanging = now.hanging
         moved, solves = now.moved, solves + now.flow.linear_solves
-        if moved < still and now.flow.change < tolerance:
+        is_still = moved < still and now.flow.change < tolerance
+        if is_still and _has_settled(problem, played, _SETTLED * still):
             return _Coupled(
                 problem=problem,
                 mesh=now.mesh,
@@ -366,7 +370,9 @@ def _couple(
                 linear_solves=solves,
                 rounds=tried,
             )
-        if correction or (guess and guess.was_slow) or _is_slow(played):
+        # a net that is still, whose pulls are not, is worth no derivative
+        is_slow = not is_still and _is_slow(played)
+        if correction or (guess and guess.was_slow) or is_slow:
             correction = correct_round(problem, now, correction)
             curve = correction.target
         else:
@@ -378,6 +384,27 @@ def _couple(
         Outcome.MAX_ITERATIONS,
         f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
         f"after {tried} rounds",
+    )
+
+
+def _allow_solves(problem: SteadyProblem) -> float:
+    """Linear solves that rounds on one mesh may take."""
+    least = _LEAST_WORK_LAYERED if len(problem.snow.layers) > 1 else _LEAST_WORK
+    return float(max(least, _MOST_WORK / problem.template.triangles.shape[1]))
+
+
+def _has_settled(
+    problem: SteadyProblem, played: Sequence[Round], allowed: float
+) -> bool:
+    """Pulls of layered snow on the net changed by a small share in the last round."""
+    if len(problem.snow.layers) < 2:
+        return True
+    ends = [
+        (one.hanging.cable.foot_pull, one.hanging.cable.head_pull) for one in played
+    ]
+    return len(ends) > 1 and all(
+        np.hypot(*(now - before)) <= allowed * np.hypot(*now)
+        for before, now in zip(*ends[-2:], strict=True)
     )
 
 

@@ -93,7 +93,8 @@ def print_lines(document: Mapping[str, Any], console: Console) -> None:
         f"{document['lines']} lines of {document['points']} scenes: "
         f"{document['solved']} solved, {document['refused']} refused",
         f"jumps beyond the stated errors: {document['jumps']}; the largest is "
-        f"{_show(document['largest_jump'], '.2f')} of them",
+        f"{_show(document['largest_jump'], '.2f')} of them; bends that are none: "
+        f"{document['bends']}",
         f"{document['compared']} compared with a finer mesh: "
         f"{_show(document['share_outside'], '.1%')} outside the stated error; the true "
         f"one is at most {_show(document['largest_true_over_stated'], '.2f')} of it",

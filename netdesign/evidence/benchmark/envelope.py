@@ -1,4 +1,4 @@
-"""What an envelope costs and how well it bounds: the figures of the README.
+"""What an envelope costs and how well it bounds: the figures of its README.
 
 Sizes are arguments, so that the same functions serve a quick look and the full table.
 """
@@ -21,27 +21,22 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.adaptive import RESOLVED_SHARE, Point, SearchSettings
 from netdesign.envelope.grid import Interval
 from netdesign.envelope.parameters import Box
+from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import (
-    RowEnvelope,
-    RowTask,
-    build_point_task,
-    list_grid,
-    run_grid,
-    search_rows,
-)
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import Job, ProcessPool
+from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.clock import Clock
 from netdesign.evidence.benchmark.peaks import measure_peaks
 from netdesign.evidence.benchmark.whole_site import Render, measure_site
+from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
+from netdesign.search.surrogate import Point
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import Job, ProcessPool
 from netdesign.structure.layout import SupportLayout
 
 SCHEMA = "netdesign.bench-envelope/1"

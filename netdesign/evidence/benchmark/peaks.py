@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.envelope.adaptive import Maxima, SearchSettings, search_maxima
 from netdesign.numerics.arrays import Floats
+from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings
 
 Response = Callable[[Floats], Floats]
 
@@ -90,12 +90,10 @@ def measure_peaks(count: int, widths: tuple[float, ...]) -> list[dict[str, Any]]
 
 
 def _drive(response: Response) -> Maxima:
-    search = search_maxima(3, SearchSettings())
-    points = next(search)
-    while True:
+    search = MaximaSearch(3, SearchSettings())
+    while points := search.ask():
         values = response(np.array(points)).tolist()
-        try:
-            points = search.send([(value,) for value in values])
-        except StopIteration as end:
-            found: Maxima = end.value
-            return found
+        search.tell([(value,) for value in values])
+    if search.result is None:
+        raise AssertionError("a search that asks no more has ended")
+    return search.result

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.coupling.steady.rounds import solve_steady
@@ -62,7 +63,26 @@ def solve_truth(
         balance_tolerance=_TRUTH_BALANCE,
         step=None,
     )
-    return build_truth(solve_steady(scene, fine))
+    return solve_fine(scene, fine)
+
+
+def solve_fine(scene: Scene, settings: SolverSettings) -> Truth:
+    """Truth on the finest of the settings' meshes.
+
+    Suction just beyond what is accepted keeps it from being a result, not from being
+    what coarser meshes are held against.
+
+    Raises
+    ------
+    SolveError
+        If that mesh gives no solution in balance.
+    """
+    try:
+        return build_truth(solve_steady(scene, settings, on_failure="raise"))
+    except SuctionError as refusal:
+        if refusal.held is None:
+            raise
+        return build_truth(refusal.held)
 
 
 def build_truth(solution: Solution | FailedSolution) -> Truth:

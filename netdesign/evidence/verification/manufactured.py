@@ -58,14 +58,6 @@ def linear_stress(strain: Vector) -> Vector:
     return 2 * xx + bulk, 2 * yy + bulk, xy
 
 
-def exact_stress(x: Any, y: Any) -> Vector:
-    """Stress of the velocity."""
-    strain = exact_strain(x, y)
-    shape = linear_stress(strain)
-    viscosity = _dot(strain, shape) ** _power(strain)
-    return (shape[0] * viscosity, shape[1] * viscosity, shape[2] * viscosity)
-
-
 def exact_body_force(x: Any, y: Any) -> tuple[Any, Any]:
     """Minus the divergence of the stress."""
     strain = exact_strain(x, y)

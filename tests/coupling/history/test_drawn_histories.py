@@ -134,7 +134,7 @@ def test_demand_on_sliding_ground_does_not_depend_on_the_horizon(seed):
     first, second, third = (demand(scene, days) for days in (10.0, 30.0, 100.0))
     np.testing.assert_allclose(second, first, rtol=0.02)
     np.testing.assert_allclose(third, first, rtol=0.02)
-    # winter.md: allow 5 % over the steady state on sliding ground
+    # FACTS.md, section 12: allow 5 % over the steady state on sliding ground
     over = first / at_rest(scene)
     assert over.min() > 0.97
     assert over.max() < 1.05

@@ -5,7 +5,6 @@ import json
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import search_rows
 from netdesign.evidence.benchmark import envelope
 from netdesign.evidence.benchmark.envelope import (
@@ -14,8 +13,10 @@ from netdesign.evidence.benchmark.envelope import (
     measure_excess,
     run_envelope_bench,
 )
+from netdesign.solving.runner import Runner
 
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+NOT_CLOSED = {94, 123}  # of 200 random rows
 TINY = BenchSize(grid=2, rows=1, missed_scenes=1, missed_grid=2, peaks=1,
                  worker_cases=8, types=1, portfolio=(3, 6))  # fmt: skip
 
@@ -61,7 +62,9 @@ def test_no_case_of_a_grid_exceeds_the_bound(seed):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(200))
 def test_no_case_of_a_dense_grid_exceeds_the_bound(seed):
+    """Nor that of a search which ended for want of cases, and says so."""
     task = build_random_task(seed)
     (found,) = search_rows([task], Runner())
-    if found.gap == "":
-        assert measure_excess(task, found, 15) <= 0.0
+    assert ("could still exceed" in found.gap) is (seed in NOT_CLOSED)
+    assert (found.gap == "") is (seed not in NOT_CLOSED)
+    assert measure_excess(task, found, 15) <= 0.0

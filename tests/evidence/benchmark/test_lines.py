@@ -52,6 +52,45 @@ def test_a_jump_is_told_with_its_place_and_size():
     assert worst["elements"] == [103, 104]
 
 
+@pytest.mark.parametrize(
+    ("pull", "stays"),
+    [
+        (lambda x: 1e3 + (90.0 if x > 0.62 else 0.0), True),
+        (lambda x: 1e3 + 90.0 * max(0.0, x - 0.11), False),
+    ],
+    ids=["jump", "bend"],
+)
+def test_a_jump_stays_where_it_is_closed_in_on(pull, stays, monkeypatch):
+    error = 5.0
+    monkeypatch.setattr(lines, "_build", lambda _base, _parameter, value: value)
+    monkeypatch.setattr(lines, "_solve", lambda value, _: value)
+    monkeypatch.setattr(
+        lines,
+        "_record",
+        lambda place, value, _: Point(
+            place=place, pulls=(1.0, pull(value)), errors=(error, error), elements=7
+        ),
+    )
+    jump = {"place": 3, "end": "head", "over_stated": 4.2, "relative": 0.1}
+    found = lines._close_in(jump, {}, PARAMETERS[0], np.array([0.0, 1.0]), ACCURACY)
+    assert found["place"] == 3
+    if stays:
+        assert found["over_stated"] == pytest.approx(90.0 / (2 * error), rel=1e-12)
+    else:
+        assert found["over_stated"] == pytest.approx(90.0 / 32 / (2 * error), rel=1e-12)
+
+
+def test_a_gap_without_results_leaves_the_jump(monkeypatch):
+    def refuse(*_):
+        raise SolveError(Outcome.DIVERGED, "nowhere")
+
+    monkeypatch.setattr(lines, "_build", lambda _base, _parameter, value: value)
+    monkeypatch.setattr(lines, "_solve", refuse)
+    jump = {"place": 3, "end": "head", "over_stated": 4.2, "relative": 0.1}
+    gap = np.array([0.0, 1.0])
+    assert lines._close_in(jump, {}, PARAMETERS[0], gap, ACCURACY) is jump
+
+
 def test_points_beside_a_refused_one_say_nothing():
     points = points_of([1e3, 1e3, 2e3, 2e3, 2e3])
     assert not find_jumps([*points[:2], *points[3:]])
@@ -64,7 +103,9 @@ def test_each_quantity_goes_through_its_range(number):
     values = parameter.list_values(23)
     assert (values[0], values[-1]) == pytest.approx(parameter.bounds, rel=1e-12)
     assert (np.diff(values) > 0.0).all()
-    scenes = lines._list_scenes(number, 11, parameter, 5)
+    scenes = lines._list_scenes(
+        lines._draw_base(number, 11, parameter), parameter, parameter.list_values(5)
+    )
     assert isinstance(scenes[2], Scene)
     built = [one for one in scenes if isinstance(one, Scene)]
     assert len(set(built)) == len(built)
@@ -162,6 +203,7 @@ def a_line(**changes):
         "solved": 200,
         "refused": 0,
         "jumps": [],
+        "bends": 0,
         "largest_jump": 0.4,
         "ratios": [0.3] * 20,
         "missing": [],

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from netdesign.envelope.adaptive import RESOLVED_SHARE
 from netdesign.evidence.benchmark.peaks import build_peak, measure_peaks, search_peak
+from netdesign.search.maxima import RESOLVED_SHARE
 
 
 def test_a_peak_is_as_wide_at_half_its_height_as_asked():

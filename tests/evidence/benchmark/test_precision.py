@@ -16,7 +16,7 @@ from netdesign.evidence.benchmark.summary import compare_at_error, summarise
 from netdesign.outcome import Outcome
 
 LEAST = Effort(finest=2, repeats=1)
-# Keys that interface.md fixes.
+# Keys that scripts rely on.
 KEYS = {
     *("scene", "method", "path", "elements", "degrees_of_freedom", "wall_s", "error"),
     *("linear_solves", "peak_mb"),

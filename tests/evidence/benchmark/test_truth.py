@@ -3,15 +3,18 @@
 import numpy as np
 import pytest
 
+from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.errors import SolveError
+from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (
     HALVINGS,
     Truth,
     build_truth,
     find_level,
     refine_size,
+    solve_fine,
     solve_truth,
     state_error,
 )
@@ -59,7 +62,7 @@ def test_truth_is_nearer_to_a_finer_solution(a_scene, solved):
     truth = solve_truth(a_scene(), MESH_LEVELS[3], SolverSettings())
     coarse, fine = solved(), solved(first_level=2)
     assert truth.compare(fine) < truth.compare(coarse) / 2
-    # physics.md, section 7: two independent codes
+    # FACTS.md, section 6: two independent codes
     assert np.hypot(*truth.foot) == pytest.approx(309.67e3, rel=3e-4)
     assert 2**HALVINGS == 4
 
@@ -68,3 +71,19 @@ def test_no_truth_without_convergence():
     failed = FailedSolution(outcome=Outcome.DIVERGED, reason="why")
     with pytest.raises(SolveError, match="why"):
         build_truth(failed)
+
+
+def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatch):
+    held = solved()
+
+    def refuse(*_, **__):
+        refusal = SuctionError(0.0517)
+        refusal.held = held
+        raise refusal
+
+    monkeypatch.setattr(truths, "solve_steady", refuse)
+    found = solve_fine(a_scene(), SolverSettings())
+    assert found.compare(held) == 0.0
+    held = None  # left before the finest mesh: no figure to compare with
+    with pytest.raises(SuctionError):
+        solve_fine(a_scene(), SolverSettings())

@@ -46,7 +46,7 @@ def test_history_is_in_balance_with_its_nodes():
 
 def test_steady_run_is_that_of_the_scene():
     run = run_case(find_steady(find_history(0.0)), THIN)
-    assert run.foot == pytest.approx(309.67e3, rel=0.01)  # physics.md, section 7
+    assert run.foot == pytest.approx(309.67e3, rel=0.01)  # FACTS.md, section 6
     assert run.head == pytest.approx(303.41e3, rel=0.01)
     assert run.track is None
 

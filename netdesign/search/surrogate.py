@@ -2,8 +2,8 @@
 
 Universal kriging: a quadratic trend plus a residual whose correlation falls with
 distance. Every solved case is also predicted from all the others; these held-out
-errors set the scale of what the model claims, more so nearby, so that a kink in one
-corner of the ranges widens the claims there. Theory: envelope/THEORY.md.
+errors set the scale of the standard error, more so nearby, so that a kink in one
+corner of the ranges raises it there. Theory: search/THEORY.md, eq. (M1) to (M5).
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ from itertools import combinations_with_replacement
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
+
+Point = tuple[float, ...]  # of the unit cube, each coordinate a share of its range
 
 # Lengths as shares of a range. Beyond CORRELATION the residual of the trend is free;
 # within REACH a held-out error counts in full, far away by FAR_SHARE.
@@ -30,7 +31,7 @@ class Prediction(NamedTuple):
     """What the model says at some places."""
 
     mean: Floats  # shape (n, quantities)
-    claim: Floats  # shape (n, quantities): one standard error, never negative
+    standard_error: Floats  # shape (n, quantities), never negative
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -80,7 +81,7 @@ class Surrogate:
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
         scale = _fade_scores(distances, self.scores[:, chosen])
-        return Prediction(mean=mean, claim=scale * spread[:, None])
+        return Prediction(mean=mean, standard_error=scale * spread[:, None])
 
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
@@ -120,7 +121,7 @@ def fit_surrogate(
 
     Verified by
     -----------
-    tests/envelope/test_surrogate.py
+    tests/search/test_surrogate.py
     """
     distances = _measure_distances(places, places)
     inverse = _invert(_correlate(distances) + _NUGGET * np.eye(len(places)))

@@ -12,7 +12,6 @@ import hashlib
 import json
 import os
 import sqlite3
-import sys
 import zlib
 from collections.abc import Callable, Hashable, Iterable
 from contextlib import suppress
@@ -23,10 +22,10 @@ from types import TracebackType
 from typing import Any
 
 from netdesign import __version__
-from netdesign.envelope.known_search import KnownSearch, decode_search, encode_search
-from netdesign.envelope.state import CaseEnd, decode_end, encode_end
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
+from netdesign.search.known_search import KnownSearch, decode_search, encode_search
+from netdesign.solving.state import CaseEnd, decode_end, encode_end
 
 _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
@@ -46,10 +45,11 @@ def find_store() -> Path:
     given = os.environ.get("NETDESIGN_STORE")
     if given:
         return Path(given)
-    base = os.environ.get("XDG_CACHE_HOME") or (
-        os.environ.get("LOCALAPPDATA") if sys.platform == "win32" else None
-    )
-    return Path(base or Path.home() / ".cache") / "netdesign" / "cases.sqlite"
+    from platformdirs import user_cache_path
+
+    # without an author's folder, or one named Cache, on Windows
+    cache = user_cache_path("netdesign", appauthor=False, opinion=False)
+    return cache / "cases.sqlite"
 
 
 def identify_solver() -> str:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from netdesign.envelope.surrogate import count_trend_terms, fit_surrogate
+from netdesign.search.surrogate import count_trend_terms, fit_surrogate
 
 RNG = np.random.default_rng(5)
 PLACES = RNG.uniform(0.0, 1.0, (24, 3))

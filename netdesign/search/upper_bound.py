@@ -1,8 +1,8 @@
 """The most that several quantities could reach anywhere, as far as a model knows.
 
 The bound is the model's mean and some of its standard errors, wider around cases that
-surprised it. It is looked at on a lattice and around the best cases, then followed
-uphill. Theory: envelope/THEORY.md.
+exceeded it. It is looked at on a lattice and around the best cases, then followed
+uphill. Theory: search/THEORY.md, eq. (M6) and (M7).
 """
 
 from __future__ import annotations
@@ -12,12 +12,9 @@ from dataclasses import dataclass
 from itertools import product, repeat
 
 import numpy as np
-from numpy.typing import NDArray
 
-from netdesign.envelope.surrogate import REACH, Surrogate
-
-Floats = NDArray[np.float64]
-Point = tuple[float, ...]
+from netdesign.numerics.arrays import Floats
+from netdesign.search.surrogate import REACH, Point, Surrogate
 
 # Coordinates are multiples of this share of a range: equal cases have equal keys.
 GRAIN = 1.0 / 64.0
@@ -31,8 +28,8 @@ _MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Surprise:
-    """A case that lay outside what the bound allowed around it."""
+class Inflation:
+    """A wider standard error around a case that the bound did not hold for."""
 
     place: Floats
     ratio: Floats  # error over what was allowed, shape (quantities,)
@@ -82,7 +79,7 @@ def bound_quantities(
     watched: Sequence[int],
     lattice: Floats,
     certainty: float,
-    surprises: Sequence[Surprise],
+    inflations: Sequence[Inflation],
 ) -> Bounds:
     """Largest mean plus ``certainty`` standard errors, and the places near it.
 
@@ -100,8 +97,8 @@ def bound_quantities(
         Of `build_lattice`.
     certainty : float
         Standard errors between mean and bound [-].
-    surprises : sequence of Surprise
-        Cases around which the model claims too little.
+    inflations : sequence of Inflation
+        Around the cases for which the bound did not hold.
 
     Returns
     -------
@@ -113,10 +110,11 @@ def bound_quantities(
     looked_at = np.concatenate([lattice, *map(_surround, np.unique(around, axis=0))])
 
     def reach(at: Floats) -> Floats:
-        mean, claim = model.predict(at, asked)
-        stretch = _stretch(at, surprises, len(best))[:, asked]
+        mean, standard_error = model.predict(at, asked)
+        factor = _inflate(at, inflations, len(best))[:, asked]
         result: Floats = np.full((len(at), len(best)), np.inf)
-        result[:, asked] = mean + certainty * stretch * claim + NOISE * tolerance[asked]
+        likely = mean + certainty * factor * standard_error
+        result[:, asked] = likely + NOISE * tolerance[asked]
         return result
 
     allowed = reach(looked_at)
@@ -152,14 +150,14 @@ def _settle(places: Floats) -> list[Point]:
     return [tuple(place) for place in (np.round(places / GRAIN) * GRAIN).tolist()]
 
 
-def _stretch(at: Floats, surprises: Sequence[Surprise], quantities: int) -> Floats:
-    """How much wider than the model's own claims are around what surprised it."""
-    stretch = np.ones((len(at), quantities))
-    for surprise in surprises:
-        distance = np.linalg.norm(at - surprise.place, axis=1)
+def _inflate(at: Floats, inflations: Sequence[Inflation], quantities: int) -> Floats:
+    """Factor of the standard error at some places, shape (m, quantities) [-]."""
+    factor = np.ones((len(at), quantities))
+    for inflation in inflations:
+        distance = np.linalg.norm(at - inflation.place, axis=1)
         share = np.exp(-((distance / REACH) ** 2))[:, None]
-        stretch = np.maximum(stretch, 1.0 + share * (surprise.ratio - 1.0))
-    return stretch
+        factor = np.maximum(factor, 1.0 + share * (inflation.ratio - 1.0))
+    return factor
 
 
 def _surround(place: Floats) -> Floats:

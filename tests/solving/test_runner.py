@@ -2,12 +2,12 @@
 
 import pytest
 
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.state import encode_end
-from netdesign.envelope.store import CaseStore
-from netdesign.envelope.workers import solve_batch
-from tests.envelope.made_up_workers import Recording
-from tests.envelope.test_workers import build_line
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import encode_end
+from netdesign.solving.store import CaseStore
+from netdesign.solving.workers import solve_batch
+from tests.solving.made_up_workers import Recording
+from tests.solving.test_workers import build_line
 
 LOW, MIDDLE, HIGH, TOP = 10.0, 20.0, 30.0, 40.0  # degrees; the snow sticks from HIGH
 

@@ -11,10 +11,12 @@ from pathlib import Path
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.envelope import workers as workers_module
 from netdesign.envelope.grid import Case
-from netdesign.envelope.state import CaseEnd, encode_end
-from netdesign.envelope.workers import (
+from netdesign.fault import SENTENCE
+from netdesign.outcome import Outcome
+from netdesign.solving import workers as workers_module
+from netdesign.solving.state import CaseEnd, encode_end
+from netdesign.solving.workers import (
     DIED,
     ClusterError,
     DaskCluster,
@@ -24,9 +26,7 @@ from netdesign.envelope.workers import (
     build_workers,
     solve_job,
 )
-from netdesign.fault import SENTENCE
-from netdesign.outcome import Outcome
-from tests.envelope.small_scene import COARSE, build_scene
+from tests.solving.small_scene import COARSE, build_scene
 
 
 class DyingScene(Scene):
@@ -177,7 +177,7 @@ import subprocess
 import sys
 import time
 sys.path[:0] = {path!r}
-from tests.envelope.test_workers import BATCHES, ProcessPool
+from tests.solving.test_workers import BATCHES, ProcessPool
 
 if __name__ == "__main__":
     pool = ProcessPool(2, worth=1)

@@ -1,30 +1,27 @@
-"""A search that is known is repeated, while nothing that it rests on has changed."""
+"""Searches of rows in the store: repeated, while nothing about them has changed."""
 
 import math
 import sqlite3
 from dataclasses import fields, replace
 
-import numpy as np
 import pytest
 
 from netdesign.envelope import search as search_module
-from netdesign.envelope import store as store_module
-from netdesign.envelope.adaptive import Maxima, SearchSettings, Watched
 from netdesign.envelope.grid import Case, Interval
-from netdesign.envelope.known_search import KnownSearch, decode_search, encode_search
 from netdesign.envelope.parameters import Box
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.search import RowTask, search_rows
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.store import CaseStore, name_search
-from netdesign.envelope.surrogate import Surrogate
-from netdesign.envelope.workers import OwnProcess
+from netdesign.envelope.rows import RowTask
+from netdesign.envelope.search import search_rows
 from netdesign.outcome import Outcome
-from tests.envelope.made_up_workers import Spoiling
-from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
-from tests.envelope.synthetic import drive, smooth
+from netdesign.search.maxima import MaximaSearch, SearchSettings
+from netdesign.solving import store as store_module
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.store import CaseStore, name_search
+from netdesign.solving.workers import OwnProcess
+from tests.search.synthetic import assert_same
+from tests.solving.made_up_workers import Spoiling
+from tests.solving.small_scene import COARSE, LAYOUT, build_scene
 
-WATCHED = {0: Watched(), 2: Watched(worth=0.1, floor=3.0)}
 BOX = Box(
     intervals=(
         ("density", Interval(low=250.0, high=400.0)),
@@ -42,88 +39,6 @@ TASK = RowTask(
 
 # Ends at the most cases, with the gap open.
 OPEN = replace(TASK, search=SearchSettings(gap=1e-3, certainty=10.0, max_cases=13))
-
-
-def assert_same(one: Maxima, other: Maxima):
-    """Bit by bit, the model included; NaN predictions of the first design are equal."""
-    assert repr(replace(one, surrogate=None)) == repr(replace(other, surrogate=None))
-    for field in fields(Surrogate):
-        left, right = (getattr(m.surrogate, field.name) for m in (one, other))
-        assert np.array_equal(left, right), field.name
-
-
-def answer(known, response, watched=WATCHED):
-    """End of a repetition whose questions the response answers; the cases asked."""
-    repetition, asked = known.repeat(lambda: watched), []
-    points = next(repetition)
-    while True:
-        asked += points
-        try:
-            points = repetition.send([response(point) for point in points])
-        except StopIteration as end:
-            return end.value, asked
-
-
-@pytest.fixture(scope="module")
-def known():
-    """Search over a made-up response, one case of which failed."""
-    response = smooth(0)
-    found = drive(
-        lambda u: response(u) if tuple(u) != (0.0, 0.5, 1.0) else np.full(3, np.nan), 3
-    )
-    assert None in found.values
-    return KnownSearch(maxima=found, watched=WATCHED)
-
-
-def recall(known, changes=()):
-    values = dict(zip(known.maxima.points, known.maxima.values, strict=True))
-    return (values | dict(changes)).__getitem__
-
-
-def test_a_search_survives_the_way_to_disk_and_back_bit_by_bit(known):
-    back = decode_search(encode_search(known))
-    assert back.watched == known.watched
-    assert_same(back.maxima, known.maxima)
-
-
-def test_equal_answers_to_the_same_questions_give_the_maxima_of_then(known):
-    found, asked = answer(known, recall(known))
-    assert found is known.maxima
-    assert tuple(asked) == known.maxima.points
-
-
-@pytest.mark.parametrize("place", [0, 20, -1])
-@pytest.mark.parametrize("quantity", [0, 2])
-def test_an_answer_that_differs_in_its_last_bit_ends_it(known, place, quantity):
-    point, value = known.maxima.points[place], list(known.maxima.values[place])
-    value[quantity] = math.nextafter(value[quantity], math.inf)
-    found, asked = answer(known, recall(known, {point: tuple(value)}))
-    assert found is None
-    assert asked == list(known.maxima.points[: len(asked)])
-
-
-def test_a_case_that_fails_now_or_no_longer_ends_it(known):
-    failed = known.maxima.points[known.maxima.values.index(None)]
-    for changes in ({failed: (1.0, 1.0, 1.0)}, {known.maxima.points[-1]: None}):
-        assert answer(known, recall(known, changes))[0] is None
-
-
-@pytest.mark.parametrize(
-    "watched",
-    [
-        {0: Watched()},
-        {0: Watched(), 2: Watched(worth=0.1, floor=math.nextafter(3.0, 4.0))},
-        {0: Watched(), 2: Watched(worth=0.0, floor=3.0)},
-    ],
-)
-def test_other_questions_to_the_bounds_end_it(known, watched):
-    assert answer(known, recall(known), watched)[0] is None
-
-
-def test_a_log_that_lacks_cases_never_answers(known):
-    short = replace(known.maxima, log=known.maxima.log[:-1])
-    cut = replace(known, maxima=short)
-    assert answer(cut, recall(known))[0] is None
 
 
 @pytest.mark.parametrize(
@@ -158,12 +73,12 @@ def test_another_text_of_the_program_has_other_names(monkeypatch):
 def test_the_text_of_every_module_counts(tmp_path, monkeypatch):
     """A copy of the package with one more sign in any part is another program."""
     names = set()
-    for place in ("envelope/adaptive.py", "structure/head.py", "guards.py"):
+    for place in ("search/maxima.py", "structure/head.py", "guards.py"):
         root = tmp_path / place
-        for path in ("envelope/adaptive.py", "structure/head.py", "guards.py"):
+        for path in ("search/maxima.py", "structure/head.py", "guards.py"):
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text("#" if path == place else "")
-        monkeypatch.setattr(store_module, "__file__", str(root / "envelope/store.py"))
+        monkeypatch.setattr(store_module, "__file__", str(root / "solving/store.py"))
         store_module._identify.cache_clear()
         names.add(store_module.identify_program())
     store_module._identify.cache_clear()
@@ -192,13 +107,13 @@ class Row:
 @pytest.fixture
 def row(tmp_path, monkeypatch):
     made = Row(tmp_path / "cases.sqlite")
-    real = search_module.search_maxima
 
-    def count(*args):
-        made.searches += 1
-        return real(*args)
+    class Counted(MaximaSearch):
+        def __init__(self, *args):
+            made.searches += 1
+            super().__init__(*args)
 
-    monkeypatch.setattr(search_module, "search_maxima", count)
+    monkeypatch.setattr(search_module, "MaximaSearch", Counted)
     return made
 
 

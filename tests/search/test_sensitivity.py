@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from netdesign.envelope.sensitivity import (
+from netdesign.search.sensitivity import (
     find_crossings,
     measure_sensitivity,
     measure_unexplained,
 )
-from tests.envelope.synthetic import drive
+from tests.search.synthetic import drive
 
 # f = 10 + 4 x + 2 y + 3 (x - 1/2)(z - 1/2): variances 16/12, 4/12, 9/144
 LINEAR = (16.0 / 12.0, 4.0 / 12.0, 0.0)

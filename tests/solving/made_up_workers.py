@@ -2,7 +2,7 @@
 
 from itertools import chain
 
-from netdesign.envelope.workers import OwnProcess
+from netdesign.solving.workers import OwnProcess
 
 
 class Recording(OwnProcess):

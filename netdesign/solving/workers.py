@@ -24,13 +24,13 @@ from typing import Any, Protocol
 
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import RELEASED, FailedSolution, WallSolution
-from netdesign.envelope.state import CaseEnd, keep_state
-from netdesign.envelope.store import identify_solver
 from netdesign.errors import ModelError, NetDesignError, SolveError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
+from netdesign.solving.state import CaseEnd, keep_state
+from netdesign.solving.store import identify_solver
 
 DIED = "a worker process ended abruptly"
 NO_MEMORY = "a worker process had not enough memory"

@@ -6,12 +6,12 @@ import sqlite3
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from netdesign.envelope.known_search import KnownSearch
-from netdesign.envelope.state import CaseEnd
-from netdesign.envelope.store import CaseStore, name_case, name_search
-from netdesign.envelope.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.fault import Fault
 from netdesign.outcome import Outcome
+from netdesign.search.known_search import KnownSearch
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.store import CaseStore, name_case, name_search
+from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
 
 
 @dataclass(slots=True, kw_only=True)

@@ -1,8 +1,8 @@
-"""What drives a force, and where a verdict flips: read from the envelope's own model.
+"""Drivers of a quantity, and where it crosses a level, by the search's own model.
 
 The model is evaluated on a tensor rule, so that nothing is random. The parameters
 count as independent and uniform in their ranges: that is an assumption of the
-indices, not a statement about snow.
+indices, not a statement about snow. Theory: search/THEORY.md, eq. (M9) and (M10).
 """
 
 from __future__ import annotations
@@ -13,12 +13,10 @@ from functools import lru_cache
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
-from netdesign.envelope.adaptive import Maxima, Point
-from netdesign.envelope.surrogate import Surrogate
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
+from netdesign.search.maxima import Maxima
+from netdesign.search.surrogate import Point, Surrogate
 
 # Gauss points per axis: exact for the polynomials of degree 2 n - 1.
 _RULE = {1: 24, 2: 16, 3: 8, 4: 8, 5: 6, 6: 5}
@@ -65,7 +63,7 @@ def measure_sensitivity(
 
     Verified by
     -----------
-    tests/envelope/test_sensitivity.py
+    tests/search/test_sensitivity.py
     """
     model = maxima.surrogate
     if model is None:
@@ -158,8 +156,8 @@ def follow_axis(
 ) -> tuple[Floats, Floats, Floats]:
     """Shares of a parameter, forces and their standard errors along it."""
     shares, line = _draw_line(through, axis, count)
-    mean, claim = model.predict(line, (quantity,))
-    return shares, mean[:, 0], claim[:, 0]
+    mean, standard_error = model.predict(line, (quantity,))
+    return shares, mean[:, 0], standard_error[:, 0]
 
 
 def _draw_line(through: Point, axis: int, count: int) -> tuple[Floats, Floats]:

@@ -4,28 +4,27 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from dataclasses import fields, replace
 
 import numpy as np
 
-from netdesign.envelope.adaptive import Maxima, SearchSettings, search_maxima
+from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings, Values
+from netdesign.search.surrogate import Point, Surrogate
 
 Response = Callable[[np.ndarray], np.ndarray]
 
 
 def drive(response: Response, dimension: int, **settings: float) -> Maxima:
     """End of a search whose questions the response answers; NaN is a failed case."""
-    search = search_maxima(dimension, SearchSettings(**settings))
-    points = next(search)
-    while True:
-        values = [response(np.array(point)) for point in points]
-        answers = [
-            None if np.isnan(value).any() else tuple(map(float, value))
-            for value in values
-        ]
-        try:
-            points = search.send(answers)
-        except StopIteration as end:
-            return end.value
+    search = MaximaSearch(dimension, SearchSettings(**settings))
+    while points := search.ask():
+        search.tell([answer(response, point) for point in points])
+    return search.result
+
+
+def answer(response: Response, point: Point) -> Values | None:
+    value = response(np.array(point))
+    return None if np.isnan(value).any() else tuple(map(float, value))
 
 
 def true_maxima(response: Response, dimension: int, samples: int = 21) -> np.ndarray:
@@ -72,3 +71,11 @@ def peak(seed: int, width: float) -> Response:
         + slope @ u
         + height * np.exp(-np.sum((u - top) ** 2, axis=1) / (2.0 * sigma**2))
     )
+
+
+def assert_same(one: Maxima, other: Maxima):
+    """Bit by bit, the model included; NaN predictions of the first design are equal."""
+    assert repr(replace(one, surrogate=None)) == repr(replace(other, surrogate=None))
+    for field in fields(Surrogate):
+        left, right = (getattr(m.surrogate, field.name) for m in (one, other))
+        assert np.array_equal(left, right), field.name

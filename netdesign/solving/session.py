@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from netdesign.envelope.runner import Runner
-from netdesign.envelope.store import CaseStore, StoreError
-from netdesign.envelope.workers import build_workers
+from netdesign.solving.runner import Runner
+from netdesign.solving.store import CaseStore, StoreError
+from netdesign.solving.workers import build_workers
 
 
 @contextmanager

@@ -8,17 +8,16 @@ hold; anything else is searched anew.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Generator, Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 
-from netdesign.envelope.adaptive import Addition, Maxima, Point, Values, Watched
-from netdesign.envelope.surrogate import fit_surrogate
-
-Repetition = Generator[tuple[Point, ...], Sequence[Values | None], Maxima | None]
+from netdesign.search.maxima import Addition, Maxima, Values, Watched
+from netdesign.search.surrogate import Point, fit_surrogate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -36,25 +35,52 @@ class KnownSearch:
     maxima: Maxima
     watched: Mapping[int, Watched]
 
-    def repeat(self, watch: Callable[[], Mapping[int, Watched]]) -> Repetition:
-        """Ask for the cases again, as ``search_maxima`` would.
 
-        Returns
-        -------
-        Maxima or None
-            None as soon as an answer, or what is watched at last, is another.
+class Repetition:
+    """A known search, asked for again as ``MaximaSearch`` would ask.
 
-        Verified by
-        -----------
-        tests/envelope/test_known_search.py
-        """
-        answers: list[Values | None] = []
-        for _, batch in groupby(self.maxima.log, key=lambda one: one.round):
-            answers += yield tuple(one.point for one in batch)
-            if tuple(answers) != self.maxima.values[: len(answers)]:
-                return None
-        is_same = len(answers) == len(self.maxima.points) and watch() == self.watched
-        return self.maxima if is_same else None
+    Attributes
+    ----------
+    known : KnownSearch
+        What is repeated.
+    gap : float
+        Infinite: no bound stands before the last value has answered as then.
+    result : Maxima or None
+        That of then, at the end; None before, and if a value, or what is watched at
+        last, is another.
+
+    Verified by
+    -----------
+    tests/search/test_known_search.py
+    """
+
+    gap = math.inf
+
+    def __init__(self, known: KnownSearch) -> None:
+        """Begin with the first round."""
+        self.known = known
+        self.result: Maxima | None = None
+        self._values: tuple[Values | None, ...] = ()
+        self._rounds = [
+            tuple(one.point for one in batch)
+            for _, batch in groupby(known.maxima.log, key=lambda one: one.round)
+        ]
+
+    def ask(self) -> tuple[Point, ...]:
+        """Points whose values are wanted next; () at the end."""
+        return self._rounds[0] if self._rounds else ()
+
+    def tell(
+        self, values: Sequence[Values | None], watched: Mapping[int, Watched]
+    ) -> None:
+        """Compare the values at the points asked for; one that differs ends it."""
+        maxima = self.known.maxima
+        self._values += tuple(values)
+        is_same = self._values == maxima.values[: len(self._values)]
+        self._rounds = self._rounds[1:] if is_same else []
+        is_whole = is_same and len(self._values) == len(maxima.points)
+        if is_whole and watched == self.known.watched:
+            self.result = maxima
 
 
 def encode_search(known: KnownSearch) -> str:

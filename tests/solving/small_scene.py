@@ -5,6 +5,7 @@ import math
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.envelope.grid import Case
+from netdesign.envelope.run import CaseResult, CaseTask, run_cases
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout
@@ -13,6 +14,11 @@ COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 LAYOUT = SupportLayout(
     post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
 )
+
+
+def solve_case(task: CaseTask) -> CaseResult:
+    """Result of one case, solved here."""
+    return run_cases([task])[0]
 
 
 def build_scene(case: Case, kind: type[Scene] = Scene) -> Scene:

@@ -1,0 +1,1 @@
+"""The largest values of unknown functions over a box: mathematics only."""

@@ -1,0 +1,407 @@
+"""The largest values of several quantities over a box, with what may still hide.
+
+Knows no solver: it asks for values at points of the unit cube. Coarse to fine: a
+first design, then cases where a quantity could still exceed its maximum under the
+model of ``surrogate.py``; once none can, cases that put that very bound to the test.
+Theory: search/THEORY.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.errors import ModelError
+from netdesign.guards import require_count, require_within
+from netdesign.numerics.arrays import Floats
+from netdesign.search.questions import Question, choose_questions, list_first_design
+from netdesign.search.surrogate import (
+    Point,
+    Prediction,
+    Surrogate,
+    count_trend_terms,
+    fit_surrogate,
+)
+from netdesign.search.upper_bound import (
+    NOISE,
+    Bounds,
+    Inflation,
+    bound_quantities,
+    build_lattice,
+)
+
+Values = tuple[float, ...]
+
+MOST_PARAMETERS = 6
+# The first design sees features at least as wide at half their height, as a share of
+# a range; narrower ones may hide, and every result says so.
+RESOLVED_SHARE = 0.6
+_MOST_INFLATION = 2.0  # more would widen what is dense with cases by now
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SearchSettings:
+    """How closely the maxima are bounded; pure numbers, printed in every result.
+
+    Attributes
+    ----------
+    gap : float
+        Most that the upper bound may lie above the maximum found, as a share of it.
+    certainty : float
+        Standard errors between the model's mean and the upper bound.
+    tests : int
+        Batches of held-out cases in turn that the model must predict well, at the
+        places where it could be wrong most dearly, before the search ends.
+    small_share : float
+        Quantities below this share of the largest one are bounded to the same
+        absolute gap as at that share. A small guy force is a difference of large
+        ones: its numerical error is a share of those, and so may be its gap.
+    batch : int
+        Cases per round; not the number of workers, so that results do not depend
+        on that.
+    max_cases : int
+        The search ends there with whatever gap is left, and says so.
+    """
+
+    gap: float = 0.005
+    certainty: float = 3.0
+    tests: int = 2
+    small_share: float = 0.2
+    batch: int = 6
+    max_cases: int = 250
+
+    def __post_init__(self) -> None:
+        """Refuse settings that would certify anything."""
+        require_within("gap", self.gap, 1e-4, 0.5)
+        require_within("certainty", self.certainty, 1.0, 10.0)
+        require_within("small share", self.small_share, 0.0, 1.0)
+        for name in ("tests", "batch", "max_cases"):
+            require_count(name.replace("_", " "), getattr(self, name))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Watched:
+    """Demands on the bound of one quantity, in its unit.
+
+    Attributes
+    ----------
+    resolution : float
+        Closest gap that is worth a case: nobody bounds a quantity closer than its
+        cases are accurate.
+    floor : float
+        Below it the quantity does not matter, since another one is as large already.
+    """
+
+    resolution: float = 0.0
+    floor: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Addition:
+    """One line of the densification log: a case, why, and what the model expected.
+
+    ``predicted``, its ``standard_error`` and ``found`` are of the quantity that asked
+    for the case, in its unit; NaN predictions belong to the first design, a NaN
+    ``found`` to a case that failed.
+    """
+
+    point: Point
+    round: int
+    reason: str  # "first design", "could exceed", "test"
+    quantity: int
+    predicted: float
+    standard_error: float
+    found: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Maxima:
+    """End of a search.
+
+    Attributes
+    ----------
+    points : tuple of Point
+        All cases asked for, in order; shares of the ranges.
+    values : tuple of Values or None
+        Their answers; None for a failed case.
+    maximum, upper_bound : tuple of float
+        Of each quantity: largest value found, and largest value that the model
+        allows anywhere in the box, 0 where all are negative; infinite for a
+        quantity that was not watched. Empty if no case succeeded.
+    governing : tuple of int
+        Place of each maximum in ``points``; of equals the least point.
+    is_closed : bool
+        Every gap is within the settings and the bound passed its tests.
+    log : tuple of Addition
+        Why each case was solved.
+    surrogate : Surrogate or None
+        Last model; None where there were too few cases for one.
+    """
+
+    points: tuple[Point, ...]
+    values: tuple[Values | None, ...]
+    maximum: tuple[float, ...]
+    upper_bound: tuple[float, ...]
+    governing: tuple[int, ...]
+    is_closed: bool
+    log: tuple[Addition, ...]
+    surrogate: Surrogate | None
+
+
+class MaximaSearch:
+    """Search of several quantities until each maximum is bounded.
+
+    It asks, and is told: ``while points := search.ask(): search.tell(values)``. The
+    same for the same values, whoever computed them in whatever order.
+
+    Attributes
+    ----------
+    settings : SearchSettings
+        When it ends.
+    points, values : tuple
+        All cases told so far, in the order in which they were asked for.
+    log : list of Addition
+        Why each of them was asked for.
+    gap : float
+        Largest gap left after the last round, over its quantity [-].
+    result : Maxima or None
+        End of the search; None while it goes on.
+
+    Verified by
+    -----------
+    tests/search/test_maxima.py
+    """
+
+    def __init__(self, dimension: int, settings: SearchSettings) -> None:
+        """Begin with the first design.
+
+        Parameters
+        ----------
+        dimension : int
+            Number of parameters, 1 to 6.
+        settings : SearchSettings
+            When to end.
+
+        Raises
+        ------
+        ModelError
+            For a number of parameters that is not within 1 to 6.
+        """
+        if not 1 <= dimension <= MOST_PARAMETERS:
+            raise ModelError(
+                f"{dimension} parameters: an envelope takes 1 to {MOST_PARAMETERS}"
+            )
+        self.settings = settings
+        self.points: tuple[Point, ...] = ()
+        self.values: tuple[Values | None, ...] = ()
+        self.log: list[Addition] = []
+        self.gap = math.inf
+        self.result: Maxima | None = None
+        self._lattice = build_lattice(dimension)
+        self._asked = [Question(point, 0) for point in list_first_design(dimension)]
+        self._model: Surrogate | None = None
+        self._bounds: Bounds | None = None  # these led to the questions
+        self._passed = 0  # tests in turn
+        self._inflations: list[Inflation] = []
+
+    def ask(self) -> tuple[Point, ...]:
+        """Points whose values are wanted next; () once the search has ended.
+
+        Each coordinate is a share of its range, 0 to 1. Asked again before the values
+        are told, the points are the same.
+        """
+        return tuple(one.point for one in self._asked)
+
+    def tell(
+        self,
+        values: Sequence[Values | None],
+        watched: Mapping[int, Watched] | None = None,
+    ) -> None:
+        """Take the values at the points asked for, and decide what to ask next.
+
+        Parameters
+        ----------
+        values : sequence of Values or None
+            One a point, in their order: a number for each quantity, in its unit; None
+            where a case failed.
+        watched : mapping of int to Watched, optional
+            Quantities that have to be bounded, by their place, and how closely; the
+            others are modelled along. All of them unless told otherwise.
+
+        Raises
+        ------
+        ModelError
+            If these are not as many values as points, or the search has ended.
+        """
+        if not self._asked or len(values) != len(self._asked):
+            raise ModelError(
+                f"{len(values)} values for the {len(self._asked)} points asked for"
+            )
+        expected = self._predict()
+        self._note(values, expected)
+        if self._bounds is not None:
+            self._test(values, expected, self._bounds)
+        self.points += self.ask()
+        self.values += tuple(values)
+        self._asked = self._choose(watched)
+        if not self._asked:
+            self.result = self._finish()
+
+    def _predict(self) -> Prediction:
+        """Prediction of what was asked for; NaN of the first design."""
+        if self._model is None:
+            nothing = np.full((len(self._asked), 1), np.nan)
+            return Prediction(mean=nothing, standard_error=nothing)
+        return self._model.predict(np.array(self.ask()))
+
+    def _note(self, values: Sequence[Values | None], expected: Prediction) -> None:
+        """Log the questions with what was expected and what was found."""
+        number = self.log[-1].round + 1 if self.log else 0
+        for k, (one, value) in enumerate(zip(self._asked, values, strict=True)):
+            self.log.append(
+                Addition(
+                    point=one.point,
+                    round=number,
+                    reason=self._reason,
+                    quantity=one.quantity,
+                    predicted=float(expected.mean[k, one.quantity]),
+                    standard_error=float(expected.standard_error[k, one.quantity]),
+                    found=math.nan if value is None else value[one.quantity],
+                )
+            )
+
+    @property
+    def _reason(self) -> str:
+        if self._bounds is None:
+            return "first design"
+        return "test" if self._bounds.is_closed else "could exceed"
+
+    def _test(
+        self, values: Sequence[Values | None], expected: Prediction, bounds: Bounds
+    ) -> None:
+        """Test the bounds by cases that they did not know: they must have held."""
+        errors = _measure_errors(values, expected.mean, bounds.watched)
+        allowed = np.maximum(
+            self.settings.certainty * expected.standard_error, bounds.tolerance / 2.0
+        )
+        has_passed = bounds.is_closed and bool(np.all(errors <= allowed))
+        self._passed = self._passed + 1 if has_passed else 0
+        self._inflations += [
+            Inflation(place=np.array(point), ratio=np.minimum(ratio, _MOST_INFLATION))
+            for point, ratio in zip(self.ask(), errors / allowed, strict=True)
+            if np.any(ratio > 1.0)
+        ]
+
+    def _choose(self, watched: Mapping[int, Watched] | None) -> list[Question]:
+        """Next questions; none at the end of the search."""
+        solved = [k for k, value in enumerate(self.values) if value is not None]
+        if len(solved) <= count_trend_terms(self._lattice.shape[1]):
+            return []  # too few cases for a model
+        places = np.array([self.points[k] for k in solved])
+        values = np.array([self.values[k] for k in solved])
+        if watched is None:
+            watched = dict.fromkeys(range(values.shape[1]), Watched())
+        self._model, self._bounds = self._bound(places, values, watched)
+        self.gap = self._bounds.gap * self.settings.gap
+        return [] if self._is_tested else self._list_questions(self._bounds)
+
+    def _bound(
+        self, places: Floats, values: Floats, watched: Mapping[int, Watched]
+    ) -> tuple[Surrogate, Bounds]:
+        """Model of the cases solved so far, and what it allows."""
+        tolerance = _set_tolerance(values, self.settings, watched)
+        model = fit_surrogate(places, values, NOISE * tolerance)
+        return model, bound_quantities(
+            model,
+            values,
+            best=_find_best(values, watched),
+            tolerance=tolerance,
+            watched=list(watched),
+            lattice=self._lattice,
+            certainty=self.settings.certainty,
+            inflations=self._inflations,
+        )
+
+    def _list_questions(self, bounds: Bounds) -> list[Question]:
+        room = max(0, self.settings.max_cases - len(self.points))
+        return choose_questions(bounds, self.points, self.settings.batch, room)
+
+    @property
+    def _is_tested(self) -> bool:
+        """The bounds are close enough, and have held for all tests in turn."""
+        is_closed = self._bounds is not None and self._bounds.is_closed
+        return is_closed and self._passed >= self.settings.tests
+
+    @property
+    def _is_closed(self) -> bool:
+        """Whether the maxima count as bounded, at the end of the search.
+
+        That also where no case is left that could test them, unless for lack of room.
+        """
+        is_closed = self._bounds is not None and self._bounds.is_closed
+        has_room = len(self.points) < self.settings.max_cases
+        return is_closed and (self._is_tested or has_room)
+
+    def _finish(self) -> Maxima:
+        governing = _find_governing(self.points, self.values)
+        maximum = tuple((self.values[k] or ())[q] for q, k in enumerate(governing))
+        bounds = self._bounds
+        return Maxima(
+            points=self.points,
+            values=self.values,
+            maximum=maximum,
+            upper_bound=maximum if bounds is None else tuple(bounds.upper.tolist()),
+            governing=governing,
+            is_closed=self._is_closed,
+            log=tuple(self.log),
+            surrogate=self._model,
+        )
+
+
+def _measure_errors(
+    values: Sequence[Values | None], mean: Floats, watched: Sequence[int]
+) -> Floats:
+    """Errors of predictions, shape (batch, quantities).
+
+    A failed case has none, and neither has a quantity that is not watched.
+    """
+    errors = np.zeros_like(mean)
+    for k, value in enumerate(values):
+        if value is not None:
+            errors[k] = np.abs(np.array(value) - mean[k])
+    errors[:, [q for q in range(mean.shape[1]) if q not in watched]] = 0.0
+    return errors
+
+
+def _find_best(values: Floats, watched: Mapping[int, Watched]) -> Floats:
+    """Least value by which a quantity matters; a negative force is none."""
+    floors = [watched.get(q, Watched()).floor for q in range(values.shape[1])]
+    result: Floats = np.maximum(values.max(axis=0), np.maximum(floors, 0.0))
+    return result
+
+
+def _set_tolerance(
+    values: Floats, settings: SearchSettings, watched: Mapping[int, Watched]
+) -> Floats:
+    """Gap that each quantity may keep, in its unit: search/THEORY.md, eq. (M8)."""
+    best = _find_best(values, watched)
+    scale = np.maximum(best, settings.small_share * best.max())
+    closest = [watched.get(q, Watched()).resolution for q in range(values.shape[1])]
+    tolerance = np.maximum(settings.gap * scale, closest)
+    result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
+    return result
+
+
+def _find_governing(
+    points: Sequence[Point], values: Sequence[Values | None]
+) -> tuple[int, ...]:
+    """Place of each quantity's largest value; of equals the least point."""
+    solved = {k: value for k, value in enumerate(values) if value is not None}
+    quantities = len(next(iter(solved.values()), ()))
+    return tuple(
+        min(solved, key=lambda k: (-solved[k][quantity], points[k]))
+        for quantity in range(quantities)
+    )

@@ -1,0 +1,51 @@
+"""The names that ``from netdesign import ...`` gives."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import netdesign
+
+PUBLIC = Path(netdesign.__file__).with_name("public.py")
+
+
+def test_the_list_of_names_is_that_of_the_module_that_imports_them():
+    imported = {
+        alias.asname
+        for node in ast.walk(ast.parse(PUBLIC.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    assert imported == set(netdesign.__all__)
+    assert sorted(netdesign.__all__) == list(netdesign.__all__)
+
+
+@pytest.mark.parametrize("name", netdesign.__all__)
+def test_a_public_name_is_found_documented_and_listed(name):
+    found = getattr(netdesign, name)
+    assert found.__name__ == name
+    assert found.__doc__
+    assert name in dir(netdesign)
+
+
+def test_an_unknown_name_is_refused():
+    with pytest.raises(AttributeError, match="'netdesign' has no attribute 'solve'"):
+        _ = netdesign.solve
+
+
+def test_a_solver_is_loaded_only_when_a_public_name_is_asked_for():
+    probe = (
+        "import sys, netdesign\n"
+        "assert 'Scene' in dir(netdesign) and not hasattr(netdesign, 'wrong')\n"
+        "from netdesign import errors\n"
+        "print('numpy' in sys.modules)\n"
+        "from netdesign import Scene, solve_steady\n"
+        "print('numpy' in sys.modules)\n"
+    )
+    printed = subprocess.run(
+        [sys.executable, "-c", probe], capture_output=True, text=True, check=True
+    )
+    assert printed.stdout.split() == ["False", "True"]
