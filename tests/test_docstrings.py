@@ -52,7 +52,7 @@ def sections(docstring: str) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     lines = inspect.cleandoc(docstring).splitlines()
     heading = ""
-    for line, following in zip(lines, [*lines[1:], ""], strict=True):
+    for line, following in zip(lines, [*lines, ""][1:], strict=True):
         if line and re.fullmatch("-{3,}", following):
             heading = line
             found[heading] = []
@@ -231,6 +231,40 @@ def test_docstrings_of_the_numerical_rooms_begin_with_their_noun(module):
         if AROUND_THE_NOUN.match(docstring)
     ]
     assert found == []
+
+
+def refuses(node: ast.FunctionDef) -> bool:
+    """The function raises, or calls a guard, and its docstring does not say so."""
+    calls = {one.func.id for one in ast.walk(node) if is_call(one)}
+    raises = any(isinstance(one, ast.Raise) and one.exc for one in ast.walk(node))
+    guarded = any(name.lstrip("_").startswith("require_") for name in calls)
+    documented = "Raises" in sections(ast.get_docstring(node) or "")
+    return (raises or guarded) and not documented
+
+
+def is_call(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+
+
+@pytest.mark.parametrize(
+    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
+)
+def test_functions_of_the_numerical_rooms_tell_what_they_refuse(module):
+    found = [
+        name
+        for name, node in public(MODULES[module])
+        if isinstance(node, ast.FunctionDef) and refuses(node)
+    ]
+    assert found == []
+
+
+def test_a_refusal_that_is_not_told_is_found():
+    source = "def f(a):\n    require_positive('a', a)\ndef g():\n    raise ValueError\n"
+    told = (
+        'def h():\n    """H.\n\n    Raises\n    ------\n    E\n    """\n    raise E\n'
+    )
+    functions = ast.parse(source + told + "def k():\n    f()\n").body
+    assert [refuses(node) for node in functions] == [True, True, False, False]
 
 
 def test_a_silent_number_is_found():

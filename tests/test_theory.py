@@ -200,6 +200,13 @@ def test_tables_of_the_verification_cite_what_there_is():
     assert list_cited(page, every_word=False) - LABELS == set()
 
 
+def test_every_file_of_the_verification_has_its_table():
+    folder = ROOT / "tests" / "verification"
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    named = re.findall(r"^\| \*\*(test_\w+\.py)\*\* \|", page, re.M)
+    assert sorted(named) == sorted(path.name for path in folder.glob("test_*.py"))
+
+
 @pytest.mark.parametrize("room", PAGES)
 def test_constants_are_what_the_page_says(room):
     for name, printed in CONSTANT.findall(PAGES[room]):

@@ -128,6 +128,11 @@ def compute_tensions(
     -------
     ndarray, shape (n + 1,)
         T_i, at least 0 [N/m].
+
+    Raises
+    ------
+    ModelError
+        If a length or the stiffness is not above 0.
     """
     require_lengths("unstressed length", unstressed_lengths)
     require_positive("net stiffness", stiffness, "N/m")
@@ -184,6 +189,11 @@ def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
     ndarray, shape (n,)
         kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
         Infinite where beta / 2 + phi reaches a right angle: no ratio slides there.
+
+    Raises
+    ------
+    ModelError
+        If the friction is out of its range.
 
     Validity
     --------

@@ -77,7 +77,13 @@ def find_imperfection(curve: str) -> Datum:
 
 
 def pick(what: str, name: str, known: dict[str, Any]) -> Any:
-    """Entry of a table; an unknown name is refused with the nearest ones."""
+    """Entry of a table; an unknown name is refused with the nearest ones.
+
+    Raises
+    ------
+    ModelError
+        With the nearest known names.
+    """
     if name in known:
         return known[name]
     raise ModelError(f"{what} = {name!r}: must be one of {_list(name, known)}")

@@ -150,6 +150,11 @@ def build_template(
     interfaces : tuple of float
         Heights between layers over the thickness, ascending [-]; no triangle
         crosses them.
+
+    Raises
+    ------
+    ModelError
+        If the aspect is out of its range.
     """
     require_within("upslope length over thickness", aspect, 0.25, 200.0)
     columns = _column_places(aspect, size)

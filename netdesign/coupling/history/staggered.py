@@ -118,6 +118,11 @@ def solve_staggered(
     Solution or FailedSolution
         ``error`` is that of the step, not of the mesh.
 
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
     Verified by
     -----------
     tests/coupling/history/test_staggered.py, ``netdesign verify``

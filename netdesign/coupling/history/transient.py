@@ -153,6 +153,11 @@ def solve_transient(
         ``history``. A history whose plateau is not reached, or is left again, says so
         and proves nothing.
 
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
     Verified by
     -----------
     tests/coupling/history/test_transient.py, ``netdesign verify``

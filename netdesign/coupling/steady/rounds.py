@@ -125,6 +125,11 @@ def solve_steady(
         The error of each end pull is estimated from two meshes. If the finest mesh
         does not reach the accuracy asked for, the error says so.
 
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
     Verified by
     -----------
     tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
