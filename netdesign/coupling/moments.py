@@ -10,20 +10,17 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 
-# On a plateau, per e-fold of time: end pulls change by less than the first share of
-# their size, node forces by less than the second of the largest of them; the net goes
-# across itself less than the third share of the way it has gone, or less than the
-# fourth of the snow thickness. It begins once the snow has crept by the last figure
-# on average: earlier, nothing has had time to change; much later it is other snow,
-# which has settled and gathered at the net.
-PULL_DRIFT = 0.05
-NODE_DRIFT = 0.10
-REST_SHARE = 0.2
-REST_WAY = 2e-3
+# Plateau, each per e-fold of time (coupling/THEORY.md, section 6).
+PULL_DRIFT = 0.05  # change of an end pull, over its size
+NODE_DRIFT = 0.10  # change of a node force, over the largest of them
+REST_SHARE = 0.2  # way of the net across itself, over its way so far
+REST_WAY = 2e-3  # or over the snow thickness
+# Mean creep strain from which a plateau may begin: earlier, nothing has had time to
+# change.
 LEAST_STRAIN = 0.004
-# Pulls count from the first creep strain, when a net that hung at rest has taken up
-# the history's own corners and friction, until the second: then the snow still is the
-# scene's.
+# Mean creep strains from which and until which pulls count. At the first, a net that
+# hung at rest has taken up the history's own corners and friction. Until the second the
+# snow still is the scene's.
 START_STRAIN, COUNTED_STRAIN = 1e-3, 0.01
 _EFOLDS = 1.0  # for so long
 CRITERION = (

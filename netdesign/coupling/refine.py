@@ -30,7 +30,7 @@ class Estimate(NamedTuple):
 
 
 class Looseness(NamedTuple):
-    """Looseness with which its supports hold the snow.
+    """Looseness of the snow on its supports.
 
     Attributes
     ----------

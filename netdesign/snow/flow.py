@@ -51,8 +51,8 @@ from netdesign.snow.law import (
 )
 from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
 
-# What a Newton step leaves: a share of itself where contacts still change over, else
-# a multiple of its square (measured on random scenes: 95 % stay below the sum).
+# Error that a Newton step leaves, (N16): a share of the step where contacts still
+# change, else a multiple of its square (measured on random scenes: 95 % stay below).
 _LINEAR_PART, _SQUARE_FACTOR = 0.05, 50.0
 # After so many steps only some contacts change, after twice as many one at a time.
 _PATIENCE = 12

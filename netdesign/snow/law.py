@@ -57,7 +57,7 @@ class FlowLayer:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlowProblem:
-    """Creep, ground and friction of one scene.
+    """One instant of flow: creep, gravity, ground, contacts and end load.
 
     Attributes
     ----------

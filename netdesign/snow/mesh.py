@@ -23,21 +23,22 @@ from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 
-# Radii of rings are powers of equal steps: what a triangle near a singular point adds
-# to the forces falls with its size. Depth over width of the outermost triangles; the
-# largest radius, and the share of the distance between layers' sides that it may take.
+# Radii of rings are powers of equal steps: the forces that a triangle near a singular
+# point adds fall with its size. Then depth over width of the outermost triangles.
 _RING_POWER, _RING_DEPTH = 4.0, 1.8
+# Largest radius, and the share of the distance between layers' sides that it may take.
 _RING_RADIUS, _RING_GAP = 0.45, 0.4
-# Sizes over distances from an end times sectors, and how fast columns widen likewise.
+# Both over the sectors: size of triangles over their distance from an end, and what a
+# column is wider than its neighbour.
 _RING_SHARE, _GROWTH = 1.8, 1.6
-_CLEARANCE = 1.3  # other points keep this many ring reaches away
+_CLEARANCE = 1.3  # other points keep this many ring radii away
 _BESIDE = _CLEARANCE * _RING_RADIUS
 _LEAST_ROWS = 2  # of triangles in each layer
 _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
 # columns widen with it. Along layers triangles may be long from nearer on.
 _FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
-# A short snowpack's upslope end on ground that holds it is felt at the net: columns of
+# Ground that holds a short snowpack makes its upslope end felt at the net. Columns take
 # at most this share of the length, over the sectors.
 _END_SHARE = 0.5
 NET_FOLLOWED = 3.0  # upslope of this many thicknesses the mesh does not follow the net

@@ -67,9 +67,9 @@ _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
 # How far a net that was found on a coarser mesh may still move.
 _REFINED = 4e-3
-# A corrected round tells apart what its step and what the flow has left.
+# Flows of corrected rounds leave this much less, so that a miss is the step's own.
 _CORRECTED = 0.1
-# The first mesh is only compared with the next, whose error is far larger.
+# Iterations on the first mesh may leave more: it is only compared with the next.
 _FIRST_MESH = 5.0
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
