@@ -3,7 +3,7 @@
 import math
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.model import (
     MEMBER_MODES,
     InputEcho,
@@ -22,7 +22,7 @@ RUN = CheckRun(
     command="netdesign check site.xlsx",
     started="2026-01-02T03:04:05+00:00",
 )
-RANGES = Ranges(
+RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0, count=2),
     friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=2),
     inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),

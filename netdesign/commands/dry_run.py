@@ -83,7 +83,7 @@ def _predict(phases: Sequence[Phase], of_case: float) -> float:
 
 def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
     """Seconds of one case on this machine: the middle of the ranges, for some rows."""
-    from netdesign.envelope.grid import Interval, Ranges
+    from netdesign.envelope.ranges import Interval, Ranges
     from netdesign.study.cases import solve_site
 
     def middle(interval: Interval) -> Interval:
@@ -91,9 +91,7 @@ def _measure_case(site: Site, run: CheckRun, runner: Runner) -> float:
         return Interval(low=value, high=value, count=1)
 
     ranges = Ranges(
-        density=middle(site.ranges.density),
-        friction_angle=middle(site.ranges.friction_angle),
-        inclination=middle(site.ranges.inclination),
+        intervals=tuple((name, middle(one)) for name, one in site.ranges.intervals)
     )
     rows = site.rows[:: max(1, len(site.rows) // _TIMED_ROWS)]
     steady = replace(run, jobs=1, method="steady")

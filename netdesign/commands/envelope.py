@@ -26,7 +26,7 @@ from netdesign.commands.solving import follow_runner, solving_options
 if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
     from netdesign.edge.progress import Phase, RunProgress
-    from netdesign.envelope.parameters import Box
+    from netdesign.envelope.ranges import Ranges
     from netdesign.envelope.rows import RowTask
     from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
@@ -96,7 +96,7 @@ def envelope(
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.edge.progress import show_phases
-    from netdesign.envelope.parameters import require_valid
+    from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene
     from netdesign.solving.session import open_runner
     from netdesign.solving.store import find_store
@@ -104,8 +104,8 @@ def envelope(
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
     scene, _ = read_scene(scene_file, "steady")
-    box = _build_box(given)
-    require_valid(scene, box)
+    spans = _build_ranges(given)
+    require_valid(scene, spans)
     paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
     require_free(paths, overwrite=force)
     start = time.perf_counter()
@@ -119,7 +119,9 @@ def envelope(
         show_phases(_list_phases(given, confirm), quiet=quiet) as progress,
     ):
         follow_runner(progress, runner)
-        task = _build_task(scene, _read_confirming(scene_file, confirm), box, accuracy)
+        task = _build_task(
+            scene, _read_confirming(scene_file, confirm), spans, accuracy
+        )
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
@@ -169,16 +171,16 @@ def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
     return [*phases, Phase(key="outputs", words="outputs", cases=0)]
 
 
-def _build_box(given: dict[str, GivenRange]) -> Box:
-    from netdesign.envelope.grid import Interval
-    from netdesign.envelope.parameters import PARAMETERS, Box
+def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
+    from netdesign.envelope.parameters import PARAMETERS
+    from netdesign.envelope.ranges import Interval, Ranges
     from netdesign.units import radian_from_degree
 
     def convert(name: str, value: float) -> float:
         is_angle = PARAMETERS[name].key.endswith("_deg")
         return radian_from_degree(value) if is_angle else value
 
-    return Box(
+    return Ranges(
         intervals=tuple(
             (
                 name,
@@ -194,7 +196,7 @@ def _build_box(given: dict[str, GivenRange]) -> Box:
 
 
 def _build_task(
-    scene: Scene, confirming: Settings | None, box: Box, accuracy: float
+    scene: Scene, confirming: Settings | None, ranges: Ranges, accuracy: float
 ) -> RowTask:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.envelope.rows import RowTask, refine_settings
@@ -204,7 +206,7 @@ def _build_task(
     is_mesh = isinstance(confirming, SolverSettings)
     return RowTask(
         scene=scene,
-        box=box,
+        ranges=ranges,
         layout=None,
         settings=settings,
         search=SearchSettings(gap=accuracy),
@@ -234,7 +236,7 @@ def _sample(
 
     grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
-    return write_grid_document(task.box, grid, runner.counts, elapsed)
+    return write_grid_document(grid, runner.counts, elapsed)
 
 
 def _search(

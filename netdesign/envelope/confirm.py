@@ -50,7 +50,7 @@ def confirm_rows(
         for place in find_governing(of_row)
     ]
     histories = run_cases(
-        [replace(tasks[row][place], settings=settings) for row, place in places],
+        [tasks[row][place].solved_by(settings) for row, place in places],
         runner=runner,
     )
     confirmed = [list(of_row) for of_row in results]

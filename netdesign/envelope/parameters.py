@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from itertools import product
 from types import MappingProxyType
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.grid import Case, Interval
 from netdesign.errors import ModelError
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
@@ -80,62 +78,6 @@ _ROWS = (
 PARAMETERS: Mapping[str, Parameter] = MappingProxyType({p.name: p for p in _ROWS})
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Box:
-    """Ranges of some parameters around a scene; the others stay as the scene has them.
-
-    Attributes
-    ----------
-    intervals : tuple of (str, Interval)
-        Name and range (SI units) of each parameter, in the order of ``PARAMETERS``;
-        an interval of one value is no free axis.
-    """
-
-    intervals: tuple[tuple[str, Interval], ...]
-
-    def __post_init__(self) -> None:
-        """Refuse unknown and repeated names, and keep one order."""
-        names = [name for name, _ in self.intervals]
-        known = [name for name in PARAMETERS if name in names]
-        if sorted(names) != sorted(known):
-            raise ModelError(
-                f"ranges of {', '.join(names)}: accepted are {', '.join(PARAMETERS)}, "
-                "each once"
-            )
-        order = list(PARAMETERS)
-        ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
-        object.__setattr__(self, "intervals", tuple(ranked))
-
-    @property
-    def axes(self) -> tuple[str, ...]:
-        """Names of the parameters that do range."""
-        return tuple(name for name, span in self.intervals if span.low < span.high)
-
-    def place(self, point: Sequence[float]) -> dict[str, float]:
-        """Value of every parameter at a point of the unit cube over ``axes``."""
-        shares = dict(zip(self.axes, point, strict=True))
-        return {
-            name: (1.0 - shares.get(name, 0.0)) * span.low
-            + shares.get(name, 0.0) * span.high
-            for name, span in self.intervals
-        }
-
-
-def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
-    """Case of a scene with some values of its own."""
-    net = scene.net
-    if not isinstance(net, Net):
-        raise ModelError("net: a rigid wall has no envelope; it needs a net of cables")
-    base = {
-        "density": scene.snowpack.density,
-        "friction_angle": net.friction_angle,
-        "inclination": net.inclination,
-    }
-    given = {key: values.get(key, value) for key, value in base.items()}
-    others = tuple((key, value) for key, value in values.items() if key not in base)
-    return Case(**given, others=others)
-
-
 def place_scene(scene: Scene, values: Mapping[str, float]) -> Scene:
     """Scene with some values changed.
 
@@ -148,24 +90,3 @@ def place_scene(scene: Scene, values: Mapping[str, float]) -> Scene:
         if name in values:
             scene = parameter.put(scene, values[name])
     return scene
-
-
-def require_valid(scene: Scene, box: Box) -> None:
-    """Refuse a box of which a corner or the centre is outside the model.
-
-    Raises
-    ------
-    ModelError
-        With every distinct reason.
-    """
-    count = len(box.axes)
-    reasons: dict[str, None] = {}
-    for point in [*product((0.0, 1.0), repeat=count), (0.5,) * count]:
-        if point == (0.5,) * count and reasons:
-            continue  # a corner has said why already
-        try:
-            place_scene(scene, box.place(point))
-        except ModelError as error:
-            reasons.setdefault(str(error))
-    if reasons:
-        raise ModelError("\n".join(reasons))

@@ -14,8 +14,8 @@ from netdesign.envelope.extremes import (
     find_extreme,
     find_extremes,
 )
-from netdesign.envelope.grid import Case
-from netdesign.envelope.parameters import Box, build_case, place_scene
+from netdesign.envelope.parameters import place_scene
+from netdesign.envelope.ranges import Case, Ranges, build_case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
 from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.search.surrogate import Point
@@ -34,8 +34,8 @@ class RowTask:
     Attributes
     ----------
     scene : Scene
-        Holds whatever the box leaves alone.
-    box : Box
+        Holds whatever the ranges leaves alone.
+    ranges : Ranges
         Ranges.
     layout : SupportLayout or None
         Support of the net; None follows the net's own tensions per metre.
@@ -46,12 +46,12 @@ class RowTask:
     confirmed_by : Settings or None
         How the governing cases are solved again; None leaves that out.
     build : callable or None
-        Scene of a case, where the values of the box cannot be put into ``scene`` one
+        Scene of a case, where the values of the ranges cannot be put into ``scene`` one
         by one.
     """
 
     scene: Scene
-    box: Box
+    ranges: Ranges
     layout: SupportLayout | None
     settings: SolverSettings
     search: SearchSettings
@@ -153,7 +153,7 @@ class RowEnvelope:
         )
 
     def bound(self, member: str) -> Band:
-        """Largest force of a member over the whole box, with everything unsure.
+        """Largest force of a member over the whole ranges, with everything unsure.
 
         The band's upper end adds what may hide between the cases.
         """
@@ -192,8 +192,8 @@ def refine_settings(settings: SolverSettings) -> SolverSettings:
 def build_point_task(
     task: RowTask, point: Point, settings: Settings | None = None
 ) -> CaseTask:
-    """Task of one point of a row's box; the row's settings unless others are given."""
-    values = task.box.place(point)
+    """Task of a point of a row's ranges; the row's settings unless others are given."""
+    values = task.ranges.place(point)
     return build_task(
         build_case(task.scene, values),
         task.build or (lambda _: place_scene(task.scene, values)),

@@ -8,7 +8,7 @@ from functools import partial
 
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
@@ -26,16 +26,18 @@ from netdesign.structure.layout import SupportLayout, SupportPoints, place_suppo
 class CaseTask:
     """Everything that a worker needs for one case.
 
-    ``scene`` is None where the model refuses the case; ``refusal`` says why. Without
-    a ``layout`` the net's own tensions are followed, per metre of width. The kind of
-    settings chooses steady state or history.
+    ``job`` is None where the model refuses the case; ``refusal`` says why. Without
+    a ``layout`` the net's own tensions are followed, per metre of width.
     """
 
     case: Case
-    scene: Scene | None
+    job: Job | None
     refusal: str
     layout: SupportLayout | None
-    settings: Settings
+
+    def solved_by(self, settings: Settings) -> CaseTask:
+        """The same case by other settings: their kind chooses steady or history."""
+        return replace(self, job=self.job and replace(self.job, settings=settings))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -109,24 +111,14 @@ def run_cases(
         One for each task. A worker that died leaves a ``worker_failed`` result, a
         fault of the program a ``program_fault``.
     """
-    jobs = [build_job(task) for task in tasks]
-    ends = iter((runner or Runner()).solve([job for job in jobs if job is not None]))
-    return [
-        resolve_case(task, None if job is None else next(ends))
-        for task, job in zip(tasks, jobs, strict=True)
-    ]
-
-
-def build_job(task: CaseTask) -> Job | None:
-    """What workers solve of a task; None where the model refused its scene."""
-    if task.scene is None:
-        return None
-    return Job(scene=task.scene, settings=task.settings)
+    jobs = [task.job for task in tasks if task.job is not None]
+    ends = iter((runner or Runner()).solve(jobs))
+    return [resolve_case(task, next(ends) if task.job else None) for task in tasks]
 
 
 def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
     """Forces of a case from the end of its solve; failures stay outcomes."""
-    if end is None or task.scene is None:
+    if end is None or task.job is None:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
     if end.state is None:
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
@@ -134,7 +126,7 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
         return replace(_resolve_net(task, end.state), reason=end.reason)
     found = catch_fault(
         partial(_resolve_support, task, task.layout, end.state),
-        describe_case(task.scene, task.settings),
+        describe_case(task.job.scene, task.job.settings),
     )
     if not isinstance(found, Fault):
         return replace(found, reason=found.reason or end.reason)
@@ -244,14 +236,12 @@ def build_task(
     settings: Settings,
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
-    scene, refusal = None, ""
+    job, refusal = None, ""
     try:
-        scene = build_scene(case)
+        job = Job(scene=build_scene(case), settings=settings)
     except ModelError as error:
         refusal = str(error)
-    return CaseTask(
-        case=case, scene=scene, refusal=refusal, layout=layout, settings=settings
-    )
+    return CaseTask(case=case, job=job, refusal=refusal, layout=layout)
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:

@@ -21,7 +21,7 @@ from netdesign.envelope.rows import (
     build_point_task,
     list_grid,
 )
-from netdesign.envelope.run import CaseResult, build_job, resolve_case
+from netdesign.envelope.run import CaseResult, resolve_case
 from netdesign.errors import ModelError
 from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
@@ -58,8 +58,8 @@ class _Cases:
     ) -> None:
         self._points, self._skip = points, skip
         self._tasks = [build_point_task(task, point, settings) for point in points]
-        asked = zip(points, map(build_job, self._tasks), strict=True)
-        self._jobs = {point: job for point, job in asked if job is not None}
+        asked = zip(points, self._tasks, strict=True)
+        self._jobs = {point: one.job for point, one in asked if one.job is not None}
         self._ends: dict[Point, CaseEnd] = {}
         self._lines = self._list_lines()
 
@@ -154,13 +154,13 @@ class RowSearch:
         self._advance()
 
     def _search_anew(self) -> MaximaSearch:
-        return MaximaSearch(len(self.task.box.axes), self.task.search)
+        return MaximaSearch(len(self.task.ranges.axes), self.task.search)
 
     def _begin(self, search: MaximaSearch | Repetition) -> None:
         """Begin with nothing known of the row's cases."""
         self._search = search
         self._reader = ResultReader(layout=self.task.layout)
-        self._skip = FrictionSkip(self.task.box.axes)
+        self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []
         self._maxima: Maxima | None = None  # known once only confirmations are open
         self._cases = _Cases(self.task, search.ask(), self._skip)
@@ -293,8 +293,8 @@ class Grid(NamedTuple):
 
 def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) -> Grid:
     """Solve a tensor grid with so many samples of each axis."""
-    points = list_grid([counts[name] or 2 for name in task.box.axes])
-    skip = FrictionSkip(task.box.axes)
+    points = list_grid([counts[name] or 2 for name in task.ranges.axes])
+    skip = FrictionSkip(task.ranges.axes)
     if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
         task = replace(task, settings=replace(task.settings, shares_start=True))
     cases = _Cases(task, points, skip)

@@ -8,7 +8,6 @@ from typing import Any
 
 from netdesign import __version__
 from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.parameters import Box
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.search import Grid
@@ -75,15 +74,11 @@ def write_envelope_document(
     return document, record
 
 
-def write_grid_document(
-    box: Box, grid: Grid, counts: Counts, wall_s: float
-) -> dict[str, Any]:
+def write_grid_document(grid: Grid, counts: Counts, wall_s: float) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
     Parameters
     ----------
-    box : Box
-        Ranges.
     grid : Grid
         All cases.
     counts : Counts
@@ -100,7 +95,7 @@ def write_grid_document(
         "reason": reason,
         "ranges": {
             key: [min(values), max(values)]
-            for key, values in _list_values(box, results).items()
+            for key, values in _list_values(results).items()
         },
         "extremes": [
             {
@@ -109,7 +104,7 @@ def write_grid_document(
                 "upper_bound": None,  # a grid says nothing between its cases
                 "low": kilonewton_from_newton(extreme.force.low),
                 "high": kilonewton_from_newton(extreme.force.high),
-                "case": record_case(extreme.governing.case, box),
+                "case": record_case(extreme.governing.case),
                 "coincident": _list_coincident(extreme.governing, member),
             }
             for member, extreme in extremes.items()
@@ -158,8 +153,8 @@ def _list_coincident(result: CaseResult, member: str) -> dict[str, float]:
     }
 
 
-def _list_values(box: Box, results: Sequence[CaseResult]) -> dict[str, list[float]]:
-    cases = [record_case(result.case, box) for result in results]
+def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
+    cases = [record_case(result.case) for result in results]
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 

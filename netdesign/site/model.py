@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from netdesign.envelope.grid import Ranges
+from netdesign.envelope.ranges import Ranges
 from netdesign.guards import require_positive, require_within
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.site.cells.findings import Finding

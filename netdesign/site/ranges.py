@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.cells.findings import Finding, Refusal, quote
 from netdesign.site.columns.all_tables import (
     DEFAULT_INCLINATION_DEG,
@@ -58,7 +58,7 @@ def build_ranges(
     complete = {key: value for key, value in found.items() if value is not None}
     if len(complete) < len(RANGE_QUANTITIES):
         return None
-    ranges = Ranges(**{key: value.interval for key, value in complete.items()})
+    ranges = Ranges.of(**{key: value.interval for key, value in complete.items()})
     inputs = [complete[field.key].inputs for field in RANGE_QUANTITIES]
     return ranges, tuple(echo for echoes in inputs for echo in echoes)
 

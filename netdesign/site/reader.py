@@ -77,7 +77,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     net_rows = build_net_rows(nets, type_sheets, snow, findings, absent) if nets else ()
     built_ranges = build_ranges(ranges, findings) if ranges else None
     if built_ranges:
-        density = built_ranges[0].density
+        density = built_ranges[0]["density"]
         check_densities(net_rows, snow, density.low, density.high, findings)
     monitoring = read_monitoring(tables[MONITORING.name], _list_ids(nets), findings)
     findings.extend(_note_unread(workbook, findings))

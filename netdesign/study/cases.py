@@ -15,8 +15,7 @@ from netdesign.envelope.confirm import (
     confirm_envelopes,
     confirm_rows,
 )
-from netdesign.envelope.grid import Case, Ranges, build_cases
-from netdesign.envelope.parameters import Box
+from netdesign.envelope.ranges import Case, Ranges, build_cases
 from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.envelope.search import Wave, search_rows
@@ -150,13 +149,7 @@ class _LayeredScenes:
 def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
     return RowTask(
         scene=_find_scene(row, ranges, run.creep_law),
-        box=Box(
-            intervals=(
-                ("density", ranges.density),
-                ("friction_angle", ranges.friction_angle),
-                ("inclination", ranges.inclination),
-            )
-        ),
+        ranges=ranges,
         layout=row.layout,
         settings=run.settings,
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
@@ -173,7 +166,7 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
     ModelError
         If it refuses every corner.
     """
-    spans = (ranges.density, ranges.friction_angle, ranges.inclination)
+    spans = (ranges[name] for name in ("density", "friction_angle", "inclination"))
     refusals: dict[str, None] = {}
     for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
         case = Case(density=density, friction_angle=friction, inclination=inclination)
@@ -222,11 +215,7 @@ def follow_site(
     remembers the faults of the program, and tells of each series.
     """
     runner = runner or Runner()
-    ranges = (site.ranges.density, site.ranges.friction_angle, site.ranges.inclination)
-    density, friction_angle, inclination = ((one.low + one.high) / 2 for one in ranges)
-    middle = Case(
-        density=density, friction_angle=friction_angle, inclination=inclination
-    )
+    middle = Case.of(site.ranges.place([0.5] * len(site.ranges.axes)))
     found = {}
     for row in site.rows:
         series = [one for one in site.monitoring if one.row_id == row.id]

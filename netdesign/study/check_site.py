@@ -513,7 +513,7 @@ def _validity_notes(site: Site, law: CreepLaw) -> list[str]:
 
 def _list_density_spans(site: Site) -> list[tuple[str, float, float]]:
     """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
-    span = site.ranges.density
+    span = site.ranges["density"]
     spans = []
     if not all(row.layers for row in site.rows):
         spans.append(("snow densities", span.low, span.high))

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from netdesign.envelope.curvature import AXES
-from netdesign.envelope.grid import Case, Ranges
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.study.effects import RowEffects
@@ -94,19 +94,19 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
         target,
         probe,
         build,
-        start=target.ranges.density.high,
+        start=target.ranges["density"].high,
         limits=_DENSITIES,
         step=_STEPS["density"],
         power=1.5,
     )
     if bound is not None and not _lighter_snow_passes(target, bound):
         bound, note = None, "lighter snow of the range does not pass either"
-    if bound is not None and bound < target.ranges.density.low:
+    if bound is not None and bound < target.ranges["density"].low:
         note = "below the range that was given"
     return ChangeRecord(
         quantity="snow density",
         unit="kg/m3",
-        now=target.ranges.density.high,
+        now=target.ranges["density"].high,
         bound=bound,
         sense="at most",
         solves=solves,
@@ -190,7 +190,7 @@ def _list_friction_angles(target: Target) -> list[float]:
     A search solves some angles at a few cases only; an angle counts where the corners
     of density and inclination were solved.
     """
-    density, inclination = target.ranges.density, target.ranges.inclination
+    density, inclination = target.ranges["density"], target.ranges["inclination"]
     corners = set(
         product((density.low, density.high), (inclination.low, inclination.high))
     )
@@ -316,7 +316,7 @@ def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     A search crowds its cases around the largest force; what lies between those that
     are left is in the margin of the target.
     """
-    spans = {axis: getattr(ranges, axis) for axis in AXES}
+    spans = {axis: ranges[axis] for axis in AXES}
     kept: list[Case] = []
     for case in cases:
         is_beside = any(

@@ -21,7 +21,7 @@ from netdesign.envelope.extremes import (
     find_extreme,
     find_extremes,
 )
-from netdesign.envelope.grid import Case, Ranges
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
@@ -122,8 +122,8 @@ def record_point(case: Case) -> CasePoint:
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     """What a row's checks of geometry need."""
     return RowGeometry(
-        inclination_low=ranges.inclination.low,
-        inclination_high=ranges.inclination.high,
+        inclination_low=ranges["inclination"].low,
+        inclination_high=ranges["inclination"].high,
         slope_angle=row.slope_angle,
         snow_thickness=row.snow_thickness,
         net_height=row.net_height,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw

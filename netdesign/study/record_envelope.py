@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.envelope.grid import Case
-from netdesign.envelope.parameters import PARAMETERS, Box
+from netdesign.envelope.parameters import PARAMETERS
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.rows import Confirmation, RowEnvelope
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.search.sensitivity import (
@@ -48,12 +48,12 @@ def show_parameter(name: str, value: float) -> float:
     return value
 
 
-def record_case(case: Case, box: Box) -> dict[str, float]:
-    """Every quantity of a case under its key: the three usual ones, and the box's."""
-    usual = ("density", "friction_angle", "inclination")
-    values = {name: getattr(case, name) for name in usual} | dict(case.others)
-    names = [*usual, *(name for name, _ in box.intervals if name not in usual)]
-    return {PARAMETERS[name].key: show_parameter(name, values[name]) for name in names}
+def record_case(case: Case) -> dict[str, float]:
+    """Every quantity of a case under its key, in the unit of the key."""
+    return {
+        PARAMETERS[name].key: show_parameter(name, value)
+        for name, value in case.values.items()
+    }
 
 
 def record_envelope(
@@ -80,7 +80,7 @@ def record_envelope(
                 low=show_parameter(name, span.low),
                 high=show_parameter(name, span.high),
             )
-            for name, span in task.box.intervals
+            for name, span in task.ranges.intervals
         ],
         is_per_metre=task.layout is None,
         is_closed=maxima.is_closed,
@@ -115,14 +115,14 @@ def _record_bound(
         quantity=member,
         max_kN=kilonewton_from_newton(envelope.force(member).value),
         upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
-        case=record_case(governing.case, envelope.task.box),
+        case=record_case(governing.case),
         coincident_kN={
             other: kilonewton_from_newton(governing.member_forces[other].value)
             for other in shown
             if other != member
         },
         unexplained=measure_unexplained(maxima, place),
-        drivers=_record_drivers(envelope.task.box.axes, answers),
+        drivers=_record_drivers(envelope.task.ranges.axes, answers),
         flips=_find_flips(envelope, place, levels),
         lines=_record_lines(envelope, place),
         maps=_record_maps(envelope, place),
@@ -150,36 +150,36 @@ def _record_drivers(
 def _find_flips(
     envelope: RowEnvelope, place: int, levels: Sequence[tuple[str, float]]
 ) -> list[FlipRecord]:
-    box = envelope.task.box
+    ranges = envelope.task.ranges
     forces = [level for _, level in levels]
     crossings = {
         name: find_crossings(envelope.maxima, place, axis, *forces)
-        for axis, name in enumerate(box.axes)
+        for axis, name in enumerate(ranges.axes)
     }
     return [
         FlipRecord(
             check=check,
             key=PARAMETERS[name].key,
-            value=show_parameter(name, _value(box, name, share)),
+            value=show_parameter(name, _value(ranges, name, share)),
         )
         for number, (check, _) in enumerate(levels)
-        for name in box.axes
+        for name in ranges.axes
         for share in crossings[name][number]
     ]
 
 
-def _value(box: Box, name: str, share: float) -> float:
-    span = dict(box.intervals)[name]
+def _value(ranges: Ranges, name: str, share: float) -> float:
+    span = dict(ranges.intervals)[name]
     return (1.0 - share) * span.low + share * span.high
 
 
 def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
-    maxima, box = envelope.maxima, envelope.task.box
+    maxima, ranges = envelope.maxima, envelope.task.ranges
     if maxima.surrogate is None:
         return []
     through = maxima.points[maxima.governing[place]]
     found = []
-    for axis, name in enumerate(box.axes):
+    for axis, name in enumerate(ranges.axes):
         shares, force, standard_error = follow_axis(
             maxima.surrogate, through, axis, place, _LINE_POINTS
         )
@@ -187,7 +187,7 @@ def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
         found.append(
             LineRecord(
                 key=PARAMETERS[name].key,
-                values=[show_parameter(name, _value(box, name, s)) for s in shares],
+                values=[show_parameter(name, _value(ranges, name, s)) for s in shares],
                 force_kN=_show_drawn(force),
                 bound_kN=_show_drawn(bound),
             )
@@ -197,8 +197,8 @@ def _record_lines(envelope: RowEnvelope, place: int) -> list[LineRecord]:
 
 def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
     """Maps over density and friction; none where one of the two does not range."""
-    maxima, box = envelope.maxima, envelope.task.box
-    axes = box.axes
+    maxima, ranges = envelope.maxima, envelope.task.ranges
+    axes = ranges.axes
     if maxima.surrogate is None or not {"density", "friction_angle"} <= set(axes):
         return []
     governing = maxima.points[maxima.governing[place]]
@@ -215,14 +215,16 @@ def _record_maps(envelope: RowEnvelope, place: int) -> list[MapRecord]:
         at[:, friction] = np.repeat(shares, _MAP_POINTS)
         at[:, density] = np.tile(shares, _MAP_POINTS)
         (force,) = maxima.surrogate.evaluate(at, place)
-        values = box.place(through)
+        values = ranges.place(through)
         inclination = values.get("inclination", envelope.results[0].case.inclination)
         found.append(
             MapRecord(
                 inclination_deg=show_parameter("inclination", inclination),
-                density_kg_m3=[_value(box, "density", s) for s in shares],
+                density_kg_m3=[_value(ranges, "density", s) for s in shares],
                 friction_deg=[
-                    show_parameter("friction_angle", _value(box, "friction_angle", s))
+                    show_parameter(
+                        "friction_angle", _value(ranges, "friction_angle", s)
+                    )
                     for s in shares
                 ],
                 force_kN=_show_drawn(force.reshape(_MAP_POINTS, _MAP_POINTS)),
@@ -266,7 +268,7 @@ def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
     def show(value: float) -> float | None:
         return kilonewton_from_newton(value) if math.isfinite(value) else None
 
-    values = envelope.task.box.place(one.point)
+    values = envelope.task.ranges.place(one.point)
     names = envelope.quantities
     return AdditionRecord(
         round=one.round,

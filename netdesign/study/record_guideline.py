@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,

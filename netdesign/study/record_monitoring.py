@@ -112,19 +112,20 @@ def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
 
 
 def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
-    if task.scene is None:
+    if task.job is None:
         return _Modelled(times_d=[], forces_kN=[], reason=task.refusal)
-    if task.layout is None or isinstance(task.settings, StaggeredSettings):
+    scene, asked = task.job.scene, task.job.settings
+    if task.layout is None or isinstance(asked, StaggeredSettings):
         reason = "a history of member forces needs a support and an accuracy"
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
         reason = "a single reading has no history"
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
-    clock = build_clock(series, task.scene)
+    clock = build_clock(series, scene)
     settings = TransientSettings(
-        accuracy=task.settings.accuracy, start=_START, horizon=series.times[-1]
+        accuracy=asked.accuracy, start=_START, horizon=series.times[-1]
     )
-    solution = solve_transient(task.scene, settings, clock=clock)
+    solution = solve_transient(scene, settings, clock=clock)
     if isinstance(solution, FailedSolution) or solution.history is None:
         reason = getattr(solution, "reason", "no history")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)

@@ -7,7 +7,7 @@ import openpyxl
 
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
-from netdesign.envelope.grid import build_cases
+from netdesign.envelope.ranges import build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseTask, build_task
 from netdesign.structure.layout import SupportLayout
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene

@@ -16,9 +16,10 @@ from netdesign.envelope.confirm import (
     merge_history,
 )
 from netdesign.envelope.extremes import describe_gap
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask
 from netdesign.outcome import Outcome
+from netdesign.solving.workers import Job
 from netdesign.structure.layout import SupportLayout
 from tests.solving.small_scene import solve_case
 
@@ -90,10 +91,9 @@ def test_a_history_without_plateau_leaves_its_row_unproven(monkeypatch):
 def build_task(of, scene=None, settings=None):
     return CaseTask(
         case=of.case,
-        scene=scene,
+        job=Job(scene=scene, settings=settings or SolverSettings()),
         refusal="",
         layout=LAYOUT,
-        settings=settings or SolverSettings(),
     )
 
 
@@ -117,7 +117,7 @@ def test_tasks_of_idle_cases_are_not_followed(monkeypatch):
     settings = TransientSettings(accuracy=0.05)
     (row,) = confirm_rows(tasks, [results], settings)
     assert [task.case.density for task in seen] == [300.0, 350.0]
-    assert {task.settings for task in seen} == {settings}
+    assert {task.job.settings for task in seen} == {settings}
     assert row[0] is IDLE
     assert row[1].member_forces["post"] == band(5.0)
 
@@ -130,11 +130,11 @@ def test_a_case_with_history_settings_is_a_history(a_scene):
     assert short.outcome is Outcome.PLATEAU_NOT_REACHED
     assert not short.member_forces
     whole = solve_case(
-        replace(task, settings=TransientSettings(accuracy=0.1, horizon=86400.0 * 30))
+        task.solved_by(TransientSettings(accuracy=0.1, horizon=86400.0 * 30))
     )
     assert whole.outcome is Outcome.CONVERGED
     assert whole.solution.method == "transient"
-    steady = solve_case(replace(task, settings=SolverSettings(accuracy=0.01)))
+    steady = solve_case(task.solved_by(SolverSettings(accuracy=0.01)))
     # section 6 of the theory: a history starts from the steady state and stays there
     foot = whole.member_forces["foot_anchor"].value
     assert foot == pytest.approx(steady.member_forces["foot_anchor"].value, rel=0.02)

@@ -8,13 +8,13 @@ import pytest
 from netdesign.checks import Band
 from netdesign.envelope.curvature import estimate_gap
 from netdesign.envelope.extremes import find_extremes
-from netdesign.envelope.grid import Interval, Ranges, build_cases
+from netdesign.envelope.ranges import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 
 
 def run(force, *, count=3, failed=()):
-    ranges = Ranges(
+    ranges = Ranges.of(
         density=Interval(low=400.0, high=400.0, count=1),
         friction_angle=Interval(low=0.0, high=1.0, count=count),
         inclination=Interval(low=0.5, high=0.5, count=1),

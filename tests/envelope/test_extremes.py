@@ -8,7 +8,7 @@ import pytest
 
 from netdesign.checks.result import Band
 from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome

@@ -7,8 +7,7 @@ from dataclasses import fields, replace
 import pytest
 
 from netdesign.envelope import search as search_module
-from netdesign.envelope.grid import Case, Interval
-from netdesign.envelope.parameters import Box
+from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask
 from netdesign.envelope.search import search_rows
 from netdesign.outcome import Outcome
@@ -22,7 +21,7 @@ from tests.search.synthetic import assert_same
 from tests.solving.made_up_workers import Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene
 
-BOX = Box(
+RANGES = Ranges(
     intervals=(
         ("density", Interval(low=250.0, high=400.0)),
         ("friction_angle", Interval(low=math.radians(15), high=math.radians(45))),
@@ -30,7 +29,7 @@ BOX = Box(
 )
 TASK = RowTask(
     scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
-    box=BOX,
+    ranges=RANGES,
     layout=LAYOUT,
     settings=COARSE,
     search=SearchSettings(gap=0.05),
@@ -45,7 +44,7 @@ OPEN = replace(TASK, search=SearchSettings(gap=1e-3, certainty=10.0, max_cases=1
     "other",
     [
         replace(TASK, scene=replace(TASK.scene, net_contact="one-sided")),
-        replace(TASK, box=Box(intervals=BOX.intervals[:1])),
+        replace(TASK, ranges=Ranges(intervals=RANGES.intervals[:1])),
         replace(TASK, layout=None),
         replace(TASK, layout=replace(LAYOUT, post_spacing=math.nextafter(3.5, 4.0))),
         replace(TASK, settings=replace(COARSE, accuracy=0.05)),
@@ -60,7 +59,7 @@ def test_everything_that_is_given_is_in_the_name(other):
 
 def test_every_field_of_a_task_was_changed_above():
     assert {field.name for field in fields(RowTask)} == {
-        *("scene", "box", "layout", "settings", "search", "confirmed_by", "build")
+        *("scene", "ranges", "layout", "settings", "search", "confirmed_by", "build")
     }
 
 

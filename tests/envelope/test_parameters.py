@@ -2,14 +2,8 @@ import math
 
 import pytest
 
-from netdesign.envelope.grid import Case, Interval
-from netdesign.envelope.parameters import (
-    PARAMETERS,
-    Box,
-    build_case,
-    place_scene,
-    require_valid,
-)
+from netdesign.envelope.parameters import PARAMETERS, place_scene
+from netdesign.envelope.ranges import Case, Interval, Ranges, build_case, require_valid
 from netdesign.errors import ModelError
 from netdesign.snow.wall import Wall
 from tests.solving.small_scene import build_scene
@@ -27,7 +21,7 @@ VALUES = {
 
 
 def box(**spans):
-    return Box(
+    return Ranges(
         intervals=tuple(
             (name, Interval(low=low, high=high)) for name, (low, high) in spans.items()
         )
@@ -76,7 +70,7 @@ def test_a_case_knows_the_scenes_own_values_and_the_others():
 def test_unknown_and_repeated_names_are_refused(names):
     spans = tuple((name, Interval(low=0.0, high=1.0)) for name in names)
     with pytest.raises(ModelError, match="accepted are density, friction_angle"):
-        Box(intervals=spans)
+        Ranges(intervals=spans)
 
 
 @pytest.mark.parametrize(

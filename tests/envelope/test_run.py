@@ -118,7 +118,7 @@ def test_results_come_in_the_order_of_the_tasks(task):
 def test_a_refused_scene_is_a_named_failure_not_a_gap(task):
     """Ice has no creep law of snow: the scene cannot even be built."""
     refused = task(917.0)
-    assert refused.scene is None
+    assert refused.job is None
     results = run_cases([task(300.0), refused, task(350.0)])
     assert densities(results) == [300.0, 917.0, 350.0]
     outcomes = [result.outcome for result in results]

@@ -8,8 +8,7 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.envelope import rows
-from netdesign.envelope.grid import Case, Interval
-from netdesign.envelope.parameters import Box
+from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
 from netdesign.envelope.search import RowSearch, run_grid, search_rows
 from netdesign.errors import ModelError
@@ -22,7 +21,7 @@ from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
-BOX = Box(
+RANGES = Ranges(
     intervals=(
         ("density", Interval(low=250.0, high=400.0)),
         (
@@ -33,7 +32,7 @@ BOX = Box(
 )
 TASK = RowTask(
     scene=SCENE,
-    box=BOX,
+    ranges=RANGES,
     layout=LAYOUT,
     settings=COARSE,
     search=SearchSettings(gap=0.01),
@@ -230,7 +229,7 @@ def test_cases_of_a_grid_share_their_start_and_leave_their_forces(grid):
         values = result.case.density, result.case.friction_angle
         place = tuple(
             (value - one.low) / (one.high - one.low)
-            for value, (_, one) in zip(values, BOX.intervals, strict=True)
+            for value, (_, one) in zip(values, RANGES.intervals, strict=True)
         )
         own = solve_case(build_point_task(task, place))
         for member, band in own.member_forces.items():

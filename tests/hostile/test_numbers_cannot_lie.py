@@ -16,7 +16,7 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.envelope.grid import Interval
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
 from netdesign.solving import store as store_module
@@ -34,8 +34,8 @@ from tests.solving.made_up_workers import Spoiling
 
 PROFILE = "nf-p-95-304-style"
 RUN = CheckRun(settings=SolverSettings(accuracy=0.05, levels=MESH_LEVELS[:3]))
-SEARCHED = replace(
-    GRID,
+SEARCHED = Ranges.of(
+    inclination=GRID["inclination"],
     density=Interval(low=270.0, high=400.0),
     friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
 )

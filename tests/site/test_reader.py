@@ -60,11 +60,11 @@ def test_the_file_is_named_and_hashed(sheets, save):
 
 def test_ranges_are_read_and_inclination_has_a_default(sheets, save):
     site = read_site(save(sheets))
-    density, friction = site.ranges.density, site.ranges.friction_angle
+    density, friction = site.ranges["density"], site.ranges["friction_angle"]
     assert (density.low, density.high, density.count) == (270.0, 400.0, 3)
     assert (friction.low, friction.high) == (math.radians(15), math.radians(45))
     assert friction.count == 4
-    inclination = site.ranges.inclination
+    inclination = site.ranges["inclination"]
     assert (inclination.low, inclination.high) == (math.radians(25), math.radians(35))
     assert inclination.count is None
     shown = {echo.label: echo for echo in site.range_inputs}
@@ -492,8 +492,8 @@ def test_a_range_names_its_unit_in_a_column_or_in_brackets(sheets, save, refused
         ["friction angle", "[deg]", 20, 20],
     ]
     ranges = read_site(save(sheets)).ranges
-    assert (ranges.density.low, ranges.density.count) == (270.0, None)
-    assert ranges.friction_angle.count == 1
+    assert (ranges["density"].low, ranges["density"].count) == (270.0, None)
+    assert ranges["friction_angle"].count == 1
     sheets["Ranges"][SECOND][:2] = ["friction angle [deg]", "%"]
     (finding,) = refused(save(sheets))
     assert (finding.cell, finding.text) == ("B3", "%")
@@ -503,7 +503,7 @@ def test_half_an_inclination_is_refused_and_an_empty_one_is_the_default(
     sheets, save, refused
 ):
     sheets["Ranges"].append(["net inclination [deg]", None, None, None])
-    assert read_site(save(sheets)).ranges.inclination.low == math.radians(25)
+    assert read_site(save(sheets)).ranges["inclination"].low == math.radians(25)
     put(sheets, "low", 30, line=3, sheet="Ranges")
     (finding,) = refused(save(sheets))
     assert (finding.cell, finding.rule) == ("C4", "is empty beside Ranges!B4")

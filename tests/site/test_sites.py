@@ -58,7 +58,7 @@ def assert_french(site):
     sliding = build_ground_from_glide_factor(1.4, site.rows[2].snow_thickness)
     assert site.rows[2].ground == sliding
     assert site.rows[0].ground.kind == "no-slip"
-    assert site.ranges.density.high == 412.5
+    assert site.ranges["density"].high == 412.5
     values = {(one.member, one.mode): one.value for one in site.rows[0].resistances}
     assert values["foot_anchor", "tendon"] == 442_500.0
     assert values["downhill_anchor", "pull_out"] == 300_250.0
@@ -78,8 +78,8 @@ def assert_german(site):
     assert [layer.density for layer in second.layers] == [400.0, 250.0]
     assert [layer.thickness for layer in second.layers] == [1.0, 1.755]
     assert second.snow_thickness == 2.755
-    assert site.ranges.density.low == pytest.approx(270.0, rel=1e-15)
-    assert site.ranges.friction_angle.high == pytest.approx(math.radians(45))
+    assert site.ranges["density"].low == pytest.approx(270.0, rel=1e-15)
+    assert site.ranges["friction_angle"].high == pytest.approx(math.radians(45))
     types = {one.member: one.type_id for one in second.resistances}
     assert types == {
         **dict.fromkeys({member for member, _ in MEMBER_MODES}, "A2"),

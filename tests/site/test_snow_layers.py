@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner

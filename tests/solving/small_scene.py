@@ -4,7 +4,7 @@ import math
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, run_cases
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack

@@ -12,7 +12,7 @@ from platformdirs.macos import MacOS
 from platformdirs.unix import Unix
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.outcome import Outcome
 from netdesign.solving import store as module
 from netdesign.solving.runner import Runner

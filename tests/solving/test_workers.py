@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
 from netdesign.solving import workers as workers_module

@@ -10,7 +10,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.envelope import confirm
 from netdesign.envelope.confirm import confirm_envelopes
-from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome, Verdict
 from netdesign.snow.snowpack import Layer
@@ -24,7 +24,7 @@ from netdesign.study.records import read_document, write_document
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording
 
-RANGES = Ranges(
+RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0),
     friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
     inclination=Interval(low=math.radians(30), high=math.radians(30)),
@@ -56,10 +56,12 @@ def on_row(check):
 
 def test_ranges_without_counts_are_searched_and_with_one_are_a_grid():
     assert not RANGES.is_grid
-    counted = replace(RANGES, density=replace(RANGES.density, count=3))
+    counted = Ranges.of(
+        **dict(RANGES.intervals) | {"density": replace(RANGES["density"], count=3)}
+    )
     assert counted.is_grid
     single = Interval(low=300.0, high=300.0)
-    fixed = Ranges(density=single, friction_angle=single, inclination=single)
+    fixed = Ranges.of(density=single, friction_angle=single, inclination=single)
     assert fixed.is_grid
     assert count_cases(build_site(*ROWS, ranges=counted)) == 2 * 3 * 3
 
@@ -239,7 +241,9 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     assert changes["snow density"].solves > 0
 
     def verdict(high):
-        ranges = replace(RANGES, density=Interval(low=270.0, high=high))
+        ranges = Ranges.of(
+            **dict(RANGES.intervals) | {"density": Interval(low=270.0, high=high)}
+        )
         changed = build_site(row, ranges=ranges)
         found = search_site(changed, RUN)
         judged = judge(standard, found, changed).rows[0]
@@ -279,7 +283,7 @@ def draw_site(seed, *, is_grid):
             resistances=resist(10.0 ** draw.uniform(4.3, 6.3)),
         )
 
-    ranges = Ranges(
+    ranges = Ranges.of(
         density=spread(230.0, 330.0, 140.0),
         friction_angle=spread(0.1, 0.5, 0.3),
         inclination=spread(0.35, 0.5, 0.12),

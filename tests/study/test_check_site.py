@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
-from netdesign.envelope.grid import Interval, build_cases
+from netdesign.envelope.ranges import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
@@ -235,7 +235,10 @@ def test_without_any_result_nothing_is_proven(judge, results):
 )
 def test_range_of_inclination_is_checked(judge, low, high, verdict):
     inclination = Interval(low=math.radians(low), high=math.radians(high), count=2)
-    site = build_site(ROWS[0], ranges=replace(RANGES, inclination=inclination))
+    site = build_site(
+        ROWS[0],
+        ranges=Ranges.of(**dict(RANGES.intervals) | {"inclination": inclination}),
+    )
     study = judge(site=site)
     check = check_of(study, "geometry.inclination")
     assert check.verdict == study.verdict == verdict
@@ -284,7 +287,9 @@ def test_drawn_forces_are_those_of_the_drawn_case(judge):
 )
 def test_densities_outside_the_calibration_are_noted(judge, low, high, is_noted):
     density = Interval(low=low, high=high, count=2)
-    site = build_site(ROWS[0], ranges=replace(RANGES, density=density))
+    site = build_site(
+        ROWS[0], ranges=Ranges.of(**dict(RANGES.intervals) | {"density": density})
+    )
     notes = judge(site=site).notes
     assert notes[0] == "column X was not read"
     assert len(notes) == 1 + is_noted

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Band
-from netdesign.envelope.grid import Case, Interval, Ranges, build_cases
+from netdesign.envelope.ranges import Case, Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.snow.creep_law import BOUTILLIER_2004
@@ -23,7 +23,7 @@ from netdesign.study.flips import (
 )
 from tests.small_site import build_row
 
-RANGES = Ranges(
+RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0, count=3),
     friction_angle=Interval(low=math.radians(15), high=math.radians(45), count=3),
     inclination=Interval(low=math.radians(25), high=math.radians(35), count=3),
@@ -216,9 +216,9 @@ def a_search(scale, force):
     spans = {
         name: Interval(low=span.low, high=span.high)
         for name, span in (
-            ("density", RANGES.density),
-            ("friction_angle", RANGES.friction_angle),
-            ("inclination", RANGES.inclination),
+            ("density", RANGES["density"]),
+            ("friction_angle", RANGES["friction_angle"]),
+            ("inclination", RANGES["inclination"]),
         )
     }
     top = whole.governing
@@ -229,7 +229,7 @@ def a_search(scale, force):
     ]
     odd = replace(top, friction_angle=math.radians(33.0), density=270.0)
     results = [MadeUpProbe(force).solve(ROW, case) for case in [*crowd[1:], odd]]
-    return replace(whole, ranges=Ranges(**spans), results=[*whole.results, *results])
+    return replace(whole, ranges=Ranges.of(**spans), results=[*whole.results, *results])
 
 
 def test_a_search_needs_no_more_solves_than_its_grid():

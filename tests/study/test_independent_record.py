@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from netdesign.envelope.grid import build_cases
+from netdesign.envelope.ranges import build_cases
 from netdesign.study.probe import Probe
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_support import record_head

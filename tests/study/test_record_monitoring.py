@@ -4,9 +4,10 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.rounds import solve_steady
-from netdesign.envelope.grid import Case
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseTask
 from netdesign.site.model import MonitoringSeries
+from netdesign.solving.workers import Job
 from netdesign.structure.layout import SupportLayout
 from netdesign.study import record_monitoring as monitoring
 from netdesign.study.record_monitoring import build_clock, follow_monitoring
@@ -29,12 +30,11 @@ def series(**changes):
 def build_task(scene):
     return CaseTask(
         case=Case(density=366.8, friction_angle=0.5, inclination=0.5),
-        scene=scene,
+        job=scene and Job(scene=scene, settings=SolverSettings(accuracy=0.1)),
         refusal="" if scene else "the model refuses it",
         layout=SupportLayout(
             post_spacing=3.0, uphill_anchor_distance=4.0, downhill_anchor_distance=3.0
         ),
-        settings=SolverSettings(accuracy=0.1),
     )
 
 
@@ -73,7 +73,7 @@ def test_a_record_holds_both_in_units_of_the_edge(a_scene):
     assert len(record.model_times_d) == len(record.model_kN) > 5
     assert record.model_times_d[-1] == pytest.approx(1.0, rel=1e-6)
     # at rest within some per cent of the steady state: coupling/THEORY.md, section 6
-    steady = solve_steady(task.scene, on_failure="raise")
+    steady = solve_steady(task.job.scene, on_failure="raise")
     assert record.model_kN[-1] == pytest.approx(3.0 * steady.foot.size / 1e3, rel=0.12)
 
 

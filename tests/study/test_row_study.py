@@ -7,7 +7,7 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.envelope.grid import Interval, Ranges
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES, Resistance
 from netdesign.snow.ground import GroundLaw
@@ -17,7 +17,7 @@ from netdesign.study.probe import Probe
 from tests.small_site import build_row, build_site
 
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
-RANGES = Ranges(
+RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0, count=3),
     friction_angle=Interval(low=math.radians(20), high=math.radians(40), count=2),
     inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
@@ -102,7 +102,7 @@ def test_change_flips_the_check_and_a_little_more_does_not(changes, quantity, be
             # the same three samples below, so that the envelope gap stays small
             low = value - 65.0
             density = Interval(low=low, high=value, count=3)
-            ranges = replace(RANGES, density=density)
+            ranges = Ranges.of(**dict(RANGES.intervals) | {"density": density})
         return check(study(row, ranges)).verdict
 
     assert verdict(bound) is Verdict.PASS

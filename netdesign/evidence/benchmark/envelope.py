@@ -21,8 +21,7 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope.grid import Interval
-from netdesign.envelope.parameters import Box
+from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list_grid
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
@@ -143,7 +142,7 @@ def build_random_task(seed: int, settings: SolverSettings | None = None) -> RowT
                 friction_angle=math.radians(30.0),
             ),
         ),
-        box=_box(),
+        ranges=_build_ranges(),
         layout=SupportLayout(
             post_spacing=draw.uniform(2.5, 4.0),
             uphill_anchor_distance=draw.uniform(2.0, 5.0),
@@ -176,7 +175,7 @@ def measure_excess(task: RowTask, found: RowEnvelope, samples: int) -> float | N
 
 def _choose_points(found: RowEnvelope, samples: int) -> list[Point]:
     """Points of a grid near a maximum of the model, and every 40th of the others."""
-    grid = list_grid([samples] * len(found.task.box.axes))
+    grid = list_grid([samples] * len(found.task.ranges.axes))
     model, maxima = found.maxima.surrogate, found.maxima
     if model is None or len(grid) <= _WHOLE:
         return grid
@@ -191,8 +190,8 @@ def _choose_points(found: RowEnvelope, samples: int) -> list[Point]:
     return sorted(chosen)
 
 
-def _box() -> Box:
-    return Box(
+def _build_ranges() -> Ranges:
+    return Ranges(
         intervals=(
             ("density", Interval(low=250.0, high=450.0)),
             (

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.checks import Band, Standard, check_member
-from netdesign.envelope.grid import Case, build_cases
+from netdesign.envelope.ranges import Case, build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.study.audit.check_audit import is_held_back

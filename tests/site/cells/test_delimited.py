@@ -34,7 +34,7 @@ def test_one_file_holds_several_sheets_and_its_delimiter_is_found(tmp_path, deli
     text = ONE_FILE.replace(",", ".").replace(";", delimiter)
     site = read_site(write(tmp_path / "site.csv", text))
     assert [row.snow_thickness for row in site.rows] == [2.75, 2.5]
-    assert site.ranges.density.high == 400.0
+    assert site.ranges["density"].high == 400.0
     (note,) = site.notes
     names = {";": "semicolon", ",": "comma", "\t": "tab", "|": "bar"}
     assert f"delimiter {names[delimiter]} and the encoding utf-8" in note

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from netdesign.envelope.grid import Case, Interval, Ranges, build_cases
+from netdesign.envelope.ranges import Case, Interval, Ranges, build_cases
 from netdesign.errors import ModelError
 
 
@@ -46,7 +46,7 @@ def test_reversed_and_endless_ranges_are_refused(low, high):
 
 
 def test_cases_are_the_full_grid_with_the_inclination_fastest():
-    ranges = Ranges(
+    ranges = Ranges.of(
         density=Interval(low=250.0, high=450.0, count=3),
         friction_angle=Interval(low=0.2, high=0.4, count=2),
         inclination=Interval(low=0.5, high=0.6, count=2),
@@ -61,7 +61,7 @@ def test_cases_are_the_full_grid_with_the_inclination_fastest():
 
 
 def test_cases_come_in_ascending_order():
-    ranges = Ranges(
+    ranges = Ranges.of(
         density=Interval(low=250.0, high=450.0, count=2),
         friction_angle=Interval(low=0.2, high=0.4, count=3),
         inclination=Interval(low=0.5, high=0.5, count=1),

@@ -1,0 +1,178 @@
+"""Ranges of the uncertain quantities, and the cases that sample them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from netdesign.cable.net import Net
+from netdesign.coupling.scene import Scene
+from netdesign.envelope.parameters import PARAMETERS, place_scene
+from netdesign.errors import ModelError
+
+# What every case has; the other parameters only where they range.
+_USUAL = ("density", "friction_angle", "inclination")
+_USUAL_COUNT = 3  # of a range without a count, beside one with a count
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interval:
+    """Closed range of an uncertain quantity, in SI units, with sample count.
+
+    Without a count the range is searched, not sampled.
+    """
+
+    low: float
+    high: float
+    count: int | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse reversed and endless ranges, and samples that leave an end out."""
+        if not -math.inf < self.low <= self.high < math.inf:
+            raise ModelError(
+                f"range {self.low!r} to {self.high!r}: must run from a finite low end "
+                "to a finite high end"
+            )
+        if self.count is None:
+            return
+        if self.count < 1 or (self.count == 1 and self.low != self.high):
+            raise ModelError(f"range with {self.count} samples: at least 2 are needed")
+
+    @property
+    def samples(self) -> tuple[float, ...]:
+        """Equally spaced values, both ends included."""
+        if self.low == self.high:
+            return (self.low,)
+        count = self.count or _USUAL_COUNT
+        return tuple(float(v) for v in np.linspace(self.low, self.high, count))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ranges:
+    """Ranges of some parameters around a scene; the others stay as the scene has them.
+
+    Attributes
+    ----------
+    intervals : tuple of (str, Interval)
+        Name and range (SI units) of each parameter, in the order of ``PARAMETERS``;
+        an interval of one value is no free axis.
+    """
+
+    intervals: tuple[tuple[str, Interval], ...]
+
+    def __post_init__(self) -> None:
+        """Refuse unknown and repeated names, and keep one order."""
+        names = [name for name, _ in self.intervals]
+        known = [name for name in PARAMETERS if name in names]
+        if sorted(names) != sorted(known):
+            raise ModelError(
+                f"ranges of {', '.join(names)}: accepted are {', '.join(PARAMETERS)}, "
+                "each once"
+            )
+        order = list(PARAMETERS)
+        ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
+        object.__setattr__(self, "intervals", tuple(ranked))
+
+    @classmethod
+    def of(cls, **intervals: Interval) -> Ranges:
+        """Ranges by the names of their parameters."""
+        return cls(intervals=tuple(intervals.items()))
+
+    def __getitem__(self, name: str) -> Interval:
+        """Range of a parameter by its name."""
+        return dict(self.intervals)[name]
+
+    @property
+    def is_grid(self) -> bool:
+        """Some range has a sample count, or none of them is a range at all."""
+        wide = [span for _, span in self.intervals if span.low < span.high]
+        return not wide or any(span.count is not None for span in wide)
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of the parameters that do range."""
+        return tuple(name for name, span in self.intervals if span.low < span.high)
+
+    def place(self, point: Sequence[float]) -> dict[str, float]:
+        """Value of every parameter at a point of the unit cube over ``axes``."""
+        shares = dict(zip(self.axes, point, strict=True))
+        return {
+            name: (1.0 - shares.get(name, 0.0)) * span.low
+            + shares.get(name, 0.0) * span.high
+            for name, span in self.intervals
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, order=True)
+class Case:
+    """One point of the ranges. SI units; angles in radians.
+
+    ``others`` names further quantities that range, as in ``parameters.PARAMETERS``.
+    """
+
+    density: float
+    friction_angle: float
+    inclination: float
+    others: tuple[tuple[str, float], ...] = ()
+
+    @classmethod
+    def of(cls, values: Mapping[str, float]) -> Case:
+        """Case of values by the names of their parameters."""
+        others = dict(values)
+        usual = {name: others.pop(name) for name in _USUAL}
+        return cls(**usual, others=tuple(others.items()))
+
+    @property
+    def values(self) -> dict[str, float]:
+        """All values by the names of their parameters."""
+        return {name: getattr(self, name) for name in _USUAL} | dict(self.others)
+
+
+def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
+    """Case of a scene with some values of its own."""
+    net = scene.net
+    if not isinstance(net, Net):
+        raise ModelError("net: a rigid wall has no envelope; it needs a net of cables")
+    base = {
+        "density": scene.snowpack.density,
+        "friction_angle": net.friction_angle,
+        "inclination": net.inclination,
+    }
+    return Case.of({**base, **values})
+
+
+def build_cases(ranges: Ranges) -> tuple[Case, ...]:
+    """All cases of the tensor grid, the first parameter varying slowest.
+
+    Density, friction angle and inclination are among the ranges.
+    """
+    names = [name for name, _ in ranges.intervals]
+    samples = [span.samples for _, span in ranges.intervals]
+    return tuple(
+        Case.of(dict(zip(names, values, strict=True))) for values in product(*samples)
+    )
+
+
+def require_valid(scene: Scene, ranges: Ranges) -> None:
+    """Refuse ranges of which a corner or the centre is outside the model.
+
+    Raises
+    ------
+    ModelError
+        With every distinct reason.
+    """
+    count = len(ranges.axes)
+    reasons: dict[str, None] = {}
+    for point in [*product((0.0, 1.0), repeat=count), (0.5,) * count]:
+        if point == (0.5,) * count and reasons:
+            continue  # a corner has said why already
+        try:
+            place_scene(scene, ranges.place(point))
+        except ModelError as error:
+            reasons.setdefault(str(error))
+    if reasons:
+        raise ModelError("\n".join(reasons))
