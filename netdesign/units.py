@@ -11,65 +11,75 @@ import math
 SECONDS_PER_DAY = 86_400.0
 SECONDS_PER_YEAR = 365.25 * SECONDS_PER_DAY
 KELVIN_AT_0_C = 273.15
+_GIVEN_DECIMALS = 9  # of an angle in degrees
 
 
 def newton_from_kilonewton(value: float) -> float:
-    """KN to N (per metre or not)."""
+    """Force in kN to N, per metre of width or not."""
     return value * 1e3
 
 
 def kilonewton_from_newton(value: float) -> float:
-    """N to kN (per metre or not)."""
+    """Force in N to kN, per metre of width or not."""
     return value / 1e3
 
 
 def meter_from_millimeter(value: float) -> float:
-    """Mm to m."""
+    """Length in mm to m."""
     return value / 1e3
 
 
 def square_meter_from_square_centimeter(value: float) -> float:
-    """Cm2 to m2."""
+    """Area in cm2 to m2."""
     return value / 1e4
 
 
 def fourth_meter_from_fourth_centimeter(value: float) -> float:
-    """Cm4 to m4."""
+    """Second moment of area in cm4 to m4."""
     return value / 1e8
 
 
 def pascal_from_kilopascal(value: float) -> float:
-    """KPa to Pa."""
+    """Stress in kPa to Pa."""
     return value * 1e3
 
 
 def pascal_from_megapascal(value: float) -> float:
-    """MPa to Pa."""
+    """Stress in MPa to Pa."""
     return value * 1e6
 
 
 def radian_from_degree(value: float) -> float:
-    """Degrees to radians."""
+    """Angle in degrees to radians."""
     return math.radians(value)
 
 
 def degree_from_radian(value: float) -> float:
-    """Radians to degrees."""
+    """Angle in radians to degrees."""
     return math.degrees(value)
 
 
+def given_degree_from_radian(value: float) -> float:
+    """Angle in radians to the degrees that somebody gave.
+
+    Degrees that were turned into radians come back with an error in their last digit.
+    Nobody gives an angle to a billionth of a degree: rounding to that restores it.
+    """
+    return round(math.degrees(value), _GIVEN_DECIMALS)
+
+
 def radian_from_percent(value: float) -> float:
-    """Slope in per cent (100 tan psi) to radians."""
+    """Slope in per cent, 100 tan psi, to radians."""
     return math.atan(value / 100.0)
 
 
 def second_from_day(value: float) -> float:
-    """Days to seconds."""
+    """Time in days to seconds."""
     return value * SECONDS_PER_DAY
 
 
 def day_from_second(value: float) -> float:
-    """Seconds to days."""
+    """Time in seconds to days."""
     return value / SECONDS_PER_DAY
 
 
@@ -84,10 +94,10 @@ def mm_per_day(value: float) -> float:
 
 
 def celsius_from_kelvin(value: float) -> float:
-    """K to degrees Celsius."""
+    """Temperature in K to degrees Celsius."""
     return value - KELVIN_AT_0_C
 
 
 def kelvin_from_celsius(value: float) -> float:
-    """Degrees Celsius to K."""
+    """Temperature in degrees Celsius to K."""
     return value + KELVIN_AT_0_C

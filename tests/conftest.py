@@ -39,7 +39,7 @@ from netdesign.coupling.steady.rounds import solve_steady  # noqa: E402
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
 from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh  # noqa: E402
-from netdesign.snow.law import FlowLaw, FlowLayer  # noqa: E402
+from netdesign.snow.law import FlowLayer, FlowProblem  # noqa: E402
 from netdesign.snow.mesh import (  # noqa: E402
     MeshSize,
     build_template,
@@ -86,7 +86,7 @@ def _build_scene(
     )
 
 
-def _build_flow_law(
+def _build_flow_problem(
     *,
     exponent: float = 3.0,
     bulk_ratio: float = 1.8,
@@ -94,9 +94,9 @@ def _build_flow_law(
     ground: GroundKind = "free",
     slip_ratio: float = 0.0,
     friction: float = 0.5,
-) -> FlowLaw:
+) -> FlowProblem:
     slope = math.radians(slope_deg)
-    return FlowLaw(
+    return FlowProblem(
         exponent=exponent,
         layers=(FlowLayer(bulk_ratio=bulk_ratio),),
         gravity=(math.sin(slope), -math.cos(slope)),
@@ -151,9 +151,9 @@ def a_scene() -> Callable[..., Scene]:
 
 
 @pytest.fixture(scope="session")
-def a_flow_law() -> Callable[..., FlowLaw]:
-    """Dimensionless law of one instant: ``a_flow_law(exponent=1.0)``."""
-    return _build_flow_law
+def a_flow_problem() -> Callable[..., FlowProblem]:
+    """Dimensionless law of one instant: ``a_flow_problem(exponent=1.0)``."""
+    return _build_flow_problem
 
 
 @pytest.fixture(scope="session")

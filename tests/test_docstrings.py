@@ -52,7 +52,7 @@ def sections(docstring: str) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     lines = inspect.cleandoc(docstring).splitlines()
     heading = ""
-    for line, following in zip(lines, [*lines[1:], ""], strict=True):
+    for line, following in zip(lines, [*lines, ""][1:], strict=True):
         if line and re.fullmatch("-{3,}", following):
             heading = line
             found[heading] = []
@@ -150,6 +150,153 @@ def test_the_physics_documents_its_parameters():
         if "Parameters" in sections(ast.get_docstring(node) or "")
     ]
     assert len(documented) >= 10
+
+
+# Rooms whose functions compute with arrays and physical numbers.
+NUMERICAL = tuple(f"{room}/" for room in PHYSICS if room != "checks")
+NUMBER = re.compile(r"\b(float|Floats|Ints|Mask|Signs|NDArray|Point)\b")
+ARRAY = re.compile(r"\b(Floats|Ints|Mask|Signs|NDArray)\b")
+# A shape as "shape (2, n)" or "(n_dofs,)".
+SHAPE = re.compile(r"\bshape\b|\((?:\.\.|\w+)(?: [-+] \d)?,[^()]*\)")
+AROUND_THE_NOUN = re.compile(r"(?:What|How|Of|Where|Whether|And|That)\b")
+
+
+def annotations(node: ast.ClassDef | ast.FunctionDef) -> dict[str, str]:
+    """Annotation of each field of a class, or of each argument."""
+    if isinstance(node, ast.ClassDef):
+        named = {c.target.id: c.annotation for c in node.body if is_field(c)}
+    else:
+        given = node.args
+        every = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+        named = {one.arg: one.annotation for one in every if one.annotation}
+    return {name: ast.unparse(value) for name, value in named.items()}
+
+
+def is_field(node: ast.stmt) -> bool:
+    return isinstance(node, ast.AnnAssign) and "ClassVar" not in ast.unparse(node)
+
+
+def silent(name: str, node: ast.ClassDef | ast.FunctionDef) -> list[str]:
+    """Numbers and arrays, among them a returned one, without unit and shape."""
+    heading = "Attributes" if isinstance(node, ast.ClassDef) else "Parameters"
+    docstring = ast.get_docstring(node) or ""
+    described = {
+        one: f"{kind} {text}"
+        for names, kind, text in entries(sections(docstring).get(heading, []))
+        for one in split(names)
+    }
+    found = [
+        f"{name}({one})"
+        for one, annotation in annotations(node).items()
+        if NUMBER.search(annotation) and "Callable" not in annotation
+        if not STATED.search(described.get(one, ""))
+    ]
+    returned = getattr(node, "returns", None)
+    if returned is not None and ARRAY.match(ast.unparse(returned)):
+        about = docstring.partition("\nParameters\n")[0]
+        about += "".join(kind for _, kind, _ in returns(docstring))
+        found += [] if SHAPE.search(about) else [f"{name} returns"]
+    return found
+
+
+def returns(docstring: str) -> list[tuple[str, str, str]]:
+    """Entries of what is returned; their kind stands in the place of a name."""
+    found = entries(sections(docstring).get("Returns", []))
+    return [("", f"{name} {kind}", text) for name, kind, text in found]
+
+
+@pytest.mark.parametrize(
+    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
+)
+def test_numbers_of_the_numerical_rooms_state_unit_or_shape(module):
+    """Of functions their arguments and arrays returned, of classes their fields."""
+    found = [
+        fault
+        for name, node in public(MODULES[module])
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        for fault in silent(name, node)
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
+)
+def test_docstrings_of_the_numerical_rooms_begin_with_their_noun(module):
+    documented = ast.Module | ast.ClassDef | ast.FunctionDef
+    found = [
+        docstring.splitlines()[0]
+        for node in ast.walk(MODULES[module])
+        if isinstance(node, documented) and (docstring := ast.get_docstring(node))
+        if AROUND_THE_NOUN.match(docstring)
+    ]
+    assert found == []
+
+
+def refuses(node: ast.FunctionDef) -> bool:
+    """The function raises, or calls a guard, and its docstring does not say so."""
+    calls = {one.func.id for one in ast.walk(node) if is_call(one)}
+    raises = any(isinstance(one, ast.Raise) and one.exc for one in ast.walk(node))
+    guarded = any(name.lstrip("_").startswith("require_") for name in calls)
+    documented = "Raises" in sections(ast.get_docstring(node) or "")
+    return (raises or guarded) and not documented
+
+
+def is_call(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+
+
+@pytest.mark.parametrize(
+    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
+)
+def test_functions_of_the_numerical_rooms_tell_what_they_refuse(module):
+    found = [
+        name
+        for name, node in public(MODULES[module])
+        if isinstance(node, ast.FunctionDef) and refuses(node)
+    ]
+    assert found == []
+
+
+def test_a_refusal_that_is_not_told_is_found():
+    source = "def f(a):\n    require_positive('a', a)\ndef g():\n    raise ValueError\n"
+    told = (
+        'def h():\n    """H.\n\n    Raises\n    ------\n    E\n    """\n    raise E\n'
+    )
+    functions = ast.parse(source + told + "def k():\n    f()\n").body
+    assert [refuses(node) for node in functions] == [True, True, False, False]
+
+
+def test_a_silent_number_is_found():
+    source = '''
+def f(law: Law, force: Floats, angle: float) -> Floats:
+    """F.
+
+    Parameters
+    ----------
+    law : Law
+        L.
+    force : ndarray, shape (n,)
+        F.
+    angle : float
+        A.
+    """
+
+
+def g(law: Law) -> Floats:
+    """Forces (n_dofs,) of a law."""
+
+
+class A:
+    """A."""
+
+    length: float
+    name: str
+'''
+    (f, g, a) = ast.parse(source).body
+    assert silent("f", f) == ["f(angle)", "f returns"]
+    assert silent("g", g) == []
+    assert silent("A", a) == ["A(length)"]
 
 
 EXAMPLE = """Find something.

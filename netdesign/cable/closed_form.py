@@ -33,6 +33,11 @@ def compute_parabola_sag(
     -------
     float
         f [m].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_positive("load", load)
     require_positive("chord", chord)

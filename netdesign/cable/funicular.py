@@ -12,12 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.newton import minimise_convex
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 _GAUSS = 1.0 / np.sqrt(3.0)
 _UNIT = np.eye(2)
@@ -131,8 +129,12 @@ def linearise_curve(
     ----------
     cable : Funicular
         The equilibrium.
-    forces, lengths, stiffness
+    forces : ndarray, shape (2, 2 n + 1)
         As given to ``solve_funicular``.
+    lengths : ndarray, shape (n,)
+        As given to ``solve_funicular``.
+    stiffness : float
+        ES, in the unit of the forces.
 
     Returns
     -------
@@ -160,7 +162,20 @@ def linearise_curve(
 
 
 def tension_offsets(forces: Floats, bend: Floats) -> Floats:
-    """Tension vectors at the Gauss points less the pull, shape (.., 2, 2, n); (C3)."""
+    """Tension vectors at the Gauss points less the pull, (C3).
+
+    Parameters
+    ----------
+    forces : ndarray, shape (.., 2, 2 n + 1)
+        Nodal forces, any unit.
+    bend : ndarray, shape (.., 2, n)
+        Half the change of tension over each element, same unit.
+
+    Returns
+    -------
+    ndarray, shape (.., 2, 2, n)
+        Component, Gauss point, element; in that unit.
+    """
     steps = 2.0 / 3.0 * (bend[..., :-1] + bend[..., 1:]) - forces[..., 2:-1:2]
     middle = _sum_from_zero(steps)
     turn = bend * _GAUSS

@@ -1,8 +1,8 @@
 """The source paper's own cable: linearised increments of tension.
 
 Kept as the record of the paper's method and to compare with; ``sliding`` is the exact
-form. The paper leaves open how to find the nodes that glide. Here every node that
-breaks its condition changes over; where that no longer helps, wrong gliders stop
+form. The paper leaves open how to find the nodes that slide. Here every node that
+breaks its condition changes over; where that no longer helps, wrong sliders stop
 first, then the worst offender starts. Theory: cable/THEORY.md, eqs (C18) to (C20).
 """
 
@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import Outcome
 
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 Nodes = NDArray[np.intp]
 
 _PATIENCE = 3  # rounds without fewer broken conditions before fewer nodes change
@@ -55,19 +54,19 @@ class IncrementalStep:
     Attributes
     ----------
     outcome : Outcome
-        Converged; max_iterations if the gliding nodes were not found; out_of_validity
+        Converged; max_iterations if the sliding nodes were not found; out_of_validity
         if a segment would push: the increments have no rule for a slack net.
     state : CableState
         The cable at the end; as before the increment if not converged.
-    glide : ndarray, shape (n,)
-        1 net glides towards the foot, -1 towards the head, 0 sticks.
+    slide_signs : ndarray, shape (n,)
+        1 net slides towards the foot, -1 towards the head, 0 sticks.
     rounds : int
-        Sets of gliding nodes that were tried.
+        Sets of sliding nodes that were tried.
     """
 
     outcome: Outcome
     state: CableState
-    glide: Signs
+    slide_signs: Signs
     rounds: int
 
 
@@ -130,7 +129,7 @@ def advance_increment(
     stiffness : float
         ES [N/m].
     max_rounds : int
-        Sets of gliding nodes that may be tried. A gliding stretch grows by about one
+        Sets of sliding nodes that may be tried. A sliding stretch grows by about one
         node a round.
 
     Returns
@@ -151,22 +150,22 @@ def advance_increment(
     require_positive("net stiffness", stiffness, "N/m")
     require_within("friction", friction, 0.0, np.inf)
     increment = _linearise(state, final_lengths, turning_angles, friction, stiffness)
-    glide = np.zeros(turning_angles.size, dtype=np.int8)
-    fewest, patience = glide.size + 1, _PATIENCE
+    signs = np.zeros(turning_angles.size, dtype=np.int8)
+    fewest, patience = signs.size + 1, _PATIENCE
     for rounds in range(1, max_rounds + 1):
-        tensions = _solve_tensions(increment, glide)
-        revised = _revise_glide(increment, tensions, glide)
-        changing: Nodes = np.flatnonzero(revised != glide)
+        tensions = _solve_tensions(increment, signs)
+        revised = _revise_signs(increment, tensions, signs)
+        changing: Nodes = np.flatnonzero(revised != signs)
         if changing.size == 0:
-            return _end(state, increment, tensions, glide, rounds)
+            return _end(state, increment, tensions, signs, rounds)
         helps = changing.size < fewest
         patience = _PATIENCE if helps else patience - 1
         fewest = min(fewest, changing.size)
         if patience <= 0:
-            changing = _choose_worst(_excess(increment, tensions), glide, changing)
-        glide = glide.copy()
-        glide[changing] = revised[changing]
-    return _fail(Outcome.MAX_ITERATIONS, state, glide, max_rounds)
+            changing = _choose_worst(_excess(increment, tensions), signs, changing)
+        signs = signs.copy()
+        signs[changing] = revised[changing]
+    return _fail(Outcome.MAX_ITERATIONS, state, signs, max_rounds)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -175,7 +174,7 @@ class _Increment:
 
     final: Floats  # l_i at t + tau
     unstressed: Floats  # lo_i at t
-    stuck: Floats  # tensions if nothing glides
+    stuck: Floats  # tensions if nothing slides
     softening: Floats  # loss of tension per increase of lo
     across: Floats  # cos(beta / 2): R_t per difference of tensions
     grip: Floats  # tan(phi) sin(beta / 2): friction per sum of tensions
@@ -201,14 +200,14 @@ def _linearise(
     )
 
 
-def _solve_tensions(increment: _Increment, glide: Signs) -> Floats:
-    """Tensions at t + tau, block by block between nodes that do not glide.
+def _solve_tensions(increment: _Increment, signs: Signs) -> Floats:
+    """Tensions at t + tau, block by block between nodes that do not slide.
 
     In a block (C19) gives every tension as a multiple of the first, and (C20) that.
     """
     tensions = np.empty_like(increment.stuck)
-    edges = np.flatnonzero(glide == 0) + 1
-    ratios = _gliding_ratios(increment, glide)
+    edges = np.flatnonzero(signs == 0) + 1
+    ratios = _sliding_ratios(increment, signs)
     for block in np.split(np.arange(tensions.size), edges):
         multiples = np.cumprod(np.concatenate([[1.0], ratios[block[:-1]]]))
         softening = increment.softening[block]
@@ -217,26 +216,26 @@ def _solve_tensions(increment: _Increment, glide: Signs) -> Floats:
     return tensions
 
 
-def _gliding_ratios(increment: _Increment, glide: Signs) -> Floats:
-    """T_i / T_{i-1} of nodes that glide, (C19); 1 at the others, which do not ask."""
-    grip = glide * increment.grip
+def _sliding_ratios(increment: _Increment, signs: Signs) -> Floats:
+    """T_i / T_{i-1} of nodes that slide, (C19); 1 at the others, which do not ask."""
+    grip = signs * increment.grip
     return (increment.across - grip) / (increment.across + grip)
 
 
-def _revise_glide(increment: _Increment, tensions: Floats, glide: Signs) -> Signs:
-    """What each node would do under these tensions; ``glide`` where that holds."""
+def _revise_signs(increment: _Increment, tensions: Floats, signs: Signs) -> Signs:
+    """Signs of the nodes under these tensions; ``signs`` where nothing changes."""
     lower, upper = tensions[:-1], tensions[1:]
     margin = _ROUNDING * increment.across * (np.abs(upper) + np.abs(lower))
-    starts = (glide == 0) & (_excess(increment, tensions) > margin)
+    starts = (signs == 0) & (_excess(increment, tensions) > margin)
     slides = np.cumsum(_lengthening(increment, tensions))[:-1]
-    stops = glide * slides < -_ROUNDING * increment.unstressed.sum()
+    stops = signs * slides < -_ROUNDING * increment.unstressed.sum()
     towards = np.where(upper < lower, 1, -1)
-    return np.where(starts, towards, np.where(stops, 0, glide)).astype(np.int8)
+    return np.where(starts, towards, np.where(stops, 0, signs)).astype(np.int8)
 
 
-def _choose_worst(excess: Floats, glide: Signs, broken: Nodes) -> Nodes:
-    """Of the nodes that break a condition: all wrong gliders, else the worst."""
-    stopping: Nodes = broken[glide[broken] != 0]
+def _choose_worst(excess: Floats, signs: Signs, broken: Nodes) -> Nodes:
+    """All wrong sliders among the nodes that break a condition, else the worst node."""
+    stopping: Nodes = broken[signs[broken] != 0]
     return stopping if stopping.size else broken[[np.argmax(excess[broken])]]
 
 
@@ -256,26 +255,28 @@ def _end(
     before: CableState,
     increment: _Increment,
     tensions: Floats,
-    glide: Signs,
+    signs: Signs,
     rounds: int,
 ) -> IncrementalStep:
     unstressed = increment.unstressed + _lengthening(increment, tensions)
     if not (tensions.min() >= 0.0 and unstressed.min() > 0.0):
-        return _fail(Outcome.OUT_OF_VALIDITY, before, glide, rounds)
+        return _fail(Outcome.OUT_OF_VALIDITY, before, signs, rounds)
     state = CableState(
         final_lengths=increment.final,
         unstressed_lengths=unstressed,
         tensions=tensions,
     )
     return IncrementalStep(
-        outcome=Outcome.CONVERGED, state=state, glide=glide, rounds=rounds
+        outcome=Outcome.CONVERGED, state=state, slide_signs=signs, rounds=rounds
     )
 
 
 def _fail(
-    outcome: Outcome, before: CableState, glide: Signs, rounds: int
+    outcome: Outcome, before: CableState, signs: Signs, rounds: int
 ) -> IncrementalStep:
-    return IncrementalStep(outcome=outcome, state=before, glide=glide, rounds=rounds)
+    return IncrementalStep(
+        outcome=outcome, state=before, slide_signs=signs, rounds=rounds
+    )
 
 
 def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:

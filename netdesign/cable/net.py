@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Floats
 
 LARGEST_INCLINATION = math.radians(80.0)
 LARGEST_SLACK = 0.5
@@ -55,7 +55,7 @@ class Net:
         return self.height_normal / math.cos(self.inclination)
 
     @property
-    def head(self) -> NDArray[np.float64]:
+    def head(self) -> Floats:
         """Position of the head, shape (2,) [m]."""
         x = self.height_normal * math.tan(self.inclination)
         return np.array([x, self.height_normal])

@@ -1,4 +1,4 @@
-"""How much of a cable lies between given heights, under given nodal forces.
+"""Parts of a cable between given heights, under given nodal forces.
 
 Theory: cable/THEORY.md, eqs (C5a) and (C5b).
 """
@@ -9,12 +9,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.funicular import tension_offsets
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from netdesign.numerics.arrays import Floats, Ints
 
 _MOST_STEPS, _MOST_HALVINGS = 30, 20
 
@@ -32,9 +29,9 @@ class PartedCable:
     rises : ndarray, shape (n_parts,)
         Height that each part has to gain; their sum is the head's.
     head_x : float
-        How far the upper end lies beside the lower one.
+        X of the upper end from the lower one [any unit of length].
     length : float
-        Unstressed, of all parts.
+        Unstressed, of all parts [unit of ``head_x``].
     stiffness : float
         ES, in the unit of the forces.
     """

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.sliding import NetState, SlidingStep, solve_sliding
 from netdesign.cable.tension import (
@@ -20,9 +19,8 @@ from netdesign.cable.tension import (
     compute_turning_angles,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 # A segment that bends more than this between its ends is no arc of a smooth curve.
 LARGEST_BEND = 1.0
@@ -39,7 +37,7 @@ class NetResponse:
     foot_pull, head_pull : ndarray, shape (2,)
         Pulls of the first and the last segment on their ends [N/m].
     sliding : SlidingStep
-        Tensions, unstressed lengths, and which nodes glide.
+        Tensions, unstressed lengths, and which nodes slide.
     """
 
     forces: Floats
@@ -88,13 +86,34 @@ def respond(
 
 
 def hold_net(points: Floats, lengths: Floats, *, stiffness: float) -> NetResponse:
-    """Net forces on nodes through which nothing slides; arguments as in ``respond``."""
+    """Net forces on nodes through which nothing slides.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m, or any unit].
+    lengths : ndarray, shape (n + 1,)
+        Unstressed lengths of the segments [same unit].
+    stiffness : float
+        ES [N/m, or any unit of force per width].
+
+    Raises
+    ------
+    ModelError
+        If a length is not above 0.
+    """
     tensions = compute_tensions(measure_arcs(points), lengths, stiffness)
     return pull_nodes(points, keep_lengths(lengths, tensions))
 
 
 def keep_lengths(lengths: Floats, tensions: Floats) -> SlidingStep:
-    """A step in which nothing slides."""
+    """A step in which nothing slides.
+
+    Parameters
+    ----------
+    lengths, tensions : ndarray, shape (n + 1,)
+        Unstressed lengths and tensions of the segments, any unit.
+    """
     return SlidingStep(
         outcome=Outcome.CONVERGED,
         state=NetState.TIGHT if tensions.all() else NetState.PARTLY_SLACK,
@@ -107,7 +126,15 @@ def keep_lengths(lengths: Floats, tensions: Floats) -> SlidingStep:
 
 
 def pull_nodes(points: Floats, sliding: SlidingStep) -> NetResponse:
-    """Forces of the net's tensions on its nodes and ends."""
+    """Forces of the net's tensions on its nodes and ends.
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m, or any unit].
+    sliding : SlidingStep
+        Tensions of the segments.
+    """
     pulls = sliding.tensions * np.diff(points) / compute_segment_lengths(points)
     return NetResponse(
         forces=np.diff(pulls),
@@ -118,18 +145,53 @@ def pull_nodes(points: Floats, sliding: SlidingStep) -> NetResponse:
 
 
 def measure_arcs(points: Floats) -> Floats:
-    """Lengths of the arcs of a smooth curve through points (2, n + 2), eq. (C21)."""
+    """Lengths of the arcs of a smooth curve through points, (C21).
+
+    Parameters
+    ----------
+    points : ndarray, shape (2, n + 2)
+        Foot, nodes and head [m, or any unit].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        In the unit of the points.
+    """
     chords = compute_segment_lengths(points)
     return chords * (1.0 + bend_segments(chords, compute_turning_angles(points)) / 24.0)
 
 
 def bend_segments(chords: Floats, angles: Floats) -> Floats:
-    """(k chord)^2 of each segment, k the mean curvature of its nodes."""
+    """(k chord)^2 of each segment, k the mean curvature of its nodes.
+
+    Parameters
+    ----------
+    chords : ndarray, shape (n + 1,)
+        Any unit of length.
+    angles : ndarray, shape (n,)
+        beta_i [rad].
+
+    Returns
+    -------
+    ndarray, shape (n + 1,)
+        [rad^2], at most ``LARGEST_BEND`` squared.
+    """
     curvature = average_at_segments(2.0 * angles / (chords[:-1] + chords[1:]))
     return np.minimum((curvature * chords) ** 2, LARGEST_BEND**2)
 
 
 def average_at_segments(at_nodes: Floats) -> Floats:
-    """Mean of the two nodes of each segment; of the one node at either end."""
+    """Mean of the two nodes of each segment; of the one node at either end.
+
+    Parameters
+    ----------
+    at_nodes : ndarray, shape (n, ..)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (n + 1, ..)
+        In that unit.
+    """
     inner = (at_nodes[1:] + at_nodes[:-1]) / 2.0
     return np.concatenate([at_nodes[:1], inner, at_nodes[-1:]])

@@ -1,9 +1,9 @@
 """Friction of the net that slides through its nodes, for one step.
 
-Which nodes glide, and how far, follows from one strictly convex function of the
+Which nodes slide, and how far, follows from one strictly convex function of the
 material coordinates S_i of the nodes. Each Newton step keeps the friction as it is,
 kinks included, and solves the step's own problem exactly by a sweep from foot to
-head and back; so nothing is guessed about which nodes glide, and nothing stalls.
+head and back; so nothing is guessed about which nodes slide, and nothing stalls.
 Theory: cable/THEORY.md, eqs (C13) to (C17).
 """
 
@@ -14,14 +14,11 @@ from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 
 _ACCEPTED_CLIMB = 0.5
 _SHORTEST_STEP = 1e-12
@@ -31,7 +28,7 @@ _ROUNDING = float(np.finfo(float).eps)
 
 
 class NetState(StrEnum):
-    """Whether the net carries."""
+    """State of the net: all of it carries, some of it, or none."""
 
     TIGHT = "tight"
     PARTLY_SLACK = "partly_slack"
@@ -69,7 +66,7 @@ class SlidingStep:
     iterations: int
 
     @property
-    def glide(self) -> Signs:
+    def slide_signs(self) -> Signs:
         """Direction at each node, shape (n,): 1 net to foot, -1 to head, 0 sticks."""
         return np.sign(self.slides).astype(np.int8)
 
@@ -143,7 +140,7 @@ class _Problem:
 
     @property
     def elongation(self) -> float:
-        """What is left to stretch; the part is slack without it."""
+        """Length that is left to stretch; the part is slack without it."""
         return float(self.final.sum() - self.old.sum())
 
 
@@ -224,13 +221,13 @@ def _log_tensions(problem: _Problem, point: _Point) -> Floats:
 def _find_breach(problem: _Problem, point: _Point, log_tensions: Floats) -> float:
     """Largest residual of (C14)."""
     steps = np.diff(log_tensions)
-    gliding = np.abs(steps + problem.bounds * np.sign(point.slides))
+    sliding = np.abs(steps + problem.bounds * np.sign(point.slides))
     sticking = np.maximum(np.abs(steps) - problem.bounds, 0.0)
-    return float(np.where(point.slides != 0.0, gliding, sticking).max(initial=0.0))
+    return float(np.where(point.slides != 0.0, sliding, sticking).max(initial=0.0))
 
 
 def _find_rounding(problem: _Problem, point: _Point) -> float:
-    """What the last digit of a length is to an elongation, at worst."""
+    """Rounding of the lengths over the smallest elongation."""
     lengths = np.maximum(problem.final, problem.old)
     return _ROUNDING * float((lengths / point.elongations).max())
 

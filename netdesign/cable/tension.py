@@ -9,19 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 _LARGEST_FRICTION = np.tan(np.radians(89.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class NodeForces:
-    """What the net does to the snow at its nodes, and to its two ends; they sum to 0.
+    """Forces of the net on the snow at its nodes and on its two ends; they sum to 0.
 
     Attributes
     ----------
@@ -130,6 +128,11 @@ def compute_tensions(
     -------
     ndarray, shape (n + 1,)
         T_i, at least 0 [N/m].
+
+    Raises
+    ------
+    ModelError
+        If a length or the stiffness is not above 0.
     """
     require_lengths("unstressed length", unstressed_lengths)
     require_positive("net stiffness", stiffness, "N/m")
@@ -187,6 +190,11 @@ def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
         kappa_i [-]. 0 where the net does not press: neither friction nor adhesion.
         Infinite where beta / 2 + phi reaches a right angle: no ratio slides there.
 
+    Raises
+    ------
+    ModelError
+        If the friction is out of its range.
+
     Validity
     --------
     One bound per node: nodes must carry comparable shares of the pressure. Corner
@@ -205,7 +213,20 @@ def compute_ratio_bounds(turning_angles: Floats, friction: float) -> Floats:
 
 
 def require_lengths(name: str, lengths: Floats) -> None:
-    """Refuse an array unless all its entries are finite and above zero."""
+    """Refuse an array unless all its entries are finite and above zero.
+
+    Parameters
+    ----------
+    name : str
+        For the message.
+    lengths : ndarray
+        Any shape [m].
+
+    Raises
+    ------
+    ModelError
+        With the first entry that is not.
+    """
     sound = np.isfinite(lengths) & (lengths > 0.0)
     if not sound.all():
         first = int(np.argmin(sound))

@@ -2,7 +2,7 @@
 
 The snow's nodes go where its own flow and the net's forces carry them, linearly in
 the forces; the net slides through the nodes as far as friction lets it. Each Newton
-step linearises all but the choice between sticking and gliding, which is made exactly
+step linearises all but the choice between sticking and sliding, which is made exactly
 for the linear problem. Made for nodes at rest instead, as in ``response``, that choice
 changes from one iteration to the next wherever the snow is softer than the net.
 Theory: cable/THEORY.md, eqs (C22) to (C26).
@@ -15,7 +15,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import (
     NetResponse,
@@ -26,18 +25,15 @@ from netdesign.cable.response import (
 )
 from netdesign.cable.sliding import NetState, SlidingStep
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Mask, Signs
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
-Mask = NDArray[np.bool_]
 
 _MOST_ITERATIONS = 40
 # Over the chord: Newton's method is quadratic, the next step would be its square.
 _LAST_WAY = 1e-9
 _LEAST_SHARE = 0.1  # of a tension, that one step must leave
 _SHORTEST_PART = 1e-3
-# Rounds in which every node may change between sticking and gliding; then one at a
+# Rounds in which every node may change between sticking and sliding; then one at a
 # time (Murty's rule).
 _FREE_ROUNDS, _MOST_ROUNDS = 12, 400
 _BREACH = 1e-9  # of a tension, that counts as none
@@ -47,7 +43,7 @@ _LEAST_WAY, _BISECTIONS = -30.0, 30  # logarithm of a share of a way
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class YieldingNodes:
-    """Where the snow's nodes go under the net's forces.
+    """The snow's nodes as they yield to the net's forces.
 
     Attributes
     ----------
@@ -64,7 +60,18 @@ class YieldingNodes:
     compliance: Floats
 
     def place(self, forces: Floats) -> Floats:
-        """Positions (2, n) under other forces (2, n)."""
+        """Positions under other forces.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (2, n)
+            Of the net on the nodes [unit of ``YieldingNodes.forces``].
+
+        Returns
+        -------
+        ndarray, shape (2, n)
+            Positions [unit of ``YieldingNodes.positions``].
+        """
         more = self.compliance @ (forces - self.forces).ravel()
         return np.asarray(self.positions + more.reshape(2, -1))
 
@@ -79,22 +86,30 @@ class NetGuess:
         Nodes.
     slides : ndarray, shape (n,)
         Net that has slid through each node since the step's start, S_i - S_i_old.
-    glide : ndarray of int, shape (n,)
-        1 where the net glides to the foot, -1 to the head, 0 where it sticks.
+    slide_signs : ndarray of int, shape (n,)
+        1 where the net slides to the foot, -1 to the head, 0 where it sticks.
     """
 
     place: Floats
     slides: Floats
-    glide: Signs
+    slide_signs: Signs
 
     @classmethod
-    def at_rest(cls, place: Floats, glide: Signs) -> NetGuess:
-        """Nothing has slid yet."""
-        return cls(place=place, slides=np.zeros(glide.size), glide=glide)
+    def at_rest(cls, place: Floats, signs: Signs) -> NetGuess:
+        """Guess in which nothing has slid yet.
+
+        Parameters
+        ----------
+        place : ndarray, shape (2, n)
+            Nodes, any unit of length.
+        signs : ndarray of int, shape (n,)
+            1, -1 or 0 as in ``slide_signs``.
+        """
+        return cls(place=place, slides=np.zeros(signs.size), slide_signs=signs)
 
 
 class _Given(NamedTuple):
-    """What stays the same in one solve."""
+    """Data that stay the same in one solve."""
 
     nodes: YieldingNodes
     head: Floats
@@ -130,7 +145,7 @@ class _Linear(NamedTuple):
     """The linearised net, its nodes' way included: functions of the slides."""
 
     way: Floats  # (2 n, 1 + n): without more sliding, and per slide
-    spare: Floats  # (2, n): tension above what lets the net glide to foot, to head
+    spare: Floats  # (2, n): tension above what lets the net slide to foot, to head
     per_slide: Floats  # (2, n, n)
 
 
@@ -175,18 +190,18 @@ def settle_net(
     tests/cable/test_yielding.py
     """
     given = _Given(nodes, head, old_lengths, friction, stiffness)
-    slides, glide = guess.slides, guess.glide
+    slides, signs = guess.slides, guess.slide_signs
     net = _place_net(given, guess.place, slides)
     if not nodes.forces.any():
         net = _take_up(given, net, slides)
     if net.tensions.min() < 0.0:
         loose = respond(net.points, old_lengths, friction=friction, stiffness=stiffness)
-        slides, glide = loose.sliding.slides, loose.sliding.glide
+        slides, signs = loose.sliding.slides, loose.sliding.slide_signs
         net = _place_net(given, net.place, slides)
     chord = float(np.hypot(*head))
     for iteration in range(1, _MOST_ITERATIONS + 1):
         linear = _linearise(given, net)
-        wanted, glide = _choose(net, linear, slides, glide)
+        wanted, signs = _choose(net, linear, slides, signs)
         way = linear.way[:, 0] + linear.way[:, 1:] @ (wanted - slides)
         part, net = _go(given, net, way.reshape(2, -1), slides, wanted)
         moved = max(np.linalg.norm(way), np.linalg.norm(wanted - slides))
@@ -194,7 +209,7 @@ def settle_net(
             slides = wanted
             if moved <= _LAST_WAY * chord and net.tensions.min() >= 0.0:
                 sliding = _finish(net, slides, iteration)
-                end = NetGuess(place=net.place, slides=slides, glide=glide)
+                end = NetGuess(place=net.place, slides=slides, slide_signs=signs)
                 return pull_nodes(net.points, sliding), end
         else:
             slides = slides + part * (wanted - slides)
@@ -246,7 +261,7 @@ def _find_slack(stretch: Floats, share: Floats) -> Mask:
 
 
 def _take_up(given: _Given, net: _Net, slides: Floats) -> _Net:
-    """Where a net without tension first holds the snow: part of the way it is pushed.
+    """Place where a net without tension first holds the snow: part of its way.
 
     A straight net has no stiffness across itself, so Newton's method has no direction
     there.
@@ -290,8 +305,8 @@ def _linearise(given: _Given, net: _Net) -> _Linear:
     pushes = np.vstack(
         [np.diff(tx * by_slides, axis=0), np.diff(ty * by_slides, axis=0)]
     )
-    right = np.column_stack([missing, given.nodes.compliance @ pushes])
-    way = _solve(jacobian, right)
+    rhs = np.column_stack([missing, given.nodes.compliance @ pushes])
+    way = _solve(jacobian, rhs)
     tensions = d_tensions @ way
     tensions[:, 0] += net.tensions
     tensions[:, 1:] += by_slides
@@ -312,42 +327,42 @@ def _differentiate_share(friction: float, net: _Net) -> Floats:
     return np.where(holds, -friction / turned**2, 0.0)
 
 
-def _solve(matrix: Floats, right: Floats) -> Floats:
+def _solve(matrix: Floats, rhs: Floats) -> Floats:
     try:
-        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        return np.asarray(np.linalg.solve(matrix, rhs), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
 
 
 def _choose(
-    net: _Net, linear: _Linear, slides: Floats, glide: Signs
+    net: _Net, linear: _Linear, slides: Floats, signs: Signs
 ) -> tuple[Floats, Signs]:
-    """Slides, and which nodes glide, of the linear complementarity problem (C26)."""
+    """Slides, and which nodes slide, of the linear complementarity problem (C26)."""
     per_slide = linear.per_slide
     spare = linear.spare - per_slide @ slides
     idle = net.tensions == 0.0
     fixed = (net.share == 0.0) | (idle[:-1] & idle[1:])
     loose = (net.share == 1.0) & ~fixed  # no friction: never sticks
-    glide = np.where(fixed, 0, np.where(loose, 1, glide)).astype(np.int8)
+    signs = np.where(fixed, 0, np.where(loose, 1, signs)).astype(np.int8)
     least = -_BREACH * float(np.abs(net.tensions).max())
     for number in range(_MOST_ROUNDS):
-        found = np.zeros(glide.size)
-        active = np.flatnonzero(glide)
+        found = np.zeros(signs.size)
+        active = np.flatnonzero(signs)
         if active.size:
-            side = np.where(glide[active] > 0, 0, 1)
+            side = np.where(signs[active] > 0, 0, 1)
             found[active] = _solve(
                 per_slide[side[:, None], active[:, None], active], -spare[side, active]
             )
         to_foot, to_head = spare + per_slide @ found < least
         released = np.where(to_foot, 1, np.where(to_head, -1, 0))
-        backward = (glide * found < -_BACKWARD) & ~loose
-        wanted = np.where(glide == 0, released, np.where(backward, 0, glide))
-        changes = np.flatnonzero((wanted != glide) & ~fixed)
+        backward = (signs * found < -_BACKWARD) & ~loose
+        wanted = np.where(signs == 0, released, np.where(backward, 0, signs))
+        changes = np.flatnonzero((wanted != signs) & ~fixed)
         if changes.size == 0:
-            return found, glide
+            return found, signs
         if number >= _FREE_ROUNDS:
             changes = changes[:1]
-        glide[changes] = wanted[changes]
+        signs[changes] = wanted[changes]
     raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
 
 
@@ -373,8 +388,8 @@ def _finish(net: _Net, slides: Floats, iterations: int) -> SlidingStep:
     spare = np.array([above - net.share * below, below - net.share * above])
     side = np.where(slides < 0.0, 1, 0)
     held = np.maximum(-spare.min(axis=0), 0.0)
-    gliding = np.abs(np.take_along_axis(spare, side[None], axis=0)[0])
-    breach = np.where(slides != 0.0, gliding, held)
+    sliding = np.abs(np.take_along_axis(spare, side[None], axis=0)[0])
+    breach = np.where(slides != 0.0, sliding, held)
     return SlidingStep(
         outcome=Outcome.CONVERGED,
         state=NetState.SLACK if slack.all() else some,

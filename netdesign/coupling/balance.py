@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.interface import SupportForces
 from netdesign.coupling.solution import Balance, Solution
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
+from netdesign.snow.law import FlowProblem
 
 # Share of suction on a net above which the two-sided contact is no model of it. The
 # last per cent of a net below the surface may be pulled: 2.4 % was seen at most
@@ -42,26 +40,38 @@ class SuctionError(SolveError):
 
 
 def measure_balance(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     forces: SupportForces,
     held: Floats,
     tension: Floats | None,
     force_scale: float,
 ) -> Balance:
-    """Balance of a state, whose forces are scaled by ``force_scale`` [N/m].
+    """Balance of a state.
 
-    ``held`` is the sum of the net's end pulls, or the wall's force, shape (2,);
-    ``tension`` holds all tensions of the net, None for a wall.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    forces : SupportForces
+        Of the snow on net and ground.
+    held : ndarray, shape (2,)
+        Sum of the net's end pulls, or the wall's force [rho g d^2].
+    tension : ndarray or None
+        All tensions of the net [rho g d^2]; None for a wall.
+    force_scale : float
+        rho g d^2 [N/m].
     """
-    weight = compute_weight(law, mesh)
+    weight = compute_weight(problem, mesh)
     size = float(np.hypot(*weight))
     missing = weight - forces.on_ground - held
     normal, tangential = _net_components(mesh, forces.on_net)
     pressed = np.maximum(normal, 0.0)
     excess = np.zeros(1)
-    if np.isfinite(law.friction):
-        excess = np.abs(tangential) - law.friction * pressed
+    if np.isfinite(problem.friction):
+        excess = np.abs(tangential) - problem.friction * pressed
     return Balance(
         weight_along_slope=float(weight[0]) * force_scale,
         relative_residual=max(float(np.hypot(*missing)), forces.unbalanced) / size,
@@ -75,7 +85,20 @@ def measure_balance(
 
 
 def measure_suction(mesh: PlacedMesh, on_net: Floats) -> float:
-    """What forces (2, n_net) pull on the net, over what they press [-]."""
+    """Pull of forces on the net over their pressure.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    on_net : ndarray, shape (2, n_net)
+        Forces of the snow on the net, any unit.
+
+    Returns
+    -------
+    float
+        [-]; 1 where they pull as much as they press, or more.
+    """
     return negative_share(_net_components(mesh, on_net)[0])
 
 
@@ -84,8 +107,16 @@ def check_balance(
 ) -> None:
     """Refuse a state that is not in balance, or that hangs on what cannot hold it.
 
-    ``friction_tolerance`` is how far the contact was iterated; the other figures keep
-    ``tolerance``.
+    Theory: coupling/THEORY.md, (K1) to (K4).
+
+    Parameters
+    ----------
+    balance : Balance
+        Of the state.
+    tolerance : float
+        Largest force missing, and shear beyond the friction limit, over the weight [-].
+    friction_tolerance : float, optional
+        The latter, where the contact is iterated less closely [-].
 
     Raises
     ------
@@ -123,9 +154,18 @@ def _net_components(mesh: PlacedMesh, on_net: Floats) -> tuple[Floats, Floats]:
 
 
 def negative_share(forces: Floats) -> float:
-    """Sum of negative entries over the sum of positive ones, from 0 to 1.
+    """Sum of negative entries over the sum of positive ones.
 
-    1 where they pull as much as they press, or more: also where nothing presses.
+    Parameters
+    ----------
+    forces : ndarray
+        Any shape and unit.
+
+    Returns
+    -------
+    float
+        0 to 1 [-]; 1 where they pull as much as they press, or more: also where nothing
+        presses.
     """
     positive = float(np.maximum(forces, 0.0).sum())
     negative = float(np.maximum(-forces, 0.0).sum())

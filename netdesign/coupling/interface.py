@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.refine import Looseness
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import (
     Contact,
     free_unknowns,
@@ -21,9 +21,7 @@ from netdesign.snow.flow import (
     remove_rounding,
 )
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
+from netdesign.snow.law import FlowProblem
 
 # Forces left on free nodes, over the weight, that are more than rounding elsewhere.
 _ROUNDING = 1e-9
@@ -43,7 +41,7 @@ class SupportForces:
         Downward nodal forces on the ground where it may let go: without the node at
         the foot and the last thickness upslope.
     unbalanced : float
-        Norm of the forces left on nodes that nothing holds.
+        Norm of the forces left on nodes that nothing holds [rho g d^2].
     """
 
     on_net: Floats
@@ -53,38 +51,57 @@ class SupportForces:
 
 
 def find_support_forces(
-    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> tuple[FlowState, SupportForces]:
     """Forces of a converged flow; its rounding is removed first where it shows.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        A converged flow.
 
     Raises
     ------
     SingularError
         If nothing holds the snow.
     """
-    forces = compute_support_forces(law, mesh, state)
-    weight = float(np.hypot(*compute_weight(law, mesh)))
+    forces = compute_support_forces(problem, mesh, state)
+    weight = float(np.hypot(*compute_weight(problem, mesh)))
     if forces.unbalanced <= _ROUNDING * weight:
         return state, forces
-    mended = remove_rounding(law, mesh, state)
-    return mended, compute_support_forces(law, mesh, mended)
+    mended = remove_rounding(problem, mesh, state)
+    return mended, compute_support_forces(problem, mesh, mended)
 
 
 def compute_support_forces(
-    law: FlowLaw, mesh: PlacedMesh, state: FlowState
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
 ) -> SupportForces:
-    """Forces on net and ground, from the stresses of the snow alone."""
-    residual = compute_residual(law, mesh, state)
+    """Forces on net and ground, from the stresses of the snow alone.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        With its stresses.
+    """
+    residual = compute_residual(problem, mesh, state)
     supports = -mesh.to_slope_axes(residual)
     template = mesh.template
-    on_net = share_net_forces(law, mesh, residual)
+    on_net = share_net_forces(problem, mesh, residual)
     ground = supports[:, template.ground[1:]]
     on_ground = ground.sum(axis=1) + supports[:, template.net[0]] - on_net[:, 0]
-    if law.ground != "no-slip":
+    if problem.ground != "no-slip":
         on_ground[0] = 0.0
     if state.base_shear is not None:
         on_ground[0] = float((mesh.base.weights * state.base_shear).sum())
-    free = free_unknowns(law, mesh, state.contact)
+    free = free_unknowns(problem, mesh, state.contact)
     free[net_components(mesh)[1]] = False  # friction, tested on its own
     free[mesh.n_velocities :] = False
     return SupportForces(
@@ -95,23 +112,45 @@ def compute_support_forces(
     )
 
 
-def share_net_forces(law: FlowLaw, mesh: PlacedMesh, reaction: Floats) -> Floats:
-    """Forces on the net (2, n_net) of reactions (n_dofs,), the foot's corner shared.
+def share_net_forces(
+    problem: FlowProblem, mesh: PlacedMesh, reaction: Floats
+) -> Floats:
+    """Forces on the net of reactions, the foot's corner shared.
 
     The corner node is held by net and ground. Along a ground without reactions at
     nodes (free or sliding) its X-force is all the net's; what else the net takes
     there follows from the next node: a quarter of a midpoint's force, as under uniform
     traction. The share is one corner element wide; coupling/THEORY.md, section 3.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    reaction : ndarray, shape (n_dofs,)
+        Of net and ground on the snow, node axes [rho g d^2].
+
+    Returns
+    -------
+    ndarray, shape (2, n_net)
+        In the slope's axes, foot to head [rho g d^2].
     """
     on_net = -mesh.net_in_slope_axes(reaction)
     corner = on_net[:, 0].copy()
     on_net[:, 0] = on_net[:, 1] / 4.0
-    if law.ground != "no-slip":
+    if problem.ground != "no-slip":
         on_net[0, 0] = corner[0]
     return on_net
 
 
 def measure_looseness(contact: Contact) -> Looseness:
-    """How loosely net and ground hold the snow."""
+    """Slip along the net and loss of contact of a state.
+
+    Parameters
+    ----------
+    contact : Contact
+        On net and ground.
+    """
     lifts = contact.is_lifted.any() or contact.is_open.any()
     return Looseness(slip=float((contact.sign != 0).mean()), lifts=bool(lifts))

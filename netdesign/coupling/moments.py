@@ -1,4 +1,4 @@
-"""What a transient or staggered solve records, and whether it has come to rest."""
+"""Records of a transient or staggered solve, and whether it has come to rest."""
 
 from __future__ import annotations
 
@@ -7,24 +7,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
-# On a plateau, per e-fold of time: end pulls change by less than the first share of
-# their size, node forces by less than the second of the largest of them; the net goes
-# across itself less than the third share of the way it has gone, or less than the
-# fourth of the snow thickness. It begins once the snow has crept by the last figure
-# on average: earlier, nothing has had time to change; much later it is other snow,
-# which has settled and gathered at the net.
-PULL_DRIFT = 0.05
-NODE_DRIFT = 0.10
-REST_SHARE = 0.2
-REST_WAY = 2e-3
+# Plateau, each per e-fold of time (coupling/THEORY.md, section 6).
+PULL_DRIFT = 0.05  # change of an end pull, over its size
+NODE_DRIFT = 0.10  # change of a node force, over the largest of them
+REST_SHARE = 0.2  # way of the net across itself, over its way so far
+REST_WAY = 2e-3  # or over the snow thickness
+# Mean creep strain from which a plateau may begin: earlier, nothing has had time to
+# change.
 LEAST_STRAIN = 0.004
-# Pulls count from the first creep strain, when a net that hung at rest has taken up
-# the history's own corners and friction, until the second: then the snow still is the
-# scene's.
+# Mean creep strains from which and until which pulls count. At the first, a net that
+# hung at rest has taken up the history's own corners and friction. Until the second the
+# snow still is the scene's.
 START_STRAIN, COUNTED_STRAIN = 1e-3, 0.01
 _EFOLDS = 1.0  # for so long
 CRITERION = (
@@ -36,25 +32,25 @@ CRITERION = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Moment:
-    """One recorded time; units are those of the run that records.
+class HistoryPoint:
+    """One recorded time: of a ``Run`` dimensionless, of a ``History`` in SI units.
 
     Attributes
     ----------
     time : float
-        Since the start.
+        Since the start [time scale, or s].
     foot, head : ndarray, shape (2,)
-        Pulls on the net's ends.
+        Pulls on the net's ends [rho g d^2, or N/m].
     tension_min, tension_max : float
-        Along the net.
+        Along the net [rho g d^2, or N/m].
     on_net : ndarray, shape (2, n)
-        Forces of the snow on the net's vertices above the foot.
+        Forces of the snow on the net's vertices above the foot [rho g d^2, or N/m].
     max_relative_density : float
         Of the snow [-].
     way : float
-        Longest way of a net vertex across the net so far.
+        Longest way of a net vertex across the net so far [thickness, or m].
     speed : float
-        Largest velocity of a net vertex across the net.
+        Largest velocity of a net vertex across the net [velocity scale, or m/s].
     strain : float
         Mean size of the snow's creep strain so far [-].
     residual : float
@@ -76,14 +72,14 @@ class Moment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plateau:
-    """Whether, and from when on, the forces of a history hardly change.
+    """Span of a history over which its forces hardly change, if there is one.
 
     Attributes
     ----------
     reached : bool
         The criterion was met over a span, and the pulls have not left it since.
     time : float or None
-        Begin of that span; None without one.
+        Begin of that span [time scale, or s]; None without one.
     index, end : int or None
         Number of its first moment, and of that which proves it.
     drift : float or None
@@ -112,7 +108,7 @@ class History:
 
     Attributes
     ----------
-    moments : tuple of Moment
+    moments : tuple of HistoryPoint
         [s, N/m, m, m/s].
     plateau : Plateau
         [s].
@@ -126,7 +122,7 @@ class History:
         Why it ended before its horizon; empty if it did not.
     """
 
-    moments: tuple[Moment, ...]
+    moments: tuple[HistoryPoint, ...]
     plateau: Plateau
     start: str
     densifies: bool
@@ -134,15 +130,21 @@ class History:
     ended: str
 
     @property
-    def at_plateau(self) -> Moment | None:
-        """Moment at which the plateau is proven to begin."""
+    def at_plateau(self) -> HistoryPoint | None:
+        """Point at which the plateau is proven to begin."""
         if self.plateau.index is None:
             return None
         return self.moments[self.plateau.index]
 
 
-def find_plateau(moments: Sequence[Moment]) -> Plateau:
-    """First span of one e-fold of time over which the criterion holds."""
+def find_plateau(moments: Sequence[HistoryPoint]) -> Plateau:
+    """First span of one e-fold of time over which the criterion holds.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    """
     begin: int | None = None
     for place in range(1, len(moments)):
         if not _is_steady(moments[place - 1], moments[place]):
@@ -157,11 +159,18 @@ def find_plateau(moments: Sequence[Moment]) -> Plateau:
     return Plateau(reached=False, time=None, index=None)
 
 
-def judge_plateau(moments: Sequence[Moment], plateau: Plateau) -> Plateau:
+def judge_plateau(moments: Sequence[HistoryPoint], plateau: Plateau) -> Plateau:
     """The plateau with the drift since it began, not reached if that is too fast.
 
     Snow that settles and gathers at the net is other snow in the end; a history of it
     must not pass for one that rests.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    plateau : Plateau
+        As ``find_plateau`` gives it.
     """
     if plateau.index is None or plateau.end is None:
         return plateau
@@ -172,7 +181,7 @@ def judge_plateau(moments: Sequence[Moment], plateau: Plateau) -> Plateau:
     return replace(plateau, drift=drift, reached=abs(drift) <= PULL_DRIFT)
 
 
-def _drift_between(first: Moment, later: Moment) -> float:
+def _drift_between(first: HistoryPoint, later: HistoryPoint) -> float:
     """The larger change of an end pull, signed, over its size and per e-fold."""
     changes = [
         float(np.hypot(*new) / np.hypot(*old)) - 1.0
@@ -182,8 +191,8 @@ def _drift_between(first: Moment, later: Moment) -> float:
 
 
 def select_counted(
-    moments: Sequence[Moment], plateau: Plateau, *, is_guessed: bool
-) -> Sequence[Moment]:
+    moments: Sequence[HistoryPoint], plateau: Plateau, *, is_guessed: bool
+) -> Sequence[HistoryPoint]:
     """Moments whose pulls are those of the scene's snow on its net.
 
     Those until the snow has crept by 1 % on average, or until a plateau begins if that
@@ -192,6 +201,15 @@ def select_counted(
     along the net find their places. A net whose first shape is guessed pulls by that
     guess for longer: its moments count from that on which proves the plateau. Without a
     plateau all count.
+
+    Parameters
+    ----------
+    moments : sequence of HistoryPoint
+        In the order of time.
+    plateau : Plateau
+        Of this history.
+    is_guessed : bool
+        The net's first shape was a guess.
     """
     if plateau.index is None or plateau.end is None:
         return moments
@@ -203,11 +221,22 @@ def select_counted(
 
 
 def largest_pull(pulls: Sequence[Floats]) -> Floats:
-    """The vector of largest size."""
+    """The vector of largest size.
+
+    Parameters
+    ----------
+    pulls : sequence of ndarray, shape (2,)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (2,)
+        In that unit.
+    """
     return max(pulls, key=lambda pull: float(np.hypot(*pull)))
 
 
-def _is_steady(before: Moment, after: Moment) -> bool:
+def _is_steady(before: HistoryPoint, after: HistoryPoint) -> bool:
     if not before.strain >= LEAST_STRAIN:
         return False
     efolds = np.log(after.time / before.time)

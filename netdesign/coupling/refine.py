@@ -7,23 +7,30 @@ from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
 
-Floats = NDArray[np.float64]
 State = TypeVar("State")
 
 
 class Estimate(NamedTuple):
-    """A vector with its estimated discretisation error."""
+    """A vector with its estimated discretisation error.
+
+    Attributes
+    ----------
+    vector : ndarray, shape (2,)
+        In the unit of the solve.
+    error : float
+        In the same unit.
+    """
 
     vector: Floats
     error: float
 
 
 class Looseness(NamedTuple):
-    """How loosely its supports hold the snow.
+    """Looseness of the snow on its supports.
 
     Attributes
     ----------
@@ -41,7 +48,7 @@ _FIRM = Looseness()
 
 
 class ErrorModel(NamedTuple):
-    """What the meshes so far say of the error of the last one, eq. (K5).
+    """Error of the last mesh, as the meshes so far tell it, eq. (K5).
 
     Attributes
     ----------

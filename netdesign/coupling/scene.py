@@ -28,7 +28,7 @@ from netdesign.snow.fluidity import (
     compute_fluidity,
 )
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.law import FlowLaw, FlowLayer, Sides
+from netdesign.snow.law import FlowLayer, FlowProblem, Sides
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import Layer, Snowpack
 from netdesign.snow.wall import Wall
@@ -43,7 +43,7 @@ MIXED_BULK_RATIO = 20.0
 # Beyond this many thicknesses upslope of the net, snow on a freely gliding ground only
 # hands its weight along the slope on: farther snow becomes a load (measured: from 4
 # on nothing changes beyond the mesh's own error).
-REACH_OF_NET = 8.0
+MODELLED_ASPECT = 8.0
 _CUT_FROM = 9.0
 
 # Meshes from the fewest triangles upwards. Sectors around the net's foot are worth
@@ -153,7 +153,7 @@ class Scene:
         return tuple(tops)
 
     @property
-    def flow_law(self) -> FlowLaw:
+    def flow_problem(self) -> FlowProblem:
         """The scene's snow and ground, dimensionless."""
         tops = (*self.layer_tops, 1.0)
         layers = tuple(
@@ -161,7 +161,7 @@ class Scene:
             for layer, top in zip(self.layers, tops, strict=True)
         )
         stiffest = max(layer.bulk_ratio for layer in layers)
-        return FlowLaw(
+        return FlowProblem(
             exponent=self.creep_law.exponent,
             layers=layers,
             gravity=self.snowpack.gravity_direction,
@@ -174,18 +174,21 @@ class Scene:
         )
 
     @property
-    def reach(self) -> float:
+    def modelled_aspect(self) -> float:
         """Upslope length over thickness that a steady solve has to model."""
         aspect = self.snowpack.upslope_length / self.snowpack.thickness
         hands_on = self.ground.kind == "free" and self.ground_contact == "two-sided"
-        return REACH_OF_NET if hands_on and aspect > _CUT_FROM else aspect
+        return MODELLED_ASPECT if hands_on and aspect > _CUT_FROM else aspect
 
     @property
-    def reach_law(self) -> FlowLaw:
-        """``flow_law`` with the exact load of the snow beyond ``reach``."""
-        law = self.flow_law
-        beyond = self.snowpack.upslope_length / self.snowpack.thickness - self.reach
-        return replace(law, end_load=beyond * law.gravity[0])
+    def steady_flow_problem(self) -> FlowProblem:
+        """``flow_problem`` with the exact load of the snow that is not modelled."""
+        beyond = (
+            self.snowpack.upslope_length / self.snowpack.thickness
+            - self.modelled_aspect
+        )
+        problem = self.flow_problem
+        return replace(problem, end_load=beyond * problem.gravity[0])
 
     @property
     def is_calibrated(self) -> bool:
@@ -223,7 +226,8 @@ class Scene:
         return FlowLayer(
             top=top,
             bulk_ratio=shear / compute_bulk_factor(law, density),
-            fluidity=warmth * float((shear / mean_shear) ** ((law.exponent + 1) / 2)),
+            fluidity_ratio=warmth
+            * float((shear / mean_shear) ** ((law.exponent + 1) / 2)),
             density=layer.density / pack.density,
             warmth=warmth,
         )
@@ -253,10 +257,10 @@ class SolverSettings:
     Attributes
     ----------
     accuracy : float
-        Relative error allowed in each end force; the mesh is refined until the
+        Relative error allowed in each end force [-]; the mesh is refined until the
         estimate is below it.
     stress_tolerance : float
-        Relative error that the last Newton step may leave; a 25th of the accuracy
+        Relative error that the last Newton step may leave [-]; a 25th of the accuracy
         if that is less.
     shape_tolerance : float
         Movement of the net in the last round, over the snow thickness; a 25th of the

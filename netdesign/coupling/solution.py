@@ -1,4 +1,4 @@
-"""What a solve returns: forces with their error and balances, or a reason."""
+"""Results of a solve: forces with their error and balances, or a reason."""
 
 from __future__ import annotations
 
@@ -6,16 +6,15 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
 
-Floats = NDArray[np.float64]
 # What a reader must know of a net that was to hold the snow on both sides.
 RELEASED = (
     "the snow would pull on the net more than a two-sided contact stands for: solved "
@@ -26,9 +25,14 @@ Method = Literal["steady", "transient", "staggered"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EndPull:
-    """A force per metre of width with its error: a net's pull, a wall's load [N/m].
+    """A force per metre of width with its error: a net's pull, a wall's load.
 
-    ``error`` is the estimated discretisation error of the vector.
+    Attributes
+    ----------
+    x, y : float
+        Along the slope, and normal to it [N/m].
+    error : float
+        Estimated discretisation error of the vector [N/m].
     """
 
     x: float
@@ -37,7 +41,15 @@ class EndPull:
 
     @classmethod
     def of_estimate(cls, estimate: Estimate, scale: float) -> EndPull:
-        """Pull from a dimensionless estimate and the force scale [N/m]."""
+        """Pull from a dimensionless estimate.
+
+        Parameters
+        ----------
+        estimate : Estimate
+            Vector of shape (2,) with its error [rho g d^2].
+        scale : float
+            rho g d^2 [N/m].
+        """
         x, y = (float(part) * scale for part in estimate.vector)
         return cls(x=x, y=y, error=estimate.error * scale)
 
@@ -62,10 +74,10 @@ class Balance:
     smallest_tension : float or None
         Of the net [N/m]; None for a wall.
     suction_share : float
-        What the snow would pull on the net with, over what it presses with; 1 if
-        that is as much, or more.
+        Pull of the snow on the net over its pressure [-]; 1 if that is as much, or
+        more.
     ground_tension_share : float
-        The same of the ground.
+        The same of the ground [-].
     """
 
     weight_along_slope: float
@@ -78,7 +90,7 @@ class Balance:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Skipped:
-    """What a scene did not need.
+    """Parts that a scene did not need.
 
     Attributes
     ----------
@@ -93,18 +105,26 @@ class Skipped:
 
 
 def list_skipped(scene: Scene, mesh: PlacedMesh) -> Skipped:
-    """What a steady solve on this mesh did without."""
+    """Parts of a scene that a steady solve on this mesh did without.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was solved.
+    mesh : PlacedMesh
+        On which.
+    """
     pack = scene.snowpack
     is_mixed = mesh.n_dofs > mesh.n_velocities
     return Skipped(
-        upslope_length=pack.upslope_length - scene.reach * pack.thickness,
+        upslope_length=pack.upslope_length - scene.modelled_aspect * pack.thickness,
         pressure_unknowns=0 if is_mixed else mesh.template.n_vertices,
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cost:
-    """What a solve took; no clock, so that equal solves are equal.
+    """Work that a solve took; no clock, so that equal solves are equal.
 
     Attributes
     ----------
@@ -173,10 +193,10 @@ class Solution:
     sag: float
     net_curve: Floats
     net_forces: Floats
-    net_slides: NDArray[np.bool_]
+    net_slides: Mask
     mesh_nodes: Floats
-    mesh_edges: NDArray[np.int64]
-    mesh_triangles: NDArray[np.int64]
+    mesh_edges: Ints
+    mesh_triangles: Ints
     mesh_density: Floats
     largest_velocity: float
     balance: Balance
@@ -213,9 +233,11 @@ class WallSolution:
         Positions [m] and forces [N/m], foot to upper edge.
     wall_slides : ndarray of bool, shape (n,)
         Where the snow slips on the wall.
-    mesh_nodes, mesh_edges, mesh_triangles, mesh_density
-        As in ``Solution``.
-    largest_velocity, balance, cost
+    mesh_nodes, mesh_edges, mesh_triangles, mesh_density : ndarray
+        Of the same shape and unit as in ``Solution``.
+    largest_velocity : float
+        Of the snow [m/s].
+    balance, cost
         As in ``Solution``.
     """
 
@@ -224,10 +246,10 @@ class WallSolution:
     moment_about_foot: float
     wall_nodes: Floats
     wall_forces: Floats
-    wall_slides: NDArray[np.bool_]
+    wall_slides: Mask
     mesh_nodes: Floats
-    mesh_edges: NDArray[np.int64]
-    mesh_triangles: NDArray[np.int64]
+    mesh_edges: Ints
+    mesh_triangles: Ints
     mesh_density: Floats
     largest_velocity: float
     balance: Balance

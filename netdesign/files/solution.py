@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign import __version__
 from netdesign.coupling.history.transient import TransientSettings
-from netdesign.coupling.moments import COUNTED_STRAIN, History, Moment
+from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import (
     RELEASED,
@@ -20,15 +19,13 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.coupling.steady.bound import PullBound
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.fluidity import FLUIDITY_EXPONENT, PAPER_FLUIDITY
 from netdesign.solving.solve import Settings
 from netdesign.units import day_from_second, kilonewton_from_newton, mm_per_day
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def write_solution_document(
@@ -66,7 +63,7 @@ def write_solution_document(
         "provenance": {
             "version": __version__,
             "creep_law": solution.scene.creep_law.name,
-            "element": solution.scene.flow_law.element,
+            "element": solution.scene.flow_problem.element,
             "settings": _write_settings(settings),
         },
     }
@@ -153,7 +150,7 @@ def _write_history(solution: Solution | WallSolution) -> dict[str, Any]:
     }
 
 
-def _write_moment(moment: Moment) -> dict[str, Any]:
+def _write_moment(moment: HistoryPoint) -> dict[str, Any]:
     return {
         "time_d": day_from_second(moment.time),
         "foot_kN_per_m": _size(moment.foot),

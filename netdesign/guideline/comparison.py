@@ -23,7 +23,21 @@ from netdesign.structure.layout import SupportLayout, place_support
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetGeometry:
-    """What the guideline needs of a net row; SI, angles in radians."""
+    """Net row as the guideline needs it.
+
+    Attributes
+    ----------
+    slope_angle, inclination : float
+        psi, and of the net from the slope normal, downslope positive [rad].
+    snow_thickness, net_height : float
+        Normal to the slope [m].
+    stiffness : float
+        ES [N/m].
+    slack : float
+        Unstressed length over chord, less 1 [-].
+    layout : SupportLayout
+        Of its supports.
+    """
 
     slope_angle: float
     snow_thickness: float
@@ -38,9 +52,20 @@ class NetGeometry:
 class GuidelineResult:
     """One load case of the guideline.
 
-    ``load``, ``pull`` and ``anchors`` are None from where the closed forms or the
-    support do not reach; ``reason`` says why. Height in m, density in kg/m3; forces
-    in N for each metre of width, those of anchors for each support.
+    Attributes
+    ----------
+    name : str
+        Of the load case.
+    density : float
+        Mean, of the snow [kg/m3].
+    height_vertical : float
+        H [m].
+    load, pull : SnowLoad, NetPull or None
+        For each metre of width; None where the closed forms do not hold.
+    anchors : AnchorForces or None
+        For each support; None where it has no equilibrium.
+    reason : str
+        Why something is None.
     """
 
     name: str
@@ -55,10 +80,24 @@ class GuidelineResult:
 def find_glide_factor(
     ground: GroundLaw, snow_thickness: float, largest: float
 ) -> float:
-    """Glide factor N [-] of a ground; ``largest`` [-] for a free one.
+    """Glide factor of a ground.
 
     A slip length [m] goes back through the stored table by which N gives a slip
     length; beyond the table its end is taken.
+
+    Parameters
+    ----------
+    ground : GroundLaw
+        With its slip length.
+    snow_thickness : float
+        Normal to the slope [m].
+    largest : float
+        N of a ground without friction [-].
+
+    Returns
+    -------
+    float
+        N [-].
     """
     if ground.kind == "free":
         return largest

@@ -81,6 +81,11 @@ class SnowLoad:
 def read_load_model(standard: Standard) -> LoadModel:
     """Load model of a profile.
 
+    Parameters
+    ----------
+    standard : Standard
+        The profile.
+
     Raises
     ------
     StandardError
@@ -122,7 +127,27 @@ def read_end_effect(standard: Standard) -> EndEffectRule | None:
 
 
 def compute_creep_factor(model: LoadModel, density: float, slope_angle: float) -> float:
-    """K of a density [kg/m3] and a slope angle [rad]; guideline/THEORY.md, (G2)."""
+    """Creep factor; guideline/THEORY.md, (G2).
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    density : float
+        [kg/m3].
+    slope_angle : float
+        psi [rad].
+
+    Returns
+    -------
+    float
+        K [-].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
     require_within("density", density, 100.0, 700.0, "kg/m3")
     require_within("slope angle", slope_angle, 0.0, 0.5 * math.pi, "rad")
     rho = density / 1e3
@@ -131,7 +156,25 @@ def compute_creep_factor(model: LoadModel, density: float, slope_angle: float) -
 
 
 def compute_altitude_factor(model: LoadModel, altitude: float) -> float:
-    """Factor f_c on the density at an altitude [m]; guideline/THEORY.md, (G3)."""
+    """Factor on the density at an altitude; guideline/THEORY.md, (G3).
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    altitude : float
+        [m].
+
+    Returns
+    -------
+    float
+        f_c [-].
+
+    Raises
+    ------
+    ModelError
+        If the altitude is out of its range.
+    """
     require_within("altitude", altitude, 0.0, 9000.0, "m")
     top = min(altitude, model.altitude_top)
     return 1.0 + model.altitude_rate * max(top - model.altitude_base, 0.0)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
+
 Point = tuple[float, float]
 
 _LEAST_STEP = 1e-9  # points that are rounded may coincide
@@ -58,7 +58,7 @@ def trace_curve(points: Sequence[Point], pieces: int) -> list[list[Point]]:
     Parameters
     ----------
     points : sequence of Point
-        At least two.
+        At least two, in any unit.
     pieces : int
         Straight ones, between two points.
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 
 def mix_anderson(
@@ -34,8 +33,8 @@ def mix_anderson(
 
     Returns
     -------
-    ndarray
-        The next iterate, of that shape.
+    ndarray, of that shape
+        The next iterate.
 
     Source
     ------

@@ -7,12 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack
 
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 _ACCEPTED_CLIMB = 0.5
 _SHORTEST_STEP = 1e-12
@@ -29,7 +27,7 @@ class Minimum:
     point : ndarray, shape (n,)
         Last iterate.
     gradient_norm : float
-        Euclidean norm of the gradient there.
+        Euclidean norm of the gradient there [unit of the gradient].
     iterations : int
         Newton steps taken.
     """

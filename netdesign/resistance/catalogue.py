@@ -17,7 +17,14 @@ from netdesign.errors import ModelError
 class Datum:
     """A number of the catalogue with where it comes from.
 
-    ``status`` is "secondary" or "assumed", as in the limit profiles.
+    Attributes
+    ----------
+    value : float
+        In the unit that its function names.
+    status : str
+        "secondary" or "assumed", as in the limit profiles.
+    source : str
+        Publication.
     """
 
     value: float
@@ -70,7 +77,13 @@ def find_imperfection(curve: str) -> Datum:
 
 
 def pick(what: str, name: str, known: dict[str, Any]) -> Any:
-    """Entry of a table; an unknown name is refused with the nearest ones."""
+    """Entry of a table; an unknown name is refused with the nearest ones.
+
+    Raises
+    ------
+    ModelError
+        With the nearest known names.
+    """
     if name in known:
         return known[name]
     raise ModelError(f"{what} = {name!r}: must be one of {_list(name, known)}")

@@ -54,6 +54,11 @@ def compute_buckling_resistance(
     -------
     BucklingResistance
         Characteristic [N]. Sections of class 1 to 3 only: no local buckling.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_positive("area", area, "m2")
     require_positive("second moment of area", second_moment, "m4")
@@ -90,6 +95,11 @@ def compute_bearing_resistance(
     -------
     float
         Against the post's force, taken across the plate [N].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_within("plate length", plate_length, 0.05, 5.0, "m")
     require_within("plate width", plate_width, 0.05, 5.0, "m")

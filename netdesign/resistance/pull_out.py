@@ -47,6 +47,11 @@ def compute_pull_out_from_tests(
     -------
     float
         min(mean / xi_mean, least / xi_least) [N].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_positive("correlation factor", correlation_mean)
     require_positive("correlation factor", correlation_least)
@@ -75,6 +80,11 @@ def compute_pull_out_from_bond(
     -------
     float
         pi d L tau [N]; ultimate: correlation and partial factors come on top.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_within("drill diameter", drill_diameter, 0.02, 0.5, "m")
     require_within("bond length", bond_length, 0.5, 30.0, "m")

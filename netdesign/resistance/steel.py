@@ -21,6 +21,11 @@ def compute_bar_resistance(diameter: float, strength: float) -> float:
     -------
     float
         A f [N].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_within("bar diameter", diameter, 0.005, 0.2, "m")
     require_within("steel strength", strength, 1e8, 2.5e9, "Pa")
@@ -47,6 +52,11 @@ def compute_rope_resistance(
     -------
     float
         K d^2 R_r k_e [N].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
     """
     require_within("rope diameter", diameter, 0.004, 0.1, "m")
     require_within("rope grade", grade, 1e9, 2.5e9, "Pa")

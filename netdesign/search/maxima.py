@@ -16,9 +16,9 @@ import numpy as np
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_count, require_within
+from netdesign.numerics.arrays import Floats
 from netdesign.search.questions import Question, choose_questions, list_first_design
 from netdesign.search.surrogate import (
-    Floats,
     Point,
     Prediction,
     Surrogate,

@@ -14,8 +14,9 @@ from itertools import product
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats
 from netdesign.search.maxima import Maxima
-from netdesign.search.surrogate import Floats, Point, Surrogate
+from netdesign.search.surrogate import Point, Surrogate
 
 # Gauss points per axis: exact for the polynomials of degree 2 n - 1.
 _RULE = {1: 24, 2: 16, 3: 8, 4: 8, 5: 6, 6: 5}

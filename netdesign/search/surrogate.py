@@ -14,9 +14,9 @@ from itertools import combinations_with_replacement
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
+
 Point = tuple[float, ...]  # of the unit cube, each coordinate a share of its range
 
 # Lengths as shares of a range. Beyond CORRELATION the residual of the trend is free;

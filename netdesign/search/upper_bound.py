@@ -13,7 +13,8 @@ from itertools import product, repeat
 
 import numpy as np
 
-from netdesign.search.surrogate import REACH, Floats, Point, Surrogate
+from netdesign.numerics.arrays import Floats
+from netdesign.search.surrogate import REACH, Point, Surrogate
 
 # Coordinates are multiples of this share of a range: equal cases have equal keys.
 GRAIN = 1.0 / 64.0

@@ -14,11 +14,12 @@ from functools import lru_cache
 import numpy as np
 
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
-from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import NET_REACH, Floats, Ints, MeshTemplate, place_nodes
+from netdesign.snow.law import FlowProblem
+from netdesign.snow.mesh import NET_FOLLOWED, MeshTemplate, place_nodes
 
-_UPSTREAM_REACH = 1.0  # the mesh follows the upstream end over this many thicknesses
+_UPSTREAM_FOLLOWED = 1.0  # the mesh follows the upstream end over this many thicknesses
 _LARGEST_SWEEP = 0.5  # share of a triangle that one part of a remap may take
 _MOST_PARTS = 64
 _LEAST_HEIGHT = 1e-15  # of a triangle's corner over another: no division by 0
@@ -46,7 +47,7 @@ class Topology:
         Ends of each edge.
     left, right : ndarray of int, shape (n_edges,)
         Triangles on both sides of each edge; right is -1 on the boundary.
-    net, ground, surface, upstream : ndarray of int
+    net, ground, surface, upstream : ndarray of int, shape (n,)
         Vertices along the boundary: net from foot to head, ground and surface going
         upslope, upstream end from the ground up.
     bottom : ndarray of int, shape (n_ground - 1,)
@@ -74,11 +75,11 @@ class SnowBody:
     topology : Topology
         Of its mesh.
     vertices : ndarray, shape (2, n_vertices)
-        Positions.
+        Positions [thickness].
     mass : ndarray, shape (n_triangles,)
-        Of each triangle; the initial mean density is 1.
+        Of each triangle [initial mean density times thickness^2].
     warmth : ndarray, shape (n_triangles,)
-        Fluidity over the scene's, from layer temperatures.
+        Fluidity over the scene's, from layer temperatures [-].
     """
 
     topology: Topology
@@ -88,12 +89,12 @@ class SnowBody:
 
     @property
     def areas(self) -> Floats:
-        """Of the triangles; at most 0 for one that has turned over."""
+        """Areas (n_triangles,) [thickness^2]; at most 0 for a triangle turned over."""
         return compute_areas(self.topology, self.vertices)
 
     @property
     def density(self) -> Floats:
-        """Of each triangle over the initial mean."""
+        """Densities (n_triangles,) over the initial mean [-]."""
         return np.asarray(self.mass / self.areas)
 
 
@@ -120,8 +121,25 @@ def build_topology(template: MeshTemplate) -> Topology:
     )
 
 
-def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowBody:
-    """Undeformed snow against a net's curve (2, n_net), all nodes of the template."""
+def build_body(
+    problem: FlowProblem, template: MeshTemplate, net_curve: Floats
+) -> SnowBody:
+    """Undeformed snow against a net's curve.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Layers of the snow.
+    template : MeshTemplate
+        Reference mesh.
+    net_curve : ndarray, shape (2, n_net)
+        Nodes of the net, foot to head [thickness].
+
+    Raises
+    ------
+    SolveError
+        If a triangle of the mesh is turned over.
+    """
     topology = build_topology(template)
     vertices = place_nodes(template, net_curve)[:, : template.n_vertices]
     areas = compute_areas(topology, vertices)
@@ -129,9 +147,9 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
         raise SolveError(
             Outcome.OUT_OF_VALIDITY, f"the start's mesh folds over: {_LESS_BULGE}"
         )
-    shares = _share_layers(law, vertices[1, topology.triangles])
-    density = shares @ np.array([layer.density for layer in law.layers])
-    heat = shares @ np.array([layer.density * layer.warmth for layer in law.layers])
+    shares = _share_layers(problem, vertices[1, topology.triangles])
+    density = shares @ np.array([layer.density for layer in problem.layers])
+    heat = shares @ np.array([layer.density * layer.warmth for layer in problem.layers])
     return SnowBody(
         topology=topology,
         vertices=vertices,
@@ -140,15 +158,15 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
     )
 
 
-def _share_layers(law: FlowLaw, corners: Floats) -> Floats:
-    """What each layer takes of the areas of triangles, shape (n, n_layers).
+def _share_layers(problem: FlowProblem, corners: Floats) -> Floats:
+    """Shares of the layers in the areas of triangles, shape (n, n_layers).
 
     Layers lie at their heights, wherever the net's curve has carried the triangles
     whose corners have the heights ``corners``, shape (n, 3).
     """
     low, middle, high = np.sort(corners, axis=1).T
     below = [np.zeros(low.size)]
-    for layer in law.layers[:-1]:
+    for layer in problem.layers[:-1]:
         corner = np.maximum(layer.top - low, 0.0) ** 2
         corner /= np.maximum(middle - low, _LEAST_HEIGHT) * (high - low)
         rest = np.maximum(high - layer.top, 0.0) ** 2
@@ -159,7 +177,20 @@ def _share_layers(law: FlowLaw, corners: Floats) -> Floats:
 
 
 def compute_areas(topology: Topology, vertices: Floats) -> Floats:
-    """Signed areas of the triangles between vertices (2, n)."""
+    """Signed areas of the triangles.
+
+    Parameters
+    ----------
+    topology : Topology
+        Its triangles.
+    vertices : ndarray, shape (2, n_vertices)
+        Positions [thickness].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles,)
+        [thickness^2]; at most 0 for a triangle that has turned over.
+    """
     (ax, bx, cx), (ay, by, cy) = vertices[:, topology.triangles].transpose(0, 2, 1)
     return np.asarray(((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2.0)
 
@@ -230,7 +261,7 @@ def _place_vertices(
     template = topology.template
     distance, height = template.nodes[:, : template.n_vertices]
     foot, top = net[:, 0], net[:, -1]
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_REACH, template.aspect))
+    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
     # along the ground and the surface, spaced as in the template
     end = displaced[0, topology.ground[-1]]
     base_x = foot[0] + (end - foot[0]) * distance / template.aspect
@@ -244,8 +275,8 @@ def _place_vertices(
     placed += follow * (side - (1.0 - height) * foot[:, None] - height * top[:, None])
     back = displaced[:, topology.upstream]
     side = _interpolate(height, template.nodes[1, topology.upstream], back)
-    reach = min(_UPSTREAM_REACH, template.aspect / 2.0)
-    fade = np.maximum(0.0, 1.0 - (template.aspect - distance) / reach)
+    length = min(_UPSTREAM_FOLLOWED, template.aspect / 2.0)
+    fade = np.maximum(0.0, 1.0 - (template.aspect - distance) / length)
     placed += fade * (side - (1.0 - height) * back[:, :1] - height * back[:, -1:])
     placed[:, topology.net] = net
     placed[1, topology.ground] = 0.0
@@ -289,7 +320,7 @@ def _interpolate(wanted: Floats, known: Floats, points: Floats) -> Floats:
 
 
 def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Floats:
-    """What each triangle holds after its vertices have moved through resting snow.
+    """Contents of each triangle after its vertices moved through resting snow.
 
     Donor cells: an edge takes what it sweeps over from the triangle that it enters.
     ``carried`` has shape (n_fields, n_triangles); a long way is taken in parts.
@@ -321,7 +352,7 @@ def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Flo
 
 
 def _sweep(topology: Topology, old: Floats, new: Floats) -> Floats:
-    """Areas that edges sweep on their left side, negative on their right."""
+    """Areas A of (N21) that edges sweep on their left, negative on their right."""
     first, second = topology.edges
     (ux, uy), (wx, wy) = new[:, second] - old[:, first], new[:, first] - old[:, second]
     return np.asarray((ux * wy - uy * wx) / 2.0)

@@ -1,6 +1,6 @@
-"""Where the snow sticks, slips, or lets go, on the net and on the ground.
+"""Contact of the snow with net and ground: where it sticks, slips, or lets go.
 
-Theory: snow/THEORY.md, eqs (F6) and (F7). Components of the unknowns of a net node
+Theory: snow/THEORY.md, eqs (N14) and (N15). Components of the unknowns of a net node
 are (normal, tangential); pressures and shears are forces of the snow on its support.
 """
 
@@ -9,13 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.snow.kernel import PlacedMesh
-from netdesign.snow.law import FlowLaw
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
-
-Mask = NDArray[np.bool_]
+from netdesign.snow.law import FlowProblem
+from netdesign.snow.mesh import MeshTemplate
 
 # A node is released only when its shear exceeds the friction by this share of it.
 _RELEASE_MARGIN = 1e-9
@@ -63,22 +61,39 @@ def start_contact(mesh: PlacedMesh) -> Contact:
 
 
 def update_contact(
-    law: FlowLaw, mesh: PlacedMesh, contact: Contact, velocity: Floats, reaction: Floats
+    problem: FlowProblem,
+    mesh: PlacedMesh,
+    contact: Contact,
+    velocity: Floats,
+    reaction: Floats,
 ) -> Contact:
-    """State that follows from the last velocities and reactions, (n_dofs,) each."""
+    """State that follows from the last velocities and reactions.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State under which both were found.
+    velocity, reaction : ndarray, shape (n_dofs,)
+        Unknowns of the last iterate, and forces of net and ground on the snow, in node
+        axes [velocity scale, rho g d^2].
+    """
     normal, tangential = net_components(mesh)
     pressure = -reaction[normal]
     is_open = contact.is_open
-    if law.net_contact == "one-sided":
+    if problem.net_contact == "one-sided":
         is_open = _let_go(is_open, pressure, velocity[normal])
     is_lifted = contact.is_lifted
-    if law.ground_contact == "one-sided":
+    if problem.ground_contact == "one-sided":
         upward = 2 * mesh.template.ground[1:] + 1
         is_lifted = _let_go(is_lifted, reaction[upward], -velocity[upward])
         is_lifted &= may_lift(mesh.template)
     return Contact(
         sign=_update_slip(
-            law, contact, pressure, -reaction[tangential], velocity[tangential]
+            problem, contact, pressure, -reaction[tangential], velocity[tangential]
         ),
         is_pressed=(pressure > 0.0) & ~is_open,
         is_open=is_open,
@@ -87,13 +102,23 @@ def update_contact(
 
 
 def may_lift(template: MeshTemplate) -> Mask:
-    """Ground nodes (n_ground - 1,) where a one-sided ground can let go.
+    """Ground nodes where a one-sided ground can let go.
 
     Not within a thickness of the upslope end: the snowpack goes on there, only the
     calculation ends, and its free end would rock on the ground.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray of bool, shape (n_ground - 1,)
+        Of the ground's nodes but the foot.
     """
-    reach = max(template.aspect - 1.0, template.aspect / 2.0)
-    return np.asarray(template.nodes[0, template.ground[1:]] < reach)
+    end = max(template.aspect - 1.0, template.aspect / 2.0)
+    return np.asarray(template.nodes[0, template.ground[1:]] < end)
 
 
 def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Contact:
@@ -102,6 +127,13 @@ def change_some(contact: Contact, wanted: Contact, *, only_first: bool) -> Conta
     Where changing every node at once goes round in circles, changing the first half
     of each row of neighbours rarely does, and changing a single node on the net and
     one on the ground, the first (Murty's rule), hardly ever.
+
+    Parameters
+    ----------
+    contact, wanted : Contact
+        As it is, and as the last iterate asks for.
+    only_first : bool
+        Only the first change on the net, and the first on the ground.
     """
     sign, is_open = contact.sign.copy(), contact.is_open.copy()
     is_pressed = contact.is_pressed.copy()
@@ -131,8 +163,23 @@ def _choose(changes: Mask, *, only_first: bool) -> Ints:
     return np.concatenate([row[: (row.size + 1) // 2] for row in rows])
 
 
-def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
-    """Mask (n_dofs,) of unknowns that neither net nor ground holds."""
+def free_unknowns(problem: FlowProblem, mesh: PlacedMesh, contact: Contact) -> Mask:
+    """Unknowns that nothing holds.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State of every support node.
+
+    Returns
+    -------
+    ndarray of bool, shape (n_dofs,)
+        True where neither net nor ground holds.
+    """
     free = np.ones(mesh.n_dofs, dtype=bool)
     normal, tangential = net_components(mesh)
     foot, ground = mesh.template.ground[0], mesh.template.ground[1:]
@@ -140,39 +187,68 @@ def free_unknowns(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Mask:
     free[normal] = contact.is_open
     free[tangential] = contact.is_open | (contact.sign != 0)
     free[2 * ground + 1] = contact.is_lifted
-    if law.ground == "no-slip":
+    if problem.ground == "no-slip":
         free[2 * ground] = contact.is_lifted
     return free
 
 
-def friction_shares(law: FlowLaw, mesh: PlacedMesh, contact: Contact) -> Floats | None:
-    """What of each normal row goes to the tangential row after it; None if nothing.
+def friction_shares(
+    problem: FlowProblem, mesh: PlacedMesh, contact: Contact
+) -> Floats | None:
+    """Shares of the normal rows that go to the tangential rows; None if nothing.
 
-    Shape (n_dofs,), not zero at the tangential unknowns of slipping nodes. With it
-    their equation reads R_t = tan(phi) R_n sign, (F6).
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    contact : Contact
+        State of every support node.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,), or None
+        Not 0 at the tangential unknowns of slipping nodes [-]. With it their equation
+        reads R_t = tan(phi) R_n sign, (N14).
     """
     _, tangential = net_components(mesh)
     slips = (contact.sign != 0) & contact.is_pressed
-    if not slips.any() or law.friction == 0.0:
+    if not slips.any() or problem.friction == 0.0:
         return None
     shares = np.zeros(mesh.n_dofs)
-    shares[tangential[slips]] = -law.friction * contact.sign[slips]
+    shares[tangential[slips]] = -problem.friction * contact.sign[slips]
     return shares
 
 
 def net_components(mesh: PlacedMesh) -> tuple[Ints, Ints]:
-    """Normal and tangential unknowns of the net nodes above the foot."""
+    """Unknowns of the net nodes above the foot.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+
+    Returns
+    -------
+    ndarray of int, ndarray of int, shape (n_net - 1,)
+        Normal and tangential unknowns.
+    """
     above_foot = mesh.template.net[1:]
     return 2 * above_foot, 2 * above_foot + 1
 
 
 def _update_slip(
-    law: FlowLaw, contact: Contact, pressure: Floats, shear: Floats, velocity: Floats
+    problem: FlowProblem,
+    contact: Contact,
+    pressure: Floats,
+    shear: Floats,
+    velocity: Floats,
 ) -> Ints:
-    """Eq. (F6): slipping against one's sign sticks, too much shear releases."""
-    if np.isinf(law.friction):
+    """Eq. (N14): slipping against one's sign sticks, too much shear releases."""
+    if np.isinf(problem.friction):
         return np.zeros_like(contact.sign)
-    limit = law.friction * np.maximum(pressure, 0.0)
+    limit = problem.friction * np.maximum(pressure, 0.0)
     against_sign = velocity * contact.sign <= 0.0
     exceeds = np.abs(shear) > limit * (1.0 + _RELEASE_MARGIN)
     released = np.where(exceeds & (contact.sign == 0), np.sign(shear), 0)
@@ -187,5 +263,5 @@ def _update_slip(
 
 
 def _let_go(is_apart: Mask, push: Floats, outward: Floats) -> Mask:
-    """Eq. (F7): a held node that would pull lets go, one that moves back is held."""
+    """Eq. (N15): a held node that would pull lets go, one that moves back is held."""
     return np.where(is_apart, outward <= 0.0, push < 0.0)

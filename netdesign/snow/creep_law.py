@@ -9,12 +9,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 ICE_DENSITY = 917.0  # [kg/m3], the reference of relative density in the source paper
 # Relative density from which snow counts as ice, a = 1 and b = 0 nearly; Elmer/Ice
@@ -77,7 +75,13 @@ class CreepLaw:
             require_admissible(self, density)
 
     def is_calibrated(self, relative_density: float) -> bool:
-        """The set is given for this density."""
+        """The set is given for this density.
+
+        Parameters
+        ----------
+        relative_density : float
+            D, density against ice [-].
+        """
         low, high = self.calibrated
         return low <= relative_density <= high
 
@@ -116,7 +120,22 @@ def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
 def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
     """Coefficient b(D) of the creep law [-]; tends to 0 for incompressible ice.
 
-    Parameters, returns and errors as in ``compute_shear_factor``.
+    Parameters
+    ----------
+    law : CreepLaw
+        The set.
+    relative_density : float
+        D [-], above 0 and at most ``DENSEST_SNOW``.
+
+    Returns
+    -------
+    float
+        b [-].
+
+    Raises
+    ------
+    ModelError
+        If the density is not that of snow.
     """
     density = _require_snow(law, relative_density)
     if density < law.branch:
@@ -127,10 +146,20 @@ def compute_bulk_factor(law: CreepLaw, relative_density: float) -> float:
 
 
 def compute_factors(law: CreepLaw, densities: Floats) -> tuple[Floats, Floats]:
-    """Coefficients a(D) and b(D) [-] of many relative densities, any shape.
+    """Coefficients a(D) and b(D) of many relative densities.
 
-    Densities above ``DENSEST_SNOW`` count as that: where snow settles against a
-    corner a step may end there.
+    Parameters
+    ----------
+    law : CreepLaw
+        The set.
+    densities : ndarray, any shape
+        D [-], above 0; above ``DENSEST_SNOW`` they count as that: where snow settles
+        against a corner a step may end there.
+
+    Returns
+    -------
+    ndarray, ndarray
+        a and b [-], of that shape.
 
     Raises
     ------
@@ -195,6 +224,13 @@ def compute_strain_rate(
 
 def require_admissible(law: CreepLaw, relative_density: float) -> None:
     """Refuse a density at which uniaxial compression would shrink sideways, (N5).
+
+    Parameters
+    ----------
+    law : CreepLaw
+        The set.
+    relative_density : float
+        D [-].
 
     Raises
     ------

@@ -17,8 +17,8 @@ import skfem
 from skfem.element import DiscreteField
 from skfem.helpers import dot, grad
 
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.kernel import QUADRATURE_DEGREE, PlacedMesh
-from netdesign.snow.mesh import Floats
 
 
 @lru_cache(maxsize=2)
@@ -26,6 +26,11 @@ def build_basis(mesh: PlacedMesh) -> skfem.Basis:
     """Quadratic velocities on a placed mesh, its net edges parabolas.
 
     Components are numbered as in the kernel: (X, Y) of node 0, of node 1, ...
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
     """
     curved = skfem.MeshTri2(doflocs=mesh.nodes, t=mesh.template.triangles[:3])
     velocity = skfem.ElementVector(skfem.ElementTriP2())
@@ -33,7 +38,7 @@ def build_basis(mesh: PlacedMesh) -> skfem.Basis:
 
 
 def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Integral of eps(w) . C eps(v): matrix of the tangent, eq. (F4).
+    """Integral of eps(w) . C eps(v): matrix of the tangent, eq. (N9).
 
     Parameters
     ----------
@@ -56,7 +61,7 @@ def assemble_tangent_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix
 
 
 def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Taylor-Hood tangent: eps(w) . (C eps(v) + c p) + q (c . eps(v) + k p), (F10).
+    """Taylor-Hood tangent: eps(w) . (C eps(v) + c p) + q (c . eps(v) + k p), (N20).
 
     Parameters
     ----------
@@ -86,17 +91,42 @@ def assemble_mixed_form(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
 
 
 def assemble_stress_form(mesh: PlacedMesh, stress: Floats) -> Floats:
-    """Integral of eps(w) . sigma: internal nodal forces (n_dofs,), slope's axes.
+    """Integral of eps(w) . sigma: internal nodal forces.
 
-    The stress has the shape (n_triangles, n_points, 3). It is in equilibrium, (F1),
-    where these forces equal those of ``assemble_gravity_form``.
+    The stress is in equilibrium, (N6), where these forces equal those of
+    ``assemble_gravity_form``.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    stress : ndarray, shape (n_triangles, n_points, 3)
+        (xx, yy, xy) at the quadrature points [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In the slope's axes [rho g d^2].
     """
     form = skfem.LinearForm(_internal_power)
     return np.asarray(form.assemble(build_basis(mesh), stress=_field(stress)))
 
 
 def assemble_gravity_form(mesh: PlacedMesh, gravity: tuple[float, float]) -> Floats:
-    """Integral of w . g / |g|: nodal forces of gravity (n_dofs,), slope's axes."""
+    """Integral of w . g / |g|: nodal forces of gravity.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    gravity : tuple of float, shape (2,)
+        Over g, in the slope's axes [-].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In the slope's axes [rho g d^2].
+    """
     form = skfem.LinearForm(_gravity_power)
     return np.asarray(form.assemble(build_basis(mesh), x=gravity[0], y=gravity[1]))
 

@@ -130,7 +130,22 @@ def compute_slip_length(
 def build_ground_from_glide_factor(
     glide_factor: float, snow_thickness: float, creep_law: str = DEFAULT_CREEP_LAW
 ) -> GroundLaw:
-    """Ground law for a glide factor N [-]; N = 1 is no slip."""
+    """Ground law for a glide factor; N = 1 is no slip.
+
+    Parameters
+    ----------
+    glide_factor : float
+        N of the guidelines, at least 1 [-].
+    snow_thickness : float
+        Normal to the slope [m].
+    creep_law : str
+        Name of the set.
+
+    Raises
+    ------
+    ModelError
+        If the table of slip lengths does not reach to the factor.
+    """
     if glide_factor == 1.0:
         return GroundLaw(kind="no-slip")
     slip = compute_slip_length(glide_factor, snow_thickness, creep_law)

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.linear import Blocks
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
@@ -103,7 +104,18 @@ class PlacedMesh:
         return self.n_velocities + (self.template.n_vertices if is_mixed else 0)
 
     def to_node_axes(self, vectors: Floats) -> Floats:
-        """Vectors (2, n_nodes) in the slope's axes to unknowns (n_dofs,)."""
+        """Vectors as unknowns.
+
+        Parameters
+        ----------
+        vectors : ndarray, shape (2, n_nodes)
+            In the slope's axes, any unit.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs,)
+            Unknowns in node axes; pressures are 0.
+        """
         cosine, sine = self.axes
         x, y = vectors
         unknowns = np.zeros(self.n_dofs)
@@ -112,11 +124,33 @@ class PlacedMesh:
         return unknowns
 
     def to_slope_axes(self, unknowns: Floats) -> Floats:
-        """Unknowns (n_dofs,) to vectors (2, n_nodes) in the slope's axes."""
+        """Unknowns as vectors.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            In node axes, any unit.
+
+        Returns
+        -------
+        ndarray, shape (2, n_nodes)
+            In the slope's axes.
+        """
         return _turn(self.axes, *unknowns[: self.n_velocities].reshape(-1, 2).T)
 
     def net_in_slope_axes(self, unknowns: Floats) -> Floats:
-        """Of unknowns (n_dofs,) the vectors (2, n_net) of the net's nodes."""
+        """Vectors of the net's nodes.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            In node axes, any unit.
+
+        Returns
+        -------
+        ndarray, shape (2, n_net)
+            In the slope's axes, foot to head.
+        """
         net = self.template.net
         return _turn(self.axes[:, net], unknowns[2 * net], unknowns[2 * net + 1])
 
@@ -154,7 +188,17 @@ def _turn(axes: Floats, first: Floats, second: Floats) -> Floats:
 def build_placed_mesh(
     template: MeshTemplate, nodes: Floats, element: Element = "velocity"
 ) -> PlacedMesh:
-    """Everything that assembly needs on nodes of shape (2, n_nodes)."""
+    """Everything that assembly needs on placed nodes.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    nodes : ndarray, shape (2, n_nodes)
+        Positions [thickness].
+    element : str
+        ``velocity`` or ``mixed``.
+    """
     gradients, area_element = map_gradients(template, nodes)
     shape, _, point_weights = reference_element()
     weights = area_element * point_weights
@@ -178,25 +222,73 @@ def build_placed_mesh(
 
 
 def point_heights(template: MeshTemplate) -> Floats:
-    """Reference heights of the quadrature points, shape (n_triangles, n_points)."""
+    """Reference heights of the quadrature points.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points)
+        [thickness].
+    """
     shape, _, _ = reference_element()
     return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
 
 
 def interpolate_reference(template: MeshTemplate) -> Floats:
-    """Reference coordinates of the points, shape (2, n_triangles, n_points)."""
+    """Reference coordinates of the quadrature points.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray, shape (2, n_triangles, n_points)
+        (xi, eta) [thickness].
+    """
     shape, _, _ = reference_element()
     return np.asarray(template.nodes[:, template.triangles.T] @ shape.T)
 
 
 def interpolate(mesh: PlacedMesh, nodal: Floats) -> Floats:
-    """Values at the points, shape (.., n_triangles, n_points), of nodal (.., n)."""
+    """Values at the quadrature points.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    nodal : ndarray, shape (.., n_nodes)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (.., n_triangles, n_points)
+        In that unit.
+    """
     shape, _, _ = reference_element()
     return np.asarray(nodal[..., mesh.template.triangles.T] @ shape.T)
 
 
 def compute_strain(mesh: PlacedMesh, unknowns: Floats) -> Floats:
-    """Generalised strains, shape (n_triangles, n_points, R), of unknowns (n_dofs,)."""
+    """Generalised strains at the quadrature points.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    unknowns : ndarray, shape (n_dofs,)
+        Velocities, and pressures of the mixed element.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        (xx, yy, xy) and, in the mixed element, the pressure.
+    """
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
     operator = mesh.operator.reshape(n_triangles, n_points * n_rows, n_columns)
     strains = operator @ unknowns[mesh.dofs][..., None]
@@ -204,7 +296,20 @@ def compute_strain(mesh: PlacedMesh, unknowns: Floats) -> Floats:
 
 
 def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
-    """Nodal forces (n_dofs,) of generalised stresses (n_triangles, n_points, R)."""
+    """Nodal forces of stresses.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    stress : ndarray, shape (n_triangles, n_points, R)
+        Generalised stresses [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
     operator = mesh.operator.reshape(n_triangles, n_points * n_rows, n_columns)
     weighted = (stress * mesh.weights[..., None]).reshape(n_triangles, 1, -1)
@@ -212,7 +317,15 @@ def assemble_stress(mesh: PlacedMesh, stress: Floats) -> Floats:
 
 
 def build_stiffness(mesh: PlacedMesh, moduli: Floats) -> Blocks:
-    """Element blocks of moduli, shape (n_triangles, n_points, R, R)."""
+    """Element blocks of moduli.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    moduli : ndarray, shape (n_triangles, n_points, R, R)
+        Stress over strain rate [-].
+    """
     n_triangles, n_points, n_rows, n_columns = mesh.operator.shape
     flat = (n_triangles, n_points * n_rows, n_columns)
     stresses = (moduli * mesh.weights[..., None, None]) @ mesh.operator
@@ -221,12 +334,38 @@ def build_stiffness(mesh: PlacedMesh, moduli: Floats) -> Blocks:
 
 
 def assemble_stiffness(mesh: PlacedMesh, moduli: Floats) -> sparse.csr_matrix:
-    """Matrix (n_dofs, n_dofs) of moduli, shape (n_triangles, n_points, R, R)."""
+    """Matrix of moduli.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    moduli : ndarray, shape (n_triangles, n_points, R, R)
+        Stress over strain rate [-].
+
+    Returns
+    -------
+    sparse matrix, shape (n_dofs, n_dofs)
+        In node axes.
+    """
     return build_stiffness(mesh, moduli).to_matrix(mesh.n_dofs)
 
 
 def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
-    """Nodal loads (n_dofs,) of a body force (2, n_triangles, n_points)."""
+    """Nodal loads of a body force.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    force : ndarray, shape (2, n_triangles, n_points)
+        In the slope's axes [rho g].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
     shape, _, _ = reference_element()
     n_nodes = mesh.nodes.shape[1]
     nodal = [
@@ -237,7 +376,20 @@ def assemble_body_force(mesh: PlacedMesh, force: Floats) -> Floats:
 
 
 def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
-    """Nodal loads (n_dofs,) of a uniform traction along X on the upslope end."""
+    """Nodal loads of a uniform traction on the upslope end.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    force : float
+        Along X, for each metre of width [rho g d^2].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
     eta = mesh.template.nodes[1]
     start, middle, stop = _edge_triples(mesh.template.upstream)
     lengths = eta[stop] - eta[start]
@@ -249,14 +401,35 @@ def assemble_end_load(mesh: PlacedMesh, force: float) -> Floats:
 
 
 def assemble_base_force(mesh: PlacedMesh, shear: Floats) -> Floats:
-    """Nodal forces (n_dofs,) of a shear stress (n_edges, n_points) on the ground."""
+    """Nodal forces of a shear stress on the ground.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    shear : ndarray, shape (n_edges, n_points)
+        Shear stress on the ground [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
     base = mesh.base
     forces = (base.weights * shear) @ base.shape
     return gather(base.dofs, forces, mesh.n_dofs)
 
 
 def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
-    """Edge blocks of a base modulus (n_edges, n_points)."""
+    """Edge blocks of a base modulus.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    modulus : ndarray, shape (n_edges, n_points)
+        Shear stress over velocity [-].
+    """
     base = mesh.base
     weighted = base.weights * modulus
     values = np.einsum("eq,qi,qj->eij", weighted, base.shape, base.shape)
@@ -264,18 +437,61 @@ def build_base_stiffness(mesh: PlacedMesh, modulus: Floats) -> Blocks:
 
 
 def compute_base_velocity(mesh: PlacedMesh, velocity: Floats) -> Floats:
-    """Velocity along the ground, shape (n_edges, n_points)."""
+    """Velocity along the ground.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    velocity : ndarray, shape (n_dofs,)
+        Unknowns in node axes [velocity scale].
+
+    Returns
+    -------
+    ndarray, shape (n_edges, n_points)
+        [velocity scale].
+    """
     return np.asarray(velocity[mesh.base.dofs] @ mesh.base.shape.T)
 
 
 def gather(places: Ints, values: Floats, size: int) -> Floats:
-    """Sums of the values that go to each of ``size`` places."""
+    """Sums of the values that go to each place.
+
+    Parameters
+    ----------
+    places : ndarray of int, any shape
+        Where each value goes.
+    values : ndarray
+        Of that shape, any unit.
+    size : int
+        Number of places.
+
+    Returns
+    -------
+    ndarray, shape (size,)
+        In that unit.
+    """
     sums = np.bincount(places.ravel(), values.ravel(), minlength=size)
     return np.asarray(sums, dtype=np.float64)
 
 
 def map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats]:
-    """Shape gradients (2, n_triangles, n_points, 6) and area element."""
+    """Shape gradients and area element of placed nodes.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    nodes : ndarray, shape (2, n_nodes)
+        Positions [thickness].
+
+    Returns
+    -------
+    ndarray, shape (2, n_triangles, n_points, 6)
+        Gradients of the shape functions [1 / thickness].
+    ndarray, shape (n_triangles, n_points)
+        Area element; not above 0 where a triangle is turned over.
+    """
     _, reference, _ = reference_element()
     corners = nodes[:, template.triangles]
     jacobian = np.einsum("aie,ijq->ajeq", corners, reference)
@@ -291,7 +507,22 @@ def map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats
 def build_strain_operator(
     template: MeshTemplate, gradients: Floats, axes: Floats
 ) -> Floats:
-    """Strains (xx, yy, xy) per velocity, shape (n_triangles, n_points, 3, 12)."""
+    """Strains per velocity.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    gradients : ndarray, shape (2, n_triangles, n_points, 6)
+        Of the shape functions [1 / thickness].
+    axes : ndarray, shape (2, n_nodes)
+        Cosine and sine of the first node axis [-].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, 3, 12)
+        (xx, yy, xy) for each velocity component of a triangle.
+    """
     d_dx, d_dy = gradients
     operator = np.zeros((*d_dx.shape[:2], 3, 12))
     operator[..., 0, ::2] = operator[..., 2, 1::2] = d_dx
@@ -323,6 +554,11 @@ def _net_normals(template: MeshTemplate, nodes: Floats) -> Floats:
 
 def turn_normals(mesh: PlacedMesh) -> Floats:
     """Angle by which each net node's normal turns as net nodes move.
+
+    Parameters
+    ----------
+    mesh : PlacedMesh
+        Mesh against the net's curve.
 
     Returns
     -------
@@ -386,7 +622,20 @@ def reference_element() -> tuple[Floats, Floats, Floats]:
 
 @lru_cache(maxsize=256)
 def list_dofs(template: MeshTemplate, element: Element) -> Ints:
-    """Unknowns of each triangle, velocities first, shape (n_triangles, C)."""
+    """Unknowns of each triangle.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    element : str
+        ``velocity`` or ``mixed``.
+
+    Returns
+    -------
+    ndarray of int, shape (n_triangles, C)
+        Velocities first.
+    """
     dofs = list_velocity_dofs(template)
     if element == "mixed":
         first = 2 * template.nodes.shape[1]
@@ -396,13 +645,35 @@ def list_dofs(template: MeshTemplate, element: Element) -> Ints:
 
 
 def list_velocity_dofs(template: MeshTemplate) -> Ints:
-    """Velocity components of each triangle, shape (n_triangles, 12)."""
+    """Velocity components of each triangle.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray of int, shape (n_triangles, 12)
+        X and Y of each node in turn.
+    """
     first = 2 * template.triangles.T
     return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
 
 
 def add_pressure_rows(strain: Floats) -> Floats:
-    """Operator (.., 4, 15) whose fourth strain is the pressure, linear per triangle."""
+    """Operator of the mixed element.
+
+    Parameters
+    ----------
+    strain : ndarray, shape (n_triangles, n_points, 3, 12)
+        Operator of the velocity element.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, 4, 15)
+        Its fourth strain is the pressure, linear in a triangle.
+    """
     from skfem import ElementTriP1
     from skfem.quadrature import get_quadrature
 

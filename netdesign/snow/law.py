@@ -1,4 +1,4 @@
-"""What governs one instant of flow, dimensionless, and its tangents.
+"""Problem of one instant of flow, dimensionless, and the tangents of its laws.
 
 Lengths are in snow thicknesses d, stresses in rho g d with the mean density, strain
 rates in B a^((n+1)/2) (rho g d)^n with the B and a of the reference layer. Theory:
@@ -12,9 +12,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.ground import GroundKind
 from netdesign.snow.kernel import Element, point_heights
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.
 # Halving it moves end forces by less than 1e-5 (tests/snow/test_flow.py).
@@ -22,7 +23,7 @@ STRESS_FLOOR = 3e-3
 
 Sides = Literal["one-sided", "two-sided"]
 
-# Plane part of the unit tensor, and the compliance of a deviatoric stress (F8).
+# Plane part of the unit tensor, and the compliance of a deviatoric stress (N18).
 _UNIT = np.array([1.0, 1.0, 0.0])
 _SHEAR, _VOLUME = np.diag([2.0, 2.0, 1.0]), np.outer(_UNIT, _UNIT)
 _DEVIATOR_COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])
@@ -39,24 +40,24 @@ class FlowLayer:
         Height of its upper side over the thickness; 1 for the last layer.
     bulk_ratio : float
         a / b of the creep law [-].
-    fluidity : float
+    fluidity_ratio : float
         B a^((n+1)/2) over that of the reference [-].
     density : float
         Over the mean density [-].
     warmth : float
-        B over that of the reference [-]; a part of ``fluidity``.
+        B over that of the reference [-]; a part of ``fluidity_ratio``.
     """
 
     top: float = 1.0
     bulk_ratio: float
-    fluidity: float = 1.0
+    fluidity_ratio: float = 1.0
     density: float = 1.0
     warmth: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FlowLaw:
-    """Creep, ground and friction of one scene.
+class FlowProblem:
+    """One instant of flow: creep, gravity, ground, contacts and end load.
 
     Attributes
     ----------
@@ -96,54 +97,94 @@ class FlowLaw:
 
 
 class Material(NamedTuple):
-    """Layer properties where they are needed: numbers, or arrays over points."""
+    """Layer properties where they are needed: numbers, or arrays over points.
+
+    Attributes
+    ----------
+    bulk_ratio, fluidity_ratio, density : float or ndarray
+        As in ``FlowLayer`` [-]; shape (n_triangles, n_points) or (n_triangles, 1).
+    """
 
     bulk_ratio: float | Floats
-    fluidity: float | Floats
+    fluidity_ratio: float | Floats
     density: float | Floats
 
     @property
     def stiffness(self) -> Floats:
-        """M of eq. (F2), shape (.., 3, 3): stress over strain rate, linear law."""
+        """M of eq. (N7), shape (.., 3, 3): stress over strain rate, linear law."""
         coupling = np.asarray(self.bulk_ratio) - 2.0 / 3.0
         return np.asarray(_SHEAR + coupling[..., None, None] * _VOLUME)
 
-    def sample_fluidity(self, triangles: Ints) -> Floats:
-        """Fluidity of some triangles, shape (n, 1); points of one have the same."""
-        if np.ndim(self.fluidity) == 0:
-            return np.full((triangles.size, 1), self.fluidity)
-        return np.asarray(np.asarray(self.fluidity)[triangles, :1])
+    def sample_fluidity_ratio(self, triangles: Ints) -> Floats:
+        """Fluidity ratio of some triangles.
+
+        Parameters
+        ----------
+        triangles : ndarray of int, shape (n,)
+            Their numbers.
+
+        Returns
+        -------
+        ndarray, shape (n, 1)
+            [-]; points of one triangle have the same.
+        """
+        if np.ndim(self.fluidity_ratio) == 0:
+            return np.full((triangles.size, 1), self.fluidity_ratio)
+        return np.asarray(np.asarray(self.fluidity_ratio)[triangles, :1])
 
 
 class Tangent(NamedTuple):
-    """A law linearised about a stress: stress = kept + modulus times strain rate."""
+    """A law linearised about a stress: intercept + modulus times strain rate.
+
+    Attributes
+    ----------
+    modulus : ndarray, shape (.., R, R), or (n_edges, n_points) on the ground
+        Stress over strain rate [-].
+    intercept : ndarray, shape (.., R), or (n_edges, n_points) on the ground
+        Stress without strain rate [rho g d].
+    """
 
     modulus: Floats
-    kept: Floats
+    intercept: Floats
 
 
-def sample_material(law: FlowLaw, template: MeshTemplate) -> Material:
-    """Properties at the quadrature points; plain numbers for uniform snow."""
-    if len(law.layers) == 1:
-        layer = law.layers[0]
-        return Material(layer.bulk_ratio, layer.fluidity, layer.density)
-    tops = np.array([layer.top for layer in law.layers[:-1]])
+def sample_material(problem: FlowProblem, template: MeshTemplate) -> Material:
+    """Properties at the quadrature points.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its layers.
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    Material
+        Numbers for uniform snow, else arrays of shape (n_triangles, n_points).
+    """
+    if len(problem.layers) == 1:
+        layer = problem.layers[0]
+        return Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
+    tops = np.array([layer.top for layer in problem.layers[:-1]])
     index = np.searchsorted(tops, point_heights(template))
-    fields = ("bulk_ratio", "fluidity", "density")
+    fields = ("bulk_ratio", "fluidity_ratio", "density")
     return Material(
         *(
-            np.array([getattr(layer, name) for layer in law.layers])[index]
+            np.array([getattr(layer, name) for layer in problem.layers])[index]
             for name in fields
         )
     )
 
 
-def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent:
+def linearise_creep(
+    problem: FlowProblem, material: Material, stress: Floats
+) -> Tangent:
     """Tangent of the creep law in the generalised strains of the law's element.
 
     Parameters
     ----------
-    law : FlowLaw
+    problem : FlowProblem
         Exponent and element.
     material : Material
         At the points.
@@ -153,72 +194,141 @@ def linearise_creep(law: FlowLaw, material: Material, stress: Floats) -> Tangent
     Returns
     -------
     Tangent
-        Moduli (.., R, R) and kept part (.., R), eqs (F4), (F5), or (F9), (F10).
+        Moduli (.., R, R) and intercepts (.., R), eqs (N9) and (N10), or (N20).
     """
-    if law.element == "mixed":
-        return _linearise_mixed(law, material, stress)
-    size = squared_size(law, material, stress)
-    viscosity, reduction, share = _scalars(law, size, size)
+    if problem.element == "mixed":
+        return _linearise_mixed(problem, material, stress)
+    size = squared_invariant(problem, material, stress)
+    viscosity, reduction, share = _scalars(problem, size, size)
     outer = stress[..., :, None] * stress[..., None, :]
     moduli = material.stiffness - (reduction * share)[..., None, None] * outer
-    moduli *= (viscosity / material.fluidity)[..., None, None]
-    return Tangent(modulus=moduli, kept=stress * (1.0 - share)[..., None])
+    moduli *= (viscosity / material.fluidity_ratio)[..., None, None]
+    return Tangent(modulus=moduli, intercept=stress * (1.0 - share)[..., None])
 
 
 def linearise_sliding(
-    law: FlowLaw, shear: Floats, fluidity: Floats | None = None
+    problem: FlowProblem, shear: Floats, fluidity_ratio: Floats | None = None
 ) -> Tangent:
-    """Tangent of the law of a sliding ground (G2); arrays (n_edges, n_points).
+    """Tangent of the law of a sliding ground, (N12) and (N22).
 
-    Slip is the shear of the snow that lies on the ground. ``fluidity``, shape
-    (n_edges, 1), is that snow's, B a^((n+1)/2), over the reference; that of the
-    lowest layer if it is not given.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Exponent and slip ratio.
+    shear : ndarray, shape (n_edges, n_points)
+        Shear stress on the ground [rho g d].
+    fluidity_ratio : ndarray, shape (n_edges, 1), optional
+        Of the snow on the ground, B a^((n+1)/2) over the reference [-]; default is that
+        of the lowest layer.
+
+    Returns
+    -------
+    Tangent
+        Modulus and intercept, shape (n_edges, n_points) each.
     """
-    viscosity, _, share = _scalars(law, shear**2, shear**2)
-    slip = law.slip_ratio * (law.layers[0].fluidity if fluidity is None else fluidity)
-    return Tangent(modulus=viscosity * share / slip, kept=shear * (1.0 - share))
+    viscosity, _, share = _scalars(problem, shear**2, shear**2)
+    slip = problem.slip_ratio * (
+        problem.layers[0].fluidity_ratio if fluidity_ratio is None else fluidity_ratio
+    )
+    return Tangent(modulus=viscosity * share / slip, intercept=shear * (1.0 - share))
 
 
 def advance_stress(
-    law: FlowLaw, tangent: Tangent, strain: Floats, more: Floats | None = None
+    problem: FlowProblem, tangent: Tangent, strain: Floats, more: Floats | None = None
 ) -> Floats:
-    """Stress, in the form that ``linearise_creep`` takes, after a step.
+    """Stress after a step.
 
-    ``more`` is strain on top, added last: large velocities that deform little would
-    otherwise leave their rounding in the balance of forces.
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    tangent : Tangent
+        Of the creep law.
+    strain : ndarray, shape (n_triangles, n_points, R)
+        Generalised strain after the step [-].
+    more : ndarray, optional
+        Strain on top, of that shape [-]. It is added last: large velocities that deform
+        little would otherwise leave their rounding in the balance of forces.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
     """
     stress = hold_stress(tangent, strain)
     pressure = strain[..., 3:]
     if more is not None:
         stress += (tangent.modulus @ more[..., None])[..., 0]
         pressure = pressure + more[..., 3:]
-    if law.element == "mixed":
+    if problem.element == "mixed":
         stress[..., :3] += pressure * _UNIT
         stress[..., 3:] = pressure
     return stress
 
 
 def hold_stress(tangent: Tangent, strain: Floats) -> Floats:
-    """Generalised stress of the linearised law at a strain."""
-    return np.asarray(tangent.kept + (tangent.modulus @ strain[..., None])[..., 0])
+    """Generalised stress of the linearised law at a strain.
+
+    Parameters
+    ----------
+    tangent : Tangent
+        Of the creep law.
+    strain : ndarray, shape (n_triangles, n_points, R)
+        Generalised strain [-].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        [rho g d].
+    """
+    return np.asarray(tangent.intercept + (tangent.modulus @ strain[..., None])[..., 0])
 
 
-def total_stress(law: FlowLaw, stress: Floats) -> Floats:
+def total_stress(problem: FlowProblem, stress: Floats) -> Floats:
     """Generalised stress whose nodal forces are the internal forces.
 
     In the mixed element the fourth row, conjugate to the pressure, is left out: it
     belongs to the law, not to equilibrium.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    stress : ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, R)
+        [rho g d].
     """
-    if law.element == "velocity":
+    if problem.element == "velocity":
         return stress
     total = np.zeros_like(stress)
     total[..., :3] = stress[..., :3] - stress[..., 3:] * _UNIT
     return total
 
 
-def squared_size(law: FlowLaw, material: Material, stress: Floats) -> Floats:
-    """Squared stress invariant, eq. (F3) or (F8)."""
-    if law.element == "mixed":
+def squared_invariant(
+    problem: FlowProblem, material: Material, stress: Floats
+) -> Floats:
+    """Squared stress invariant.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Its element.
+    material : Material
+        At the points.
+    stress : ndarray, shape (n_triangles, n_points, R)
+        In the form that ``linearise_creep`` takes [rho g d].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points)
+        S^2 of (N8) or (N18) [(rho g d)^2].
+    """
+    if problem.element == "mixed":
         deviator, pressure = stress[..., :3], stress[..., 3]
         return _quadratic(_DEVIATOR_COMPLIANCE, deviator) + pressure**2 / (
             material.bulk_ratio
@@ -233,14 +343,16 @@ def squared_size(law: FlowLaw, material: Material, stress: Floats) -> Floats:
     )
 
 
-def _linearise_mixed(law: FlowLaw, material: Material, stress: Floats) -> Tangent:
+def _linearise_mixed(
+    problem: FlowProblem, material: Material, stress: Floats
+) -> Tangent:
     deviator, pressure = stress[..., :3], stress[..., 3]
     bulk = material.bulk_ratio
     part = _quadratic(_DEVIATOR_COMPLIANCE, deviator)
     size = part + pressure**2 / bulk
-    viscosity, reduction, share = _scalars(law, size, part)
-    viscosity = viscosity / material.fluidity
-    pull = reduction * share * pressure / bulk  # q s p / r of eq. (F9)
+    viscosity, reduction, share = _scalars(problem, size, part)
+    viscosity = viscosity / material.fluidity_ratio
+    pull = reduction * share * pressure / bulk  # q s p / r of eq. (N20)
     outer = deviator[..., :, None] * deviator[..., None, :]
     moduli = np.empty((*stress.shape, 4))
     moduli[..., :3, :3] = viscosity[..., None, None] * (
@@ -248,16 +360,18 @@ def _linearise_mixed(law: FlowLaw, material: Material, stress: Floats) -> Tangen
     )
     moduli[..., :3, 3] = moduli[..., 3, :3] = -_UNIT - pull[..., None] * deviator
     moduli[..., 3, 3] = -(1.0 / bulk + pull * pressure / bulk) / viscosity
-    kept = np.empty_like(stress)
-    kept[..., :3] = deviator * (1.0 - share + pull * pressure)[..., None]
-    kept[..., 3] = pull * size / viscosity
-    return Tangent(modulus=moduli, kept=kept)
+    intercept = np.empty_like(stress)
+    intercept[..., :3] = deviator * (1.0 - share + pull * pressure)[..., None]
+    intercept[..., 3] = pull * size / viscosity
+    return Tangent(modulus=moduli, intercept=intercept)
 
 
-def _scalars(law: FlowLaw, size: Floats, part: Floats) -> tuple[Floats, Floats, Floats]:
-    """Viscosity (S^2 + s0^2)^((1-n)/2), q of (F4), and 1 / (1 + q part)."""
-    n = law.exponent
-    floored = size + law.stress_floor**2
+def _scalars(
+    problem: FlowProblem, size: Floats, part: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Viscosity (S^2 + s0^2)^((1-n)/2), q of (N9), and 1 / (1 + q part)."""
+    n = problem.exponent
+    floored = size + problem.stress_floor**2
     reduction = (n - 1.0) / floored
     return floored ** ((1.0 - n) / 2.0), reduction, 1.0 / (1.0 + reduction * part)
 

@@ -3,7 +3,7 @@
 The sparsity of a template never changes, so its unknowns are ordered once for a small
 bandwidth and each problem goes straight into LAPACK's banded storage: Cholesky where
 the matrix is symmetric and positive definite, LU where friction or pressures are in it.
-Wide meshes go to SuperLU.
+Wide meshes go to SuperLU. Theory: snow/THEORY.md, section 5.
 """
 
 from __future__ import annotations
@@ -14,15 +14,14 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.snow.mesh import MeshTemplate
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
 
-Mask = NDArray[np.bool_]
 
 # Above these half bandwidths SuperLU is faster (measured at 470 to 4100 unknowns).
 _WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
@@ -38,9 +37,16 @@ class SingularError(Exception):
 
 
 class Blocks(NamedTuple):
-    """Dense blocks of a matrix: dofs (n, C) and values (n, C, C).
+    """Dense blocks of a matrix.
 
-    The first ``n_paired`` columns are velocities in pairs, two per node.
+    Attributes
+    ----------
+    dofs : ndarray of int, shape (n, C)
+        Unknowns of each block.
+    values : ndarray, shape (n, C, C)
+        Its entries.
+    n_paired : int
+        So many of the first columns are velocities in pairs, two per node.
     """
 
     dofs: Ints
@@ -48,7 +54,18 @@ class Blocks(NamedTuple):
     n_paired: int
 
     def to_matrix(self, size: int) -> sparse.csr_matrix:
-        """The matrix itself, (size, size)."""
+        """The matrix itself.
+
+        Parameters
+        ----------
+        size : int
+            Number of unknowns.
+
+        Returns
+        -------
+        sparse matrix, shape (size, size)
+            Sum of the blocks.
+        """
         import scipy.sparse as sparse
 
         count = self.dofs.shape[1]
@@ -59,7 +76,18 @@ class Blocks(NamedTuple):
         )
 
     def multiply(self, unknowns: Floats) -> Floats:
-        """Product with a vector (n_dofs,)."""
+        """Product of the matrix with a vector.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Any unit.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs,)
+            Product.
+        """
         parts = self.values @ unknowns[self.dofs][..., None]
         sums = np.bincount(self.dofs.ravel(), parts.ravel(), minlength=unknowns.size)
         return np.asarray(sums)
@@ -76,7 +104,7 @@ class Ordering:
     band : int
         Half bandwidth.
     known : dict
-        Places found before, by the arrays of unknowns they are of.
+        Places found before, shape (n,), by the arrays of unknowns they are of.
     """
 
     place: Ints
@@ -86,10 +114,22 @@ class Ordering:
     )
 
     def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
-        """Sum of the parts in LAPACK's banded storage, shape (n_dofs, height).
+        """Sum of the parts in LAPACK's banded storage.
 
-        The lower half band alone, or the whole with room for pivots. All parts in one
+        All parts in one
         sum: storage is larger than what they hold, each pass over it costs.
+
+        Parameters
+        ----------
+        parts : sequence of Blocks
+            Of the matrix.
+        lower : bool
+            The lower half band alone; else the whole, with room for pivots.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs, height)
+            Height is band + 1 or 3 band + 1.
         """
         height = self.band + 1 if lower else 3 * self.band + 1
         size = self.place.size * height
@@ -124,7 +164,17 @@ class Ordering:
 def build_ordering(
     template: MeshTemplate, *, has_pressures: bool, couples_net: bool
 ) -> Ordering:
-    """Order of small bandwidth; ``couples_net`` joins all net vertices."""
+    """Order of small bandwidth, (N23).
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    has_pressures : bool
+        Every vertex has a pressure, too.
+    couples_net : bool
+        All net vertices are neighbours.
+    """
     return _build_ordering(template, has_pressures, couples_net)
 
 
@@ -151,14 +201,14 @@ def solve_blocks(
         Unknowns that nothing holds.
     friction : ndarray, shape (n_dofs,), optional
         At each tangential (odd) unknown, what of the row before it is added to its
-        own row, eq. (F6); 0 elsewhere.
+        own row, eq. (N14); 0 elsewhere.
     is_definite : bool
         K is symmetric and positive definite, friction aside.
 
     Returns
     -------
-    ndarray
-        Of the shape of ``force``.
+    ndarray, of the shape of ``force``
+        In the unit of velocities [velocity scale].
 
     Raises
     ------
@@ -173,9 +223,9 @@ def solve_blocks(
     load[held] = 0.0
     if is_definite and ordering.band <= _WIDEST_CHOLESKY:
         if friction is None:
-            right = _in_order(ordering, load)
+            rhs = _in_order(ordering, load)
             masked = [_mask(part, free) for part in parts]
-            return _solve_cholesky(ordering, masked, right, held)[ordering.place]
+            return _solve_cholesky(ordering, masked, rhs, held)[ordering.place]
         if np.count_nonzero(friction) <= _MOST_SLIPPING * ordering.band:
             return _solve_slipping(ordering, parts, friction, load, free)
     if friction is not None:
@@ -206,15 +256,15 @@ def _build_ordering(
     rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
     columns = graph.indices.astype(np.int64)
     orders = _list_orders(graph, template)
-    narrowest = min(orders, key=lambda order: _find_reach(order, rows, columns))
+    narrowest = min(orders, key=lambda order: _find_bandwidth(order, rows, columns))
     start = _place_in(_narrow(narrowest, rows, columns), size)
-    reach = int(np.abs(start[rows] - start[columns]).max())
+    bandwidth = int(np.abs(start[rows] - start[columns]).max())
     place = np.empty(int(size.sum()), dtype=np.int64)
     place[: 2 * n_nodes : 2] = start
     place[1 : 2 * n_nodes : 2] = start + 1
     if has_pressures:
         place[2 * n_nodes :] = start[: template.n_vertices] + 2
-    return Ordering(place=place, band=reach + int(size.max()) - 1)
+    return Ordering(place=place, band=bandwidth + int(size.max()) - 1)
 
 
 def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]:
@@ -245,9 +295,9 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
     for _ in range(_SWEEPS + 1):
         place = np.empty(order.size)
         place[order] = np.arange(order.size)
-        reach = _find_reach(order, rows, columns)
-        if reach < narrowest:
-            best, narrowest = order, reach
+        bandwidth = _find_bandwidth(order, rows, columns)
+        if bandwidth < narrowest:
+            best, narrowest = order, bandwidth
         first = np.minimum.reduceat(place[columns], begins)
         last = np.maximum.reduceat(place[columns], begins)
         moved = (1.0 - _SWEEP) * place + _SWEEP * (first + last) / 2.0
@@ -255,8 +305,8 @@ def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
     return best
 
 
-def _find_reach(order: Ints, rows: Ints, columns: Ints) -> int:
-    """How far apart neighbours are in an order, at most."""
+def _find_bandwidth(order: Ints, rows: Ints, columns: Ints) -> int:
+    """Largest distance of neighbours in an order."""
     place = np.argsort(order)
     return int(np.abs(place[rows] - place[columns]).max())
 
@@ -290,13 +340,13 @@ def _scale_of(values: Floats) -> float:
 
 
 def _solve_cholesky(
-    ordering: Ordering, parts: Sequence[Blocks], right: Floats, held: Mask
+    ordering: Ordering, parts: Sequence[Blocks], rhs: Floats, held: Mask
 ) -> Floats:
     """Solutions of right sides that are in order already; they stay so."""
     matrix = ordering.fill(parts, lower=True)
     matrix[ordering.place[held], 0] = _scale_of(matrix[:, 0])
     _, solution, fault = lapack.dpbsv(
-        matrix.T, right, lower=1, overwrite_ab=1, overwrite_b=1
+        matrix.T, rhs, lower=1, overwrite_ab=1, overwrite_b=1
     )
     if fault != 0:
         raise SingularError("not positive definite")
@@ -310,15 +360,15 @@ def _solve_slipping(
     load: Floats,
     free: Mask,
 ) -> Floats:
-    """The symmetric matrix with a few rows added, by Woodbury's formula."""
+    """Solution with a few rows added to the symmetric matrix: Woodbury's (N24)."""
     slipping = np.flatnonzero(friction)
     columns = load.size // len(load)
-    right = np.zeros((len(load), columns + slipping.size), order="F")
-    right[ordering.place, :columns] = load.reshape(-1, columns)
-    right[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
+    rhs = np.zeros((len(load), columns + slipping.size), order="F")
+    rhs[ordering.place, :columns] = load.reshape(-1, columns)
+    rhs[ordering.place[slipping], columns + np.arange(slipping.size)] = 1.0
     masked = [_mask(part, free) for part in parts]
-    answers = _solve_cholesky(ordering, masked, right, ~free)
-    plain, inverse = answers[:, :columns], answers[:, columns:]
+    solutions = _solve_cholesky(ordering, masked, rhs, ~free)
+    plain, inverse = solutions[:, :columns], solutions[:, columns:]
     rows = _collect_friction(ordering, parts, friction, free)
     small = rows @ inverse
     small.flat[:: slipping.size + 1] += 1.0
@@ -332,7 +382,7 @@ def _solve_slipping(
 def _collect_friction(
     ordering: Ordering, parts: Sequence[Blocks], friction: Floats, free: Mask
 ) -> Floats:
-    """What friction adds to the rows of slipping nodes, (n_slipping, n_dofs).
+    """Rows A of (N24), which friction adds at slipping nodes, (n_slipping, n_dofs).
 
     The columns are in order.
     """
@@ -352,9 +402,9 @@ def _collect_friction(
 
 
 def _in_order(ordering: Ordering, load: Floats) -> Floats:
-    right = np.empty_like(load, order="F")
-    right[ordering.place] = load
-    return right
+    rhs = np.empty_like(load, order="F")
+    rhs[ordering.place] = load
+    return rhs
 
 
 def _solve_lu(

@@ -2,9 +2,9 @@
 
 The reference region is the rectangle of a straight net normal to the slope, in
 units of the snow thickness: xi is the distance upslope of the net, eta the height
-above the ground. Around the net's two ends, where the pressure is singular, rings
-of triangles shrink geometrically. Every case of one aspect ratio shares the
-reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
+above the ground. Rings of triangles surround the net's two ends, where the pressure is
+singular; their radii are fourth powers of equal steps. Every case of one aspect ratio
+shares the reference; only the node positions differ. Theory: snow/THEORY.md, section 3.
 """
 
 from __future__ import annotations
@@ -20,29 +20,28 @@ from numpy.typing import NDArray
 
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-# Radii of rings are powers of equal steps: what a triangle near a singular point adds
-# to the forces falls with its size. Depth over width of the outermost triangles; the
-# largest radius, and the share of the distance between layers' sides that it may take.
+# Radii of rings are powers of equal steps: the forces that a triangle near a singular
+# point adds fall with its size. Then depth over width of the outermost triangles.
 _RING_POWER, _RING_DEPTH = 4.0, 1.8
-_RING_REACH, _RING_GAP = 0.45, 0.4
-# Sizes over distances from an end times sectors, and how fast columns widen likewise.
+# Largest radius, and the share of the distance between layers' sides that it may take.
+_RING_RADIUS, _RING_GAP = 0.45, 0.4
+# Both over the sectors: size of triangles over their distance from an end, and what a
+# column is wider than its neighbour.
 _RING_SHARE, _GROWTH = 1.8, 1.6
-_CLEARANCE = 1.3  # other points keep this many ring reaches away
-_BESIDE = _CLEARANCE * _RING_REACH
+_CLEARANCE = 1.3  # other points keep this many ring radii away
+_BESIDE = _CLEARANCE * _RING_RADIUS
 _LEAST_ROWS = 2  # of triangles in each layer
 _LEAST_OFF = 0.8  # distance of other points from a layer's side, over half its pieces
 # Upslope of this many thicknesses the flow changes over lengths like the distance: the
 # columns widen with it. Along layers triangles may be long from nearer on.
 _FAR, _FAR_ALONG_LAYERS = 8.0, 2.0
-# A short snowpack's upslope end on ground that holds it is felt at the net: columns of
+# Ground that holds a short snowpack makes its upslope end felt at the net. Columns take
 # at most this share of the length, over the sectors.
 _END_SHARE = 0.5
-NET_REACH = 3.0  # upslope of this many thicknesses the mesh does not follow the net
+NET_FOLLOWED = 3.0  # upslope of this many thicknesses the mesh does not follow the net
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,15 +51,15 @@ class MeshSize:
     Attributes
     ----------
     net_spacing : float
-        Size of triangles along the middle of the net.
+        Size of triangles along the middle of the net [thickness].
     corner : float
-        Size of the smallest triangles, at the net's foot; at its head and where
-        layers meet the net, where the flow is less singular, its square root.
+        Size of the smallest triangles, at the net's foot [thickness]; its square root
+        at the head and where layers meet the net: the flow is less singular there.
     sectors : int
         Number of sectors of each ring around the net's foot; so many times slower,
         too, triangles grow away from the ends. 0 for an even mesh without rings.
     upslope_spacing : float
-        Largest size, far upslope.
+        Largest size, far upslope [thickness].
     subdivisions : int
         How many times every triangle is cut in four.
     head_sectors : int, optional
@@ -152,6 +151,11 @@ def build_template(
     interfaces : tuple of float
         Heights between layers over the thickness, ascending [-]; no triangle
         crosses them.
+
+    Raises
+    ------
+    ModelError
+        If the aspect is out of its range.
     """
     require_within("upslope length over thickness", aspect, 0.25, 200.0)
     columns = _column_places(aspect, size)
@@ -167,7 +171,15 @@ def build_template(
 
 
 def triangulate(points: Floats, aspect: float) -> MeshTemplate:
-    """Reference mesh of given points (n, 2) that fill the rectangle to its sides."""
+    """Reference mesh of given points.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        They fill the rectangle to its sides [thickness].
+    aspect : float
+        Upslope length over thickness [-].
+    """
     return _build_mesh(points, _connect(points), aspect)
 
 
@@ -262,7 +274,7 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
         are parabolas through their three nodes, all others are straight.
     """
     distance, height = template.nodes
-    follow = np.maximum(0.0, 1.0 - distance / min(NET_REACH, template.aspect))
+    follow = np.maximum(0.0, 1.0 - distance / min(NET_FOLLOWED, template.aspect))
     fractions = template.net_fractions
     x_net = np.interp(height, fractions, net_curve[0])
     y_net = np.interp(height, fractions, net_curve[1])
@@ -286,20 +298,20 @@ def _end_points(size: MeshSize, interfaces: tuple[float, ...]) -> Floats:
 
 def _quarter_rings(sectors: int, corner: float) -> Floats:
     angles = np.linspace(0.0, np.pi / 2, sectors + 1)
-    return _ring_points(sectors, corner, _RING_REACH, angles)
+    return _ring_points(sectors, corner, _RING_RADIUS, angles)
 
 
-def _junction_points(size: MeshSize, height: float, reach: float) -> Floats:
+def _junction_points(size: MeshSize, height: float, radius: float) -> Floats:
     """Rings around the place on the net where two layers meet."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 2 * (size.sectors // 2 or 1) + 1)
-    rings = _ring_points(size.sectors, np.sqrt(size.corner), reach, angles)
+    rings = _ring_points(size.sectors, np.sqrt(size.corner), radius, angles)
     return np.asarray(rings + np.array([0.0, height]))
 
 
-def _ring_points(sectors: int, corner: float, reach: float, angles: Floats) -> Floats:
+def _ring_points(sectors: int, corner: float, radius: float, angles: Floats) -> Floats:
     """Rings of points (n, 2) around the origin, and the origin."""
-    outer = reach ** (1.0 / _RING_POWER)
-    inner = min(corner, reach / 2.0) ** (1.0 / _RING_POWER)
+    outer = radius ** (1.0 / _RING_POWER)
+    inner = min(corner, radius / 2.0) ** (1.0 / _RING_POWER)
     width = np.pi / 2 / sectors
     count = _RING_POWER * (1.0 - inner / outer) / (_RING_DEPTH * width)
     radii = np.linspace(outer, inner, max(1, round(count)) + 1) ** _RING_POWER
@@ -354,11 +366,11 @@ def _add_rings(
     points = points[points[:, 0] <= aspect]
     points = np.vstack([points, [(aspect, 0.0), (aspect, 1.0)]])
     for below, height, above in _neighbours(interfaces):
-        reach = min(_RING_REACH, _RING_GAP * min(height - below, above - height))
-        line = _interface_points(size, height, reach, first)
-        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * reach
+        radius = min(_RING_RADIUS, _RING_GAP * min(height - below, above - height))
+        line = _interface_points(size, height, radius, first)
+        apart = np.hypot(points[:, 0], points[:, 1] - height) > _CLEARANCE * radius
         is_clear = (_is_clear(points, line) & apart) | (points[:, 0] >= first)
-        rings = _junction_points(size, height, reach)
+        rings = _junction_points(size, height, radius)
         points = np.vstack([points[is_clear], line, rings])
     return points
 
@@ -370,11 +382,11 @@ def _neighbours(interfaces: tuple[float, ...]) -> list[tuple[float, float, float
 
 
 def _interface_points(
-    size: MeshSize, height: float, reach: float, first: float
+    size: MeshSize, height: float, radius: float, first: float
 ) -> Floats:
     """Points along an interface from its rings to the first whole column."""
-    gap = reach / _RING_GAP
-    places = [min(reach, first / 2.0)]
+    gap = radius / _RING_GAP
+    places = [min(radius, first / 2.0)]
     while places[-1] < first:
         to_end = np.hypot(places[-1], min(height, 1.0 - height))
         near = min(places[-1], _RING_SHARE / size.sectors * to_end)
@@ -400,7 +412,7 @@ def _squeeze(points: Floats, far: float) -> Floats:
     return np.column_stack([np.minimum(distance, far) + far * log, height])
 
 
-def _is_clear(points: Floats, line: Floats) -> NDArray[np.bool_]:
+def _is_clear(points: Floats, line: Floats) -> Mask:
     """Points outside the circles over a level line's pieces, and not close to them.
 
     A piece whose circle is empty is an edge of the Delaunay triangulation. A point

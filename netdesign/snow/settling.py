@@ -8,19 +8,19 @@ import numpy as np
 
 from netdesign.snow.body import SnowBody
 from netdesign.snow.creep_law import DENSEST_SNOW, CreepLaw, compute_factors
-from netdesign.snow.law import FlowLaw, Material, sample_material
+from netdesign.snow.law import FlowProblem, Material, sample_material
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settling:
-    """How the creep law follows the density.
+    """Creep law that follows the density, or not.
 
     Attributes
     ----------
     creep_law : CreepLaw
         Set of a(D), b(D).
     mean_density : float
-        Relative density D that counts as 1 in the body.
+        Relative density D that counts as 1 in the body [-].
     densifies : bool
         False keeps a and b as they were at the start; mass is kept in any case.
     least_density : float
@@ -35,25 +35,52 @@ class Settling:
     least_density: float = 1.0
 
 
-def build_material(settling: Settling, law: FlowLaw, body: SnowBody) -> Material:
-    """Material at the quadrature points of the body as it is now.
+def build_material(
+    settling: Settling, problem: FlowProblem, body: SnowBody
+) -> Material:
+    """Material at the quadrature points of a body.
 
-    Numbers, or arrays (n_triangles, 1): a triangle has one density.
+    Parameters
+    ----------
+    settling : Settling
+        Whether and how the law follows the density.
+    problem : FlowProblem
+        Exponent and layers.
+    body : SnowBody
+        As it is now.
+
+    Returns
+    -------
+    Material
+        Numbers, or arrays of shape (n_triangles, 1): a triangle has one density.
     """
     if not settling.densifies:
-        return sample_material(law, body.topology.template)
+        return sample_material(problem, body.topology.template)
     density = np.maximum(body.density, settling.least_density)
     shear, bulk = compute_factors(settling.creep_law, settling.mean_density * density)
     start = np.array([settling.mean_density])
     reference, _ = compute_factors(settling.creep_law, start)
-    power = (law.exponent + 1.0) / 2.0
+    power = (problem.exponent + 1.0) / 2.0
     return Material(
         bulk_ratio=(shear / bulk)[:, None],
-        fluidity=(body.warmth * (shear / reference) ** power)[:, None],
+        fluidity_ratio=(body.warmth * (shear / reference) ** power)[:, None],
         density=body.density[:, None],
     )
 
 
 def largest_density(settling: Settling, body: SnowBody) -> float:
-    """Largest relative density D of the body, at most ``DENSEST_SNOW``."""
+    """Largest relative density of a body.
+
+    Parameters
+    ----------
+    settling : Settling
+        Its mean density.
+    body : SnowBody
+        As it is now.
+
+    Returns
+    -------
+    float
+        D [-], at most ``DENSEST_SNOW``.
+    """
     return min(settling.mean_density * float(body.density.max()), DENSEST_SNOW)

@@ -123,7 +123,24 @@ def build_layered_snowpack(
     upslope_length: float,
     gravity: GravityMode = "full",
 ) -> Snowpack:
-    """Snowpack of the given layers, from the ground up; at least one."""
+    """Snowpack of given layers.
+
+    Parameters
+    ----------
+    layers : tuple of Layer
+        From the ground up; at least one.
+    slope_angle : float
+        psi [rad].
+    upslope_length : float
+        L [m].
+    gravity : str
+        ``full`` or ``parallel``.
+
+    Raises
+    ------
+    ModelError
+        If there is no layer, or a number is out of its range.
+    """
     if not layers:
         raise ModelError("layers: at least one is needed")
     return Snowpack(
@@ -141,7 +158,18 @@ def _sum_thickness(layers: tuple[Layer, ...]) -> float:
 
 
 def compute_mean_density(layers: tuple[Layer, ...]) -> float:
-    """Mean over the thickness of the layers [kg/m3]."""
+    """Mean density over the thickness of the layers.
+
+    Parameters
+    ----------
+    layers : tuple of Layer
+        At least one.
+
+    Returns
+    -------
+    float
+        [kg/m3].
+    """
     mass = sum(layer.density * layer.thickness for layer in layers)
     return mass / _sum_thickness(layers)
 
@@ -156,7 +184,25 @@ def _require_snow_density(name: str, density: float) -> None:
 
 
 def compute_thickness(vertical_height: float, slope_angle: float) -> float:
-    """Thickness normal to the slope [m] of snow of a vertical height [m]."""
+    """Thickness, normal to the slope, of snow of a vertical height.
+
+    Parameters
+    ----------
+    vertical_height : float
+        H [m].
+    slope_angle : float
+        psi [rad].
+
+    Returns
+    -------
+    float
+        d [m].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
     require_positive("vertical snow height", vertical_height, "m")
     require_within("slope angle", slope_angle, 0.0, STEEPEST_SLOPE, "rad")
     return vertical_height * math.cos(slope_angle)

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.kernel import (
     Element,
     PlacedMesh,
@@ -20,7 +21,7 @@ from netdesign.snow.kernel import (
     map_gradients,
     reference_element,
 )
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 # Places in a triangle of each midpoint and of the two vertices beside it.
 _MIDPOINTS = ((3, 0, 1), (4, 1, 2), (5, 0, 2))
@@ -32,11 +33,21 @@ def build_straight_mesh(
     element: Element = "velocity",
     top_axis: Floats | None = None,
 ) -> PlacedMesh:
-    """Everything that assembly needs on vertices of shape (2, n_vertices).
+    """Everything that assembly needs on placed vertices.
 
-    Node axes are X and Y, but for the net's top vertex: its first axis is
-    ``top_axis``, a unit vector (2,), if given. Columns of the net's midpoints are
-    zero; ``load`` has their shares at the vertices.
+    Node axes are X and Y, but for the net's top vertex. Columns of the net's midpoints
+    are zero; ``load`` has their shares at the vertices.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    vertices : ndarray, shape (2, n_vertices)
+        Positions [thickness].
+    element : str
+        ``velocity`` or ``mixed``.
+    top_axis : ndarray, shape (2,), optional
+        Unit vector, first axis of the net's top vertex [-]; default is X.
     """
     nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
     gradients, area_element = map_gradients(template, nodes)
@@ -66,7 +77,20 @@ def build_straight_mesh(
 
 
 def fold_load(template: MeshTemplate, load: Floats) -> Floats:
-    """Nodal loads (.., n_nodes) with those of the net's midpoints at their vertices."""
+    """Nodal loads with those of the net's midpoints at their vertices.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    load : ndarray, shape (.., n_nodes)
+        Nodal loads, any unit.
+
+    Returns
+    -------
+    ndarray, shape (.., n_nodes)
+        In that unit.
+    """
     folded = load.copy()
     net = template.net
     half = load[..., net[1::2]] / 2.0
@@ -77,7 +101,20 @@ def fold_load(template: MeshTemplate, load: Floats) -> Floats:
 
 
 def unfold_velocity(template: MeshTemplate, velocity: Floats) -> Floats:
-    """Nodal velocities (2, n_nodes) with the net's midpoints between their vertices."""
+    """Nodal velocities with the net's midpoints between their vertices.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    velocity : ndarray, shape (2, n_nodes)
+        Any unit.
+
+    Returns
+    -------
+    ndarray, shape (2, n_nodes)
+        In that unit.
+    """
     whole = velocity.copy()
     net = template.net
     whole[:, net[1::2]] = (velocity[:, net[:-1:2]] + velocity[:, net[2::2]]) / 2.0

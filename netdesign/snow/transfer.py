@@ -6,10 +6,11 @@ from functools import lru_cache
 
 import numpy as np
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact
 from netdesign.snow.flow import FlowState
 from netdesign.snow.kernel import PlacedMesh, interpolate_reference
-from netdesign.snow.mesh import Floats, Ints, MeshTemplate
+from netdesign.snow.mesh import MeshTemplate
 
 
 def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowState:
@@ -18,6 +19,13 @@ def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowSt
     Stresses are those of the nearest quadrature point, contacts those of the nearest
     support node, both in reference coordinates; velocities and reactions are 0 and
     take the first step to be right.
+
+    Parameters
+    ----------
+    state : FlowState
+        On the old mesh.
+    old, new : PlacedMesh
+        Both of the same snowpack.
     """
     source, target = old.template, new.template
     points = _nearest_points(source, target)

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from netdesign.coupling.solution import Balance, EndPull, Solution
 from netdesign.fault import Fault
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome
 
-Floats = NDArray[np.float64]
 # Distance from the net's foot over that of its head. Cases that slip only so far move
 # by at most a tenth of their stated error if friction grows (512 cases of a row).
 _BY_FOOT = 5e-3
@@ -55,7 +55,7 @@ class SolvedState:
     elements: int
     linear_solves: int
     net_curve: Floats
-    net_slides: NDArray[np.bool_]
+    net_slides: Mask
     mesh_nodes: Floats
     mesh_edges: NDArray[np.uint32]
 

@@ -47,7 +47,7 @@ class GroundForce:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorForces:
-    """What one support does to the ground, per anchor [N].
+    """Forces of one support on the ground, per anchor [N].
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class AnchorForces:
             "downhill_guy": self.head.downhill_guy_tension,
             "downhill_anchor": self.downhill_anchor.size,
             "post": self.head.post_compression,
-            "post_base": max(-self.post_base.y, 0.0),  # across the plate, (S11)
+            "post_base": max(-self.post_base.y, 0.0),  # across the plate, (S8)
         }
 
 

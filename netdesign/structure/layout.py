@@ -17,7 +17,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SupportLayout:
-    """What an engineer chooses of one support.
+    """Choices of the engineer about one support.
 
     Attributes
     ----------
@@ -58,7 +58,13 @@ class SupportLayout:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SupportPoints:
-    """Points of one support in the slope's axes [m]: X downslope, Y normal."""
+    """Points of one support in the slope's axes.
+
+    Attributes
+    ----------
+    net_foot, head, post_base, uphill_anchor, downhill_anchor : tuple of float
+        (x, y), X downslope, Y normal [m].
+    """
 
     net_foot: Point
     head: Point
@@ -68,7 +74,15 @@ class SupportPoints:
 
 
 def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
-    """Points of a support whose net hangs from ``head`` [m], foot at the origin."""
+    """Points of a support, its net's foot at the origin.
+
+    Parameters
+    ----------
+    layout : SupportLayout
+        What the engineer chose.
+    head : tuple of float, shape (2,)
+        Where the net hangs, (x, y) from its foot [m].
+    """
     x_head, y_head = head
     x_base = layout.post_base_distance
     if x_base is None:

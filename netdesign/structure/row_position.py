@@ -1,4 +1,4 @@
-"""Where a support stands in its row: end effect and load across the section."""
+"""Place of a support in its row: end effect and load across the section."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ class EndEffectRule:
     Attributes
     ----------
     constant, per_glide : float
-        f_R = (constant + per_glide N) A / 2.
+        f_R = (constant + per_glide N) A / 2 [1/m].
     cap_constant, cap_per_glide : float
-        f_R is at most cap_constant + cap_per_glide N.
+        f_R is at most cap_constant + cap_per_glide N [-].
     length : float
-        The effect acts over length A / 2.
+        The effect acts over length A / 2 [-].
     length_cap : float
-        That length is at most this share of the net height.
+        That length is at most this share of the net height [-].
     isolated_gap : float
         From this gap on the row's end counts as free: both caps hold [m].
     """
@@ -71,7 +71,7 @@ def compute_edge_width(
     """Loaded width of the first or last support of a row.
 
     Half a bay, and the end effect as the width under plain load that brings the
-    same force. Theory: structure/THEORY.md, eqs. (S8) and (S9).
+    same force. Theory: structure/THEORY.md, eqs. (S9) and (S10).
 
     Parameters
     ----------
@@ -121,15 +121,36 @@ def compute_edge_width(
 
 
 def find_governing_width(post_spacing: float, edge: LoadedWidth | None) -> LoadedWidth:
-    """Larger of a whole bay and the edge's loaded width [m]."""
+    """Larger of a whole bay and the edge's loaded width.
+
+    Parameters
+    ----------
+    post_spacing : float
+        b [m].
+    edge : LoadedWidth or None
+        Of the row's first or last support.
+    """
     whole = LoadedWidth(position="intermediate", width=post_spacing)
     return edge if edge is not None and edge.width > whole.width else whole
 
 
 def compute_lateral_factor(share: float) -> float:
-    """Size of a force with its sideways part, over its size in the section [-].
+    """Size of a force with its sideways part, over its size in the section.
 
-    ``share`` [-] of the force acts along the row; (S10), an upper bound.
+    Parameters
+    ----------
+    share : float
+        Of the force, that acts along the row, 0 to 1 [-].
+
+    Returns
+    -------
+    float
+        (S11), an upper bound [-].
+
+    Raises
+    ------
+    ModelError
+        If the share is out of its range.
     """
     require_within("lateral share", share, 0.0, 1.0)
     return math.hypot(1.0, share)

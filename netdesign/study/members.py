@@ -39,14 +39,13 @@ from netdesign.study.flips import (
 from netdesign.study.probe import Probe
 from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.stronger_types import find_type_change
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = (
     "the program itself failed in a solve beside the cases of the ranges, please "
     "report it"
 )
-_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,8 +114,8 @@ def record_point(case: Case) -> CasePoint:
     """Case in engineer's units."""
     return CasePoint(
         density_kg_m3=case.density,
-        friction_deg=round(degree_from_radian(case.friction_angle), _ANGLE_DECIMALS),
-        inclination_deg=round(degree_from_radian(case.inclination), _ANGLE_DECIMALS),
+        friction_deg=given_degree_from_radian(case.friction_angle),
+        inclination_deg=given_degree_from_radian(case.inclination),
     )
 
 

@@ -31,9 +31,8 @@ from netdesign.study.records import (
     LineRecord,
     MapRecord,
 )
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
-_ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _LINE_POINTS = 25
 _MAP_POINTS = 9
 _MAPS = 3
@@ -45,7 +44,7 @@ Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N
 def show_parameter(name: str, value: float) -> float:
     """Value of a parameter in the unit of its key."""
     if PARAMETERS[name].key.endswith("_deg"):
-        return round(degree_from_radian(value), _ANGLE_DECIMALS)
+        return given_degree_from_radian(value)
     return value
 
 

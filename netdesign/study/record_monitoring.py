@@ -12,7 +12,7 @@ from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.net_start import Start
 from netdesign.coupling.history.staggered import StaggeredSettings
 from netdesign.coupling.history.transient import TransientSettings, solve_transient
-from netdesign.coupling.moments import Moment
+from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.envelope.run import CaseTask
@@ -133,7 +133,10 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
 
 
 def _read_member(
-    layout: SupportLayout, solution: Solution, moments: Sequence[Moment], member: str
+    layout: SupportLayout,
+    solution: Solution,
+    moments: Sequence[HistoryPoint],
+    member: str,
 ) -> _Modelled:
     points = place_support(layout, solution.head_point)
     found = _Modelled(times_d=[], forces_kN=[])

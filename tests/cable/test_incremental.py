@@ -75,7 +75,7 @@ def test_sticking_node_by_hand():
         friction=1.0,
         stiffness=STIFFNESS,
     )
-    assert step.glide.tolist() == [0]
+    assert step.slide_signs.tolist() == [0]
     expected = STIFFNESS * np.array([0.01 + 0.002, 0.01 - 0.001])
     np.testing.assert_allclose(step.state.tensions, expected, rtol=1e-10)
     np.testing.assert_array_equal(step.state.unstressed_lengths, 1.0)
@@ -95,7 +95,7 @@ def test_gliding_node_by_hand():
     matrix = np.array([[-lower * final[0], -upper * final[1]], [1.0, 1.0]])
     sides = np.array([-lower * stuck[0] - upper * stuck[1], 0.0])
     growth = np.linalg.solve(matrix, sides)
-    assert step.glide.tolist() == [1]
+    assert step.slide_signs.tolist() == [1]
     np.testing.assert_allclose(step.state.unstressed_lengths, 1.0 + growth, rtol=1e-12)
 
 
@@ -104,17 +104,19 @@ def test_conditions_of_the_paper_hold_at_every_node():
     before = initial_state()
     step = advance(before, points)
     assert step.outcome is Outcome.CONVERGED
-    assert set(step.glide) == {-1, 0, 1}
+    assert set(step.slide_signs) == {-1, 0, 1}
     forces = compute_node_forces(points, step.state.tensions)
     usage = forces.tangential / (forces.normal * FRICTION)
-    glides = step.glide != 0
-    np.testing.assert_allclose(usage[glides], -step.glide[glides], rtol=1e-9)
+    glides = step.slide_signs != 0
+    np.testing.assert_allclose(usage[glides], -step.slide_signs[glides], rtol=1e-9)
     assert np.abs(usage[~glides]).max() < 1.0
     growth = step.state.unstressed_lengths - before.unstressed_lengths
     slides = np.cumsum(growth)
     np.testing.assert_allclose(slides[:-1][~glides], 0.0, atol=1e-15)
     assert slides[-1] == pytest.approx(0.0, abs=1e-15)
-    np.testing.assert_array_equal(np.sign(slides[:-1][glides]), step.glide[glides])
+    np.testing.assert_array_equal(
+        np.sign(slides[:-1][glides]), step.slide_signs[glides]
+    )
 
 
 def test_one_increment_differs_from_the_exact_step_at_second_order():
@@ -125,7 +127,7 @@ def test_one_increment_differs_from_the_exact_step_at_second_order():
         exact = slide(net_points(size), state.unstressed_lengths)
         step = advance(state, net_points(size))
         assert step.outcome is Outcome.CONVERGED
-        np.testing.assert_array_equal(step.glide, exact.glide)
+        np.testing.assert_array_equal(step.slide_signs, exact.slide_signs)
         errors.append(np.abs(step.state.tensions - exact.tensions).max())
     orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
     np.testing.assert_allclose(orders, 2.0, atol=0.02)

@@ -69,8 +69,8 @@ def test_sliding_net_tends_to_the_capstan(friction):
         # all of the strain is at the foot, as after a long slide
         lengths = strained(points, 0.05, spread=0.999)
         net = respond(points, lengths, friction=friction, stiffness=STIFFNESS)
-        assert (net.sliding.glide == net.sliding.glide[0]).all()
-        assert net.sliding.glide[0] != 0
+        assert (net.sliding.slide_signs == net.sliding.slide_signs[0]).all()
+        assert net.sliding.slide_signs[0] != 0
         ratio = np.hypot(*net.foot_pull) / np.hypot(*net.head_pull)
         wrap = opening * count / (count + 1)  # between first and last segment
         errors.append(abs(ratio / math.exp(friction * wrap) - 1.0))

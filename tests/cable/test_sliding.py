@@ -93,7 +93,7 @@ def test_result_does_not_depend_on_the_start(seed):
     for start in (case.old, rng.uniform(0.1, 1.0, case.old.size), case.final**2):
         other = case.solve(start=start)
         assert other.outcome is Outcome.CONVERGED
-        np.testing.assert_array_equal(other.glide, step.glide)
+        np.testing.assert_array_equal(other.slide_signs, step.slide_signs)
         np.testing.assert_allclose(other.tensions, step.tensions, rtol=1e-6)
         np.testing.assert_allclose(other.lengths, step.lengths, rtol=1e-9)
 
@@ -128,7 +128,7 @@ def test_one_node_by_hand():
     final = np.array([1.02, 1.0])
     kappa = 0.3
     step = solve_sliding(final, np.ones(2), np.array([kappa]), stiffness=STIFFNESS)
-    assert step.glide.tolist() == [1]
+    assert step.slide_signs.tolist() == [1]
     lower, upper = (final - step.lengths) / step.lengths
     assert upper == pytest.approx(lower * math.exp(-kappa), rel=1e-9)
     assert step.lengths[0] - 1.0 == pytest.approx(step.slides[0], rel=1e-12)
@@ -151,7 +151,7 @@ def test_nothing_glides_under_large_friction(bound):
     old = rng.uniform(1e-3, 1.0, 41)
     final = old * rng.uniform(1.001, 1.02, 41)
     step = solve_sliding(final, old, np.full(40, bound), stiffness=STIFFNESS)
-    assert not step.glide.any()
+    assert not step.slide_signs.any()
     np.testing.assert_array_equal(step.lengths, old)  # to the last digit
     np.testing.assert_array_equal(
         step.tensions, compute_tensions(final, old, STIFFNESS)
@@ -170,7 +170,7 @@ def test_infinite_bounds_part_the_net():
         inner = bounds[part.start : part.stop - 1]
         alone = solve_sliding(final[part], old[part], inner, stiffness=STIFFNESS)
         np.testing.assert_array_equal(alone.lengths, whole.lengths[part])
-    assert whole.glide[[3, 8]].tolist() == [0, 0]
+    assert whole.slide_signs[[3, 8]].tolist() == [0, 0]
 
 
 def test_second_solve_moves_nothing():
@@ -186,7 +186,7 @@ def test_mirrored_net_slides_the_other_way():
         final=case.final[::-1], old=case.old[::-1], bounds=case.bounds[::-1]
     )
     here, there = case.solve(), mirrored.solve()
-    np.testing.assert_array_equal(there.glide[::-1], -here.glide)
+    np.testing.assert_array_equal(there.slide_signs[::-1], -here.slide_signs)
     np.testing.assert_allclose(there.tensions[::-1], here.tensions, rtol=1e-8)
 
 
@@ -213,7 +213,7 @@ def test_net_longer_than_its_polygon_is_slack(surplus):
     np.testing.assert_array_equal(step.tensions, 0.0)
     assert (step.lengths >= final).all()
     assert step.lengths.sum() == pytest.approx(old.sum(), rel=1e-14)
-    assert step.glide.tolist() == [-1, 1]
+    assert step.slide_signs.tolist() == [-1, 1]
 
 
 def test_slack_net_that_fits_keeps_its_lengths():
@@ -222,7 +222,7 @@ def test_slack_net_that_fits_keeps_its_lengths():
     step = solve_sliding(final, old, np.full(2, 0.2), stiffness=STIFFNESS)
     assert step.state is NetState.SLACK
     np.testing.assert_array_equal(step.lengths, old)
-    assert not step.glide.any()
+    assert not step.slide_signs.any()
 
 
 def test_slack_segment_beside_tight_ones_is_drawn_tight():
@@ -230,7 +230,7 @@ def test_slack_segment_beside_tight_ones_is_drawn_tight():
     old = np.array([1.0, 1.01, 1.0])  # slack in the middle, tight on the whole
     step = solve_sliding(final, old, np.full(2, 0.2), stiffness=STIFFNESS)
     assert step.state is NetState.TIGHT
-    assert step.glide.tolist() == [1, -1]  # both neighbours draw it in
+    assert step.slide_signs.tolist() == [1, -1]  # both neighbours draw it in
     assert step.tensions[1] == pytest.approx(step.tensions[0] / math.exp(0.2), rel=1e-8)
 
 
@@ -260,7 +260,7 @@ def test_no_stall_at_any_friction_angle(n):
             step = case.solve(start=start)
             assert step.outcome is Outcome.CONVERGED
             assert step.iterations <= 10
-    assert {0} < set(step.glide)  # at 45 deg, where most nodes stick
+    assert {0} < set(step.slide_signs)  # at 45 deg, where most nodes stick
 
 
 STEPS_HALVED = [848, 1334, 1531]

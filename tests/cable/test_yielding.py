@@ -49,11 +49,11 @@ def yielding_nodes(place, softness, seed=1):
     )
 
 
-def settle(nodes, place, lengths, friction, glide=None):
-    glide = np.zeros(lengths.size - 1, dtype=np.int8) if glide is None else glide
+def settle(nodes, place, lengths, friction, signs=None):
+    signs = np.zeros(lengths.size - 1, dtype=np.int8) if signs is None else signs
     return settle_net(
         nodes,
-        NetGuess.at_rest(place, glide),
+        NetGuess.at_rest(place, signs),
         HEAD,
         lengths,
         friction=friction,
@@ -66,7 +66,7 @@ def breach(place, response, lengths, friction):
     bounds = compute_ratio_bounds(compute_turning_angles(points_of(place)), friction)
     jumps = np.diff(np.log(response.sliding.tensions))
     slides = np.cumsum(response.sliding.lengths - lengths)[:-1]
-    sticks = response.sliding.glide == 0
+    sticks = response.sliding.slide_signs == 0
     assert np.abs(slides[sticks]).max(initial=0.0) < 1e-13
     held = np.maximum(np.abs(jumps) - bounds, 0.0)[sticks]
     gliding = np.abs(jumps + bounds * np.sign(slides))[~sticks]
@@ -126,10 +126,12 @@ def test_guess_of_what_glides_does_not_matter():
     nodes = yielding_nodes(place, 1e-3)
     first, _ = settle(nodes, place, lengths, 0.2)
     for sign in (-1, 1):
-        glide = np.full(11, sign, dtype=np.int8)
-        other, _ = settle(nodes, place, lengths, 0.2, glide)
+        signs = np.full(11, sign, dtype=np.int8)
+        other, _ = settle(nodes, place, lengths, 0.2, signs)
         np.testing.assert_allclose(other.forces, first.forces, atol=1e-8)
-        np.testing.assert_array_equal(other.sliding.glide, first.sliding.glide)
+        np.testing.assert_array_equal(
+            other.sliding.slide_signs, first.sliding.slide_signs
+        )
 
 
 def test_one_change_at_a_time_gives_the_same(monkeypatch):

@@ -60,9 +60,9 @@ SCALE = 2e4
 
 
 @pytest.fixture
-def state(a_mesh, a_flow_law):
+def state(a_mesh, a_flow_problem):
     """Weight carried by the ground along Y and by the net along X, half at each end."""
-    mesh, law = a_mesh(), a_flow_law(friction=0.5)
+    mesh, law = a_mesh(), a_flow_problem(friction=0.5)
     weight = mesh.area * np.array(law.gravity)
     on_net = np.zeros((2, mesh.template.net.size))
     on_net[0, 1:] = weight[0] / (on_net.shape[1] - 1)

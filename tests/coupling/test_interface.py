@@ -12,9 +12,9 @@ GROUNDS = [("free", 0.0), ("sliding", 0.5), ("no-slip", 0.0)]
 
 
 @pytest.fixture(params=GROUNDS, ids=lambda ground: ground[0])
-def case(request, a_mesh, a_flow_law):
+def case(request, a_mesh, a_flow_problem):
     kind, slip_ratio = request.param
-    law = a_flow_law(ground=kind, slip_ratio=slip_ratio, friction=0.3)
+    law = a_flow_problem(ground=kind, slip_ratio=slip_ratio, friction=0.3)
     mesh = a_mesh(inclination_deg=20.0, sag=0.08)
     flow = solve_flow(law, mesh, tolerance=1e-9, max_iterations=60)
     return law, mesh, flow.state, compute_support_forces(law, mesh, flow.state)

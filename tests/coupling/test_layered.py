@@ -194,7 +194,7 @@ def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
     couple = steady._couple
 
     def couple_two_sided(problem, *given, **named):
-        if problem.law.net_contact == "one-sided":
+        if problem.snow.net_contact == "one-sided":
             raise SolveError(Outcome.NO_EQUILIBRIUM, "nowhere")
         return couple(problem, *given, **named)
 

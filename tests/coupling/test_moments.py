@@ -17,7 +17,7 @@ from netdesign.coupling.moments import (
     REST_WAY,
     START_STRAIN,
     History,
-    Moment,
+    HistoryPoint,
     find_plateau,
     judge_plateau,
     largest_pull,
@@ -30,7 +30,7 @@ STEP = 1.03  # more than the ratio of two neighbouring times
 
 def moment(time, pull, *, nodes=None, way=0.1, speed=0.0, strain=1.0):
     nodes = np.full(5, pull / 5.0) if nodes is None else nodes
-    return Moment(
+    return HistoryPoint(
         time=time,
         foot=np.array([0.6, 0.8]) * pull,
         head=np.array([0.8, -0.6]) * pull,

@@ -13,7 +13,7 @@ from netdesign.errors import ModelError
 def test_scales(a_scene):
     scene = a_scene(ground="sliding", slip_length_m=2.0, friction_deg=45.0)
     assert scene.force_scale == pytest.approx(0.4 * 917 * 9.81 * 4**2, rel=1e-12)
-    law = scene.flow_law
+    law = scene.flow_problem
     assert law.slip_ratio == pytest.approx(0.5, rel=1e-15)
     assert law.friction == pytest.approx(1.0, rel=1e-15)
     # a / b of the fit: exp(16.03 - 16.75 + (22.51 - 19.25) D)
@@ -30,7 +30,7 @@ def test_fluidity_does_not_reach_the_flow_of_uniform_snow(a_scene):
     """It only rescales time: no force of a steady state can depend on it."""
     scene = a_scene()
     faster = replace(scene, fluidity=7.0 * scene.fluidity)
-    assert faster.flow_law == scene.flow_law
+    assert faster.flow_problem == scene.flow_problem
     assert faster.velocity_scale == pytest.approx(7.0 * scene.velocity_scale, rel=1e-14)
 
 

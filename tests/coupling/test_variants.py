@@ -163,9 +163,9 @@ def test_slip_is_that_of_the_snow_on_the_ground(a_scene, densities):
         a_scene(ground="sliding", slip_length_m=1.5),
         *(Layer(thickness=2.0, density=density) for density in densities),
     )
-    law, shear = scene.flow_law, np.array([[0.3, 0.7]])
+    law, shear = scene.flow_problem, np.array([[0.3, 0.7]])
     tangent = linearise_sliding(law, shear)
-    velocity = (shear - tangent.kept) / tangent.modulus
+    velocity = (shear - tangent.intercept) / tangent.modulus
     a = [compute_shear_factor(scene.creep_law, d / 917.0) for d in densities]
     mean = compute_shear_factor(scene.creep_law, scene.snowpack.relative_density)
     rate = (a[0] / mean) ** 2.0  # n = 3
@@ -212,13 +212,13 @@ def test_equal_layers_on_their_own_mesh_change_nothing(a_scene, monkeypatch):
     part = Layer(thickness=2.0, density=scene.snowpack.density)
     scene = layered(scene, part, part)
     two = sound(scene)
-    law_of = Scene.flow_law.fget
+    law_of = Scene.flow_problem.fget
     monkeypatch.setattr(
         Scene,
-        "flow_law",
+        "flow_problem",
         property(lambda s: replace(law_of(s), layers=law_of(s).layers[-1:])),
     )
-    assert len(scene.flow_law.layers) == 1
+    assert len(scene.flow_problem.layers) == 1
     one = sound(scene)
     for end in ("foot", "head"):
         for axis in ("x", "y"):
@@ -244,7 +244,7 @@ def test_one_dense_layer_takes_the_mixed_element(a_scene):
         Layer(thickness=1.0, density=900.0),
         Layer(thickness=3.0, density=350.0),
     )
-    assert scene.flow_law.element == "mixed"
+    assert scene.flow_problem.element == "mixed"
     sound(scene)
 
 
@@ -255,13 +255,15 @@ def test_layers_scale_with_the_mean_density(a_scene):
         Layer(thickness=1.0, density=450.0),
         Layer(thickness=3.0, density=250.0),
     )
-    below, above = scene.flow_law.layers
+    below, above = scene.flow_problem.layers
     assert (below.top, above.top) == (0.25, 1.0)
     assert 0.25 * below.density + 0.75 * above.density == pytest.approx(1.0, rel=1e-14)
     assert below.density / above.density == pytest.approx(450 / 250, rel=1e-14)
     # (N3): a = exp(c0 - c1 D), n = 3; the denser layer creeps more slowly
     ratio = math.exp(-2.0 * 19.25 * (450 - 250) / 917)
-    assert below.fluidity / above.fluidity == pytest.approx(ratio, rel=1e-12)
+    assert below.fluidity_ratio / above.fluidity_ratio == pytest.approx(
+        ratio, rel=1e-12
+    )
 
 
 # --- contacts ----------------------------------------------------------------
@@ -307,9 +309,9 @@ def test_one_sided_where_nothing_pulls_is_two_sided(a_scene):
 
 def test_element_is_chosen_by_the_scene(a_scene):
     light, dense = a_scene(), a_scene(relative_density=0.985)
-    assert light.flow_law.element == "velocity"
-    assert dense.flow_law.element == "mixed"
-    assert dense.flow_law.layers[0].bulk_ratio > MIXED_BULK_RATIO
+    assert light.flow_problem.element == "velocity"
+    assert dense.flow_problem.element == "mixed"
+    assert dense.flow_problem.layers[0].bulk_ratio > MIXED_BULK_RATIO
 
 
 @pytest.mark.parametrize(
@@ -324,7 +326,7 @@ def test_both_elements_agree_within_their_errors(a_scene, monkeypatch, given):
     scene = a_scene(**given)
     plain = sound(scene)
     monkeypatch.setattr("netdesign.coupling.scene.MIXED_BULK_RATIO", 0.0)
-    assert scene.flow_law.element == "mixed"
+    assert scene.flow_problem.element == "mixed"
     mixed = sound(scene)
     assert mixed.cost.degrees_of_freedom > plain.cost.degrees_of_freedom
     for end in ("foot", "head"):

@@ -31,7 +31,7 @@ class FaultyScene(Scene):
     """Raises what no case may raise: a bug."""
 
     @property
-    def flow_law(self):
+    def flow_problem(self):
         message = "spoilt"
         raise ZeroDivisionError(message)
 

@@ -214,7 +214,7 @@ class FaultyScene(Scene):
     """Raises in whatever process it is solved."""
 
     @property
-    def flow_law(self):
+    def flow_problem(self):
         message = "spoilt 9 times"
         raise TypeError(message)
 

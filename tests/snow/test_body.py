@@ -75,8 +75,8 @@ def uneven(body, seed=6):
 
 
 @pytest.mark.parametrize("level", [0, 1])
-def test_edges_lie_between_their_triangles(a_flow_law, level):
-    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[level])
+def test_edges_lie_between_their_triangles(a_flow_problem, level):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[level])
     topology = body.topology
     # Euler's formula for a disc, the outside left out
     count = topology.template.n_vertices
@@ -91,8 +91,8 @@ def test_edges_lie_between_their_triangles(a_flow_law, level):
         assert (sign * turn > 0.0).all()
 
 
-def test_boundary_edges_are_those_of_the_four_sides(a_flow_law):
-    topology = a_body(a_flow_law()).topology
+def test_boundary_edges_are_those_of_the_four_sides(a_flow_problem):
+    topology = a_body(a_flow_problem()).topology
     outer = {
         frozenset(edge.tolist()) for edge in topology.edges[:, topology.right < 0].T
     }
@@ -106,8 +106,8 @@ def test_boundary_edges_are_those_of_the_four_sides(a_flow_law):
 
 
 @pytest.mark.parametrize("level", [0, 1])
-def test_each_edge_of_the_ground_has_the_triangle_above_it(a_flow_law, level):
-    topology = a_body(a_flow_law(), size=TRANSIENT_LEVELS[level]).topology
+def test_each_edge_of_the_ground_has_the_triangle_above_it(a_flow_problem, level):
+    topology = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[level]).topology
     assert topology.bottom.size == topology.ground.size - 1
     for place, triangle in enumerate(topology.bottom):
         ends = set(topology.ground[place : place + 2].tolist())
@@ -118,8 +118,8 @@ def test_each_edge_of_the_ground_has_the_triangle_above_it(a_flow_law, level):
 
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
-def test_mass_of_uniform_snow_is_its_area(a_flow_law, head_x):
-    body = a_body(a_flow_law(), head_x=head_x)
+def test_mass_of_uniform_snow_is_its_area(a_flow_problem, head_x):
+    body = a_body(a_flow_problem(), head_x=head_x)
     assert body.mass.sum() == pytest.approx(ASPECT + head_x / 2.0, rel=1e-13)
     np.testing.assert_allclose(body.density, 1.0, rtol=1e-14)
     np.testing.assert_array_equal(body.warmth, 1.0)
@@ -135,8 +135,8 @@ def layered(law):
     return replace(law, layers=LAYERS)
 
 
-def test_layers_keep_their_mass_and_warmth(a_flow_law):
-    body = a_body(layered(a_flow_law()), tops=(0.4,))
+def test_layers_keep_their_mass_and_warmth(a_flow_problem):
+    body = a_body(layered(a_flow_problem()), tops=(0.4,))
     heights = body.vertices[1, body.topology.triangles].mean(axis=1)
     below = heights < 0.4
     np.testing.assert_allclose(body.density[below], 1.2, rtol=1e-13)
@@ -146,7 +146,7 @@ def test_layers_keep_their_mass_and_warmth(a_flow_law):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_law, seed):
+def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_problem, seed):
     """Weight of each from the area between two level lines, up to the net."""
     rng = np.random.default_rng(seed)
     top, sag = rng.uniform(0.2, 0.8), rng.uniform(0.05, 0.2)
@@ -156,7 +156,7 @@ def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_law, seed):
         FlowLayer(top=high, bulk_ratio=1.8, density=density, warmth=warmth)
         for high, density, warmth in zip((top, 1.0), densities, warmths, strict=True)
     )
-    law = replace(a_flow_law(), layers=layers)
+    law = replace(a_flow_problem(), layers=layers)
     body = a_body(law, head_x=0.5, sag=sag, tops=(top,))
     x, y = on_net(body)
     heights = np.unique(np.append(y, top))
@@ -171,9 +171,9 @@ def test_layers_lie_at_their_heights_however_the_net_bulges(a_flow_law, seed):
     assert heat == pytest.approx((densities * warmths) @ areas, rel=1e-12)
 
 
-def test_start_that_folds_over_is_refused(a_flow_law):
+def test_start_that_folds_over_is_refused(a_flow_problem):
     with pytest.raises(SolveError, match="the start's mesh folds over") as failure:
-        a_body(a_flow_law(), sag=-8.0)
+        a_body(a_flow_problem(), sag=-8.0)
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
 
 
@@ -182,8 +182,8 @@ def test_start_that_folds_over_is_refused(a_flow_law):
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
 @pytest.mark.parametrize("level", [0, 1])
-def test_snow_that_rests_keeps_its_mesh(a_flow_law, head_x, level):
-    body = uneven(a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
+def test_snow_that_rests_keeps_its_mesh(a_flow_problem, head_x, level):
+    body = uneven(a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
     head = on_net(body)[:, -1]
     moved, fallen = move_body(body, body.vertices, on_net(body), head)
     np.testing.assert_allclose(moved.vertices, body.vertices, atol=1e-14)
@@ -192,9 +192,9 @@ def test_snow_that_rests_keeps_its_mesh(a_flow_law, head_x, level):
     assert fallen == pytest.approx(0.0, abs=ROUNDING)
 
 
-def test_a_mended_mesh_is_not_mended_again(a_flow_law):
+def test_a_mended_mesh_is_not_mended_again(a_flow_problem):
     """Against a bulging net: what the first mending has placed stays."""
-    body = a_body(a_flow_law(), head_x=0.3, sag=0.1)
+    body = a_body(a_flow_problem(), head_x=0.3, sag=0.1)
     head = on_net(body)[:, -1]
     once, _ = move_body(body, body.vertices, on_net(body), head)
     twice, _ = move_body(once, once.vertices, on_net(once), head)
@@ -203,8 +203,8 @@ def test_a_mended_mesh_is_not_mended_again(a_flow_law):
 
 
 @pytest.mark.parametrize("tops", [(), (0.4,)], ids=["uniform", "layers"])
-def test_rigid_shift_along_the_slope(a_flow_law, tops):
-    law = layered(a_flow_law()) if tops else a_flow_law()
+def test_rigid_shift_along_the_slope(a_flow_problem, tops):
+    law = layered(a_flow_problem()) if tops else a_flow_problem()
     body = a_body(law, tops=tops)
     shift = np.array([[0.07], [0.0]])
     net = on_net(body) + shift
@@ -221,9 +221,9 @@ def test_rigid_shift_along_the_slope(a_flow_law, tops):
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
 @pytest.mark.parametrize("level", [0, 1])
-def test_mass_is_kept_to_rounding(a_flow_law, head_x, level):
+def test_mass_is_kept_to_rounding(a_flow_problem, head_x, level):
     """The four sides are straight, so that mending them cuts nothing off."""
-    body = uneven(a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
+    body = uneven(a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level]))
     displaced = creep(body)
     assert np.abs(displaced - body.vertices).max() > 0.02
     moved, fallen = move_body(body, displaced, on_net(body), on_net(body)[:, -1])
@@ -234,8 +234,8 @@ def test_mass_is_kept_to_rounding(a_flow_law, head_x, level):
 
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
-def test_heat_is_kept_with_the_mass(a_flow_law, head_x):
-    body = uneven(a_body(a_flow_law(), head_x=head_x))
+def test_heat_is_kept_with_the_mass(a_flow_problem, head_x):
+    body = uneven(a_body(a_flow_problem(), head_x=head_x))
     moved, _ = move_body(body, creep(body), on_net(body), on_net(body)[:, -1])
     heat = (body.mass * body.warmth).sum()
     assert (moved.mass * moved.warmth).sum() == pytest.approx(heat, rel=ROUNDING)
@@ -246,9 +246,9 @@ def test_heat_is_kept_with_the_mass(a_flow_law, head_x):
 
 @pytest.mark.parametrize("head_x", STRAIGHT)
 @pytest.mark.parametrize("level", [0, 1])
-def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_law, head_x, level):
+def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_problem, head_x, level):
     """What edges sweep is what areas gain: no density arises from moving vertices."""
-    body = a_body(a_flow_law(), head_x=head_x, size=TRANSIENT_LEVELS[level])
+    body = a_body(a_flow_problem(), head_x=head_x, size=TRANSIENT_LEVELS[level])
     displaced = creep(body)
     even = replace(body, mass=compute_areas(body.topology, displaced))
     moved, fallen = move_body(even, displaced, on_net(body), on_net(body)[:, -1])
@@ -258,9 +258,9 @@ def test_uniform_density_stays_uniform_on_any_new_mesh(a_flow_law, head_x, level
     assert fallen == pytest.approx(lost, abs=ROUNDING)
 
 
-def test_density_is_mass_over_deformed_area(a_flow_law):
+def test_density_is_mass_over_deformed_area(a_flow_problem):
     """Even settling by 4 %: rho(0) / J, in every triangle."""
-    body = a_body(a_flow_law())
+    body = a_body(a_flow_problem())
     displaced = body.vertices * np.array([[1.0], [0.96]])
     net = on_net(body) * np.array([[1.0], [0.96]])
     moved, fallen = move_body(body, displaced, net, net[:, -1])
@@ -268,8 +268,8 @@ def test_density_is_mass_over_deformed_area(a_flow_law):
     assert fallen == pytest.approx(0.0, abs=ROUNDING)
 
 
-def test_a_long_way_in_parts_keeps_mass(a_flow_law, monkeypatch):
-    body = uneven(a_body(a_flow_law()))
+def test_a_long_way_in_parts_keeps_mass(a_flow_problem, monkeypatch):
+    body = uneven(a_body(a_flow_problem()))
     displaced, net = creep(body), on_net(body)
     found = []
     for share in (0.5, 0.01):
@@ -283,8 +283,8 @@ def test_a_long_way_in_parts_keeps_mass(a_flow_law, monkeypatch):
     np.testing.assert_allclose(few, many, atol=0.1 * few.max())  # ... to the same
 
 
-def test_a_way_of_too_many_parts_is_refused(a_flow_law, monkeypatch):
-    body = a_body(a_flow_law())
+def test_a_way_of_too_many_parts_is_refused(a_flow_problem, monkeypatch):
+    body = a_body(a_flow_problem())
     monkeypatch.setattr(body_module, "_LARGEST_SWEEP", 1e-6)
     net = on_net(body)
     with pytest.raises(SolveError, match="moves too far"):
@@ -305,9 +305,9 @@ def heap(body, slope):
 
 
 @pytest.mark.parametrize("head_x", [0.0, 0.3])
-def test_snow_that_leans_over_the_head_falls(a_flow_law, head_x):
+def test_snow_that_leans_over_the_head_falls(a_flow_problem, head_x):
     """What lies beyond 135 degrees from the net goes, with the mass that it has."""
-    body = a_body(a_flow_law(), head_x=head_x, size=FINE)
+    body = a_body(a_flow_problem(), head_x=head_x, size=FINE)
     slope = 3.0
     displaced = heap(body, slope)
     even = replace(body, mass=compute_areas(body.topology, displaced))
@@ -338,8 +338,8 @@ def steepness(vertices, body, head):
     return np.arctan2(y, -x).max()
 
 
-def test_a_low_heap_stays(a_flow_law):
-    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[1])
+def test_a_low_heap_stays(a_flow_problem):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[1])
     displaced = heap(body, 0.2)
     even = replace(body, mass=compute_areas(body.topology, displaced))
     net = on_net(body)
@@ -348,8 +348,8 @@ def test_a_low_heap_stays(a_flow_law):
     assert abs(fallen) < 1e-3
 
 
-def test_snow_that_flows_over_the_head_is_refused(a_flow_law):
-    body = a_body(a_flow_law(), size=TRANSIENT_LEVELS[0])
+def test_snow_that_flows_over_the_head_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem(), size=TRANSIENT_LEVELS[0])
     displaced = body.vertices.copy()
     displaced[1] *= 1.0 + 2.0 * body.topology.template.nodes[0, : displaced.shape[1]]
     net = on_net(body)
@@ -361,8 +361,8 @@ def test_snow_that_flows_over_the_head_is_refused(a_flow_law):
 # --- inversion ---------------------------------------------------------------
 
 
-def test_snow_that_turns_a_triangle_over_is_refused(a_flow_law):
-    body = a_body(a_flow_law())
+def test_snow_that_turns_a_triangle_over_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
     displaced = body.vertices.copy()
     inner = body.topology.triangles[0, 0]
     displaced[0, inner] += 1.0
@@ -373,16 +373,16 @@ def test_snow_that_turns_a_triangle_over_is_refused(a_flow_law):
     assert failure.value.outcome is Outcome.OUT_OF_VALIDITY
 
 
-def test_a_net_that_leaves_no_room_is_refused(a_flow_law):
-    body = a_body(a_flow_law())
+def test_a_net_that_leaves_no_room_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
     net = on_net(body)
     net[0, 1:-1] -= 4.0
     with pytest.raises(SolveError, match="cannot be mended"):
         move_body(body, body.vertices, net, net[:, -1])
 
 
-def test_a_place_that_is_no_number_is_refused(a_flow_law):
-    body = a_body(a_flow_law())
+def test_a_place_that_is_no_number_is_refused(a_flow_problem):
+    body = a_body(a_flow_problem())
     displaced = body.vertices.copy()
     displaced[0, 0] = np.nan
     net = on_net(body)

@@ -1,4 +1,4 @@
-"""Letting go of a one-sided net or ground (F7). Stick and slip: test_flow.py."""
+"""Letting go of a one-sided net or ground (N15). Stick and slip: test_flow.py."""
 
 from dataclasses import replace
 
@@ -42,8 +42,8 @@ def update(law, mesh, contact, *, velocity=(), reaction=()):
 
 
 @pytest.mark.parametrize("sides", ["one-sided", "two-sided"])
-def test_what_would_pull_lets_go_if_it_may(inclined, a_flow_law, sides):
-    law = replace(a_flow_law(), ground_contact=sides, net_contact=sides)
+def test_what_would_pull_lets_go_if_it_may(inclined, a_flow_problem, sides):
+    law = replace(a_flow_problem(), ground_contact=sides, net_contact=sides)
     normal, _ = net_components(inclined)
     pulls = [(upward(inclined)[4], -1.0), (normal[3], 1.0)]
     pushes = [(upward(inclined)[5], 1.0), (normal[4], -1.0)]
@@ -54,9 +54,9 @@ def test_what_would_pull_lets_go_if_it_may(inclined, a_flow_law, sides):
 
 
 @pytest.mark.parametrize(("speed", "stays_apart"), [(1.0, True), (-1.0, False)])
-def test_what_moves_back_is_held_again(inclined, a_flow_law, speed, stays_apart):
+def test_what_moves_back_is_held_again(inclined, a_flow_problem, speed, stays_apart):
     """Away from the support: upwards on the ground, against the normal on the net."""
-    law = replace(a_flow_law(), ground_contact="one-sided", net_contact="one-sided")
+    law = replace(a_flow_problem(), ground_contact="one-sided", net_contact="one-sided")
     start = start_contact(inclined)
     lifted, is_open = start.is_lifted.copy(), start.is_open.copy()
     lifted[4] = is_open[3] = True
@@ -72,8 +72,8 @@ def test_what_moves_back_is_held_again(inclined, a_flow_law, speed, stays_apart)
     assert contact.is_pressed[3] is np.False_
 
 
-def test_open_nodes_are_free(inclined, a_flow_law):
-    law = a_flow_law(ground="no-slip")
+def test_open_nodes_are_free(inclined, a_flow_problem):
+    law = a_flow_problem(ground="no-slip")
     start = start_contact(inclined)
     lifted, is_open = start.is_lifted.copy(), start.is_open.copy()
     lifted[4] = is_open[3] = True
@@ -86,8 +86,8 @@ def test_open_nodes_are_free(inclined, a_flow_law):
     assert np.flatnonzero(free & ~held).tolist() == sorted([normal[3], tangential[3]])
 
 
-def test_foot_is_never_let_go(inclined, a_flow_law):
-    law = a_flow_law()
+def test_foot_is_never_let_go(inclined, a_flow_problem):
+    law = a_flow_problem()
     everything = replace(
         start_contact(inclined),
         is_open=np.ones_like(start_contact(inclined).is_open),
@@ -100,10 +100,10 @@ def test_foot_is_never_let_go(inclined, a_flow_law):
 
 
 @pytest.mark.parametrize("kind", ["free", "sliding"])
-def test_complementarity_on_the_ground(inclined, a_flow_law, kind):
-    """(F7) node by node, and equilibrium where the snow has lifted."""
+def test_complementarity_on_the_ground(inclined, a_flow_problem, kind):
+    """(N15) node by node, and equilibrium where the snow has lifted."""
     slip = 50.0 if kind == "sliding" else 0.0
-    law = a_flow_law(ground=kind, slip_ratio=slip, friction=0.05)
+    law = a_flow_problem(ground=kind, slip_ratio=slip, friction=0.05)
     two = solve(law, inclined)
     assert (two.reaction[upward(inclined)] < 0.0).any()  # the case means something
     one_sided = replace(law, ground_contact="one-sided")
@@ -122,8 +122,8 @@ def test_complementarity_on_the_ground(inclined, a_flow_law, kind):
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.05])
-def test_complementarity_on_the_net(inclined, a_flow_law, friction):
-    law = a_flow_law(friction=friction)
+def test_complementarity_on_the_net(inclined, a_flow_problem, friction):
+    law = a_flow_problem(friction=friction)
     normal, tangential = net_components(inclined)
     assert (solve(law, inclined).reaction[normal] > 0.0).any()
     one = solve(replace(law, net_contact="one-sided"), inclined)
@@ -138,9 +138,9 @@ def test_complementarity_on_the_net(inclined, a_flow_law, friction):
     np.testing.assert_allclose(one.reaction[tangential[is_open]], 0.0, atol=1e-10)
 
 
-def test_contact_that_never_pulls_is_the_two_sided_one(inclined, a_flow_law):
+def test_contact_that_never_pulls_is_the_two_sided_one(inclined, a_flow_problem):
     """Snow that sticks to the net presses on it everywhere."""
-    law = a_flow_law(friction=10.0)
+    law = a_flow_problem(friction=10.0)
     two, one = (
         solve(replace(law, net_contact=sides), inclined)
         for sides in ("two-sided", "one-sided")

@@ -16,36 +16,36 @@ from netdesign.snow.law import (
     linearise_creep,
     linearise_sliding,
     sample_material,
-    squared_size,
+    squared_invariant,
     total_stress,
 )
 from netdesign.snow.mesh import build_template, place_nodes
 
 RATIOS = [0.7, 1.8, 60.0]
 UNIT = np.array([1.0, 1.0, 0.0])
-COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])  # (F8)
+COMPLIANCE = np.array([[1.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.0]])  # (N18)
 STRESSES = np.array([[0.7, -0.4, 0.9], [-1.0, -0.2, 0.1], [0.02, 0.03, -0.01]])
 
 
 def material_of(law) -> Material:
     layer = law.layers[0]
-    return Material(layer.bulk_ratio, layer.fluidity, layer.density)
+    return Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
 
 
 def split(stress, ratio):
     """(deviator, pressure) of plane stresses without strain across the plane.
 
-    (F9): tr eps = 3/2 S^(n-1) (tau_xx + tau_yy) = -S^(n-1) p / r.
+    (N19): tr eps = 3/2 S^(n-1) (tau_xx + tau_yy) = -S^(n-1) p / r.
     """
     pressure = -(stress[..., 0] + stress[..., 1]) / (2.0 + 2.0 / (3.0 * ratio))
     deviator = stress + pressure[..., None] * UNIT
     return np.concatenate([deviator, pressure[..., None]], axis=-1)
 
 
-def both(a_flow_law, ratio, exponent=3.0, fluidity=1.0):
+def both(a_flow_problem, ratio, exponent=3.0, fluidity=1.0):
     """The same snow in the velocity and in the mixed element."""
-    law = a_flow_law(bulk_ratio=ratio, exponent=exponent)
-    law = replace(law, layers=(replace(law.layers[0], fluidity=fluidity),))
+    law = a_flow_problem(bulk_ratio=ratio, exponent=exponent)
+    law = replace(law, layers=(replace(law.layers[0], fluidity_ratio=fluidity),))
     return law, replace(law, element="mixed")
 
 
@@ -53,13 +53,13 @@ def both(a_flow_law, ratio, exponent=3.0, fluidity=1.0):
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-def test_invariant_is_the_same(a_flow_law, ratio):
-    """(F8) of the split stress is S^2 of (F3)."""
-    plain, mixed = both(a_flow_law, ratio)
+def test_invariant_is_the_same(a_flow_problem, ratio):
+    """(N18) of the split stress is S^2 of (N8)."""
+    plain, mixed = both(a_flow_problem, ratio)
     material = material_of(plain)
     np.testing.assert_allclose(
-        squared_size(mixed, material, split(STRESSES, ratio)),
-        squared_size(plain, material, STRESSES),
+        squared_invariant(mixed, material, split(STRESSES, ratio)),
+        squared_invariant(plain, material, STRESSES),
         rtol=1e-12,
     )
 
@@ -68,29 +68,29 @@ def test_invariant_is_the_same(a_flow_law, ratio):
 @pytest.mark.parametrize("exponent", [1.0, 3.0])
 @pytest.mark.parametrize("fluidity", [1.0, 7.0])
 def test_condensed_tangent_is_that_of_the_velocity_element(
-    a_flow_law, ratio, exponent, fluidity
+    a_flow_problem, ratio, exponent, fluidity
 ):
-    """Both linearise one law at one stress: without its pressure (F10) is (F5)."""
-    plain, mixed = both(a_flow_law, ratio, exponent, fluidity)
+    """Both linearise one law at one stress: without its pressure (N20) is (N10)."""
+    plain, mixed = both(a_flow_problem, ratio, exponent, fluidity)
     material = material_of(plain)
     expected = linearise_creep(plain, material, STRESSES)
-    moduli, kept = linearise_creep(mixed, material, split(STRESSES, ratio))
+    moduli, intercept = linearise_creep(mixed, material, split(STRESSES, ratio))
     np.testing.assert_allclose(moduli, moduli.swapaxes(-1, -2), rtol=1e-14)
     coupling, compression = moduli[..., :3, 3], moduli[..., 3, 3]
     assert (compression < 0.0).all()  # quasi-definite
-    # the fourth row is zero: p = -(kept + coupling . eps) / compression
+    # the fourth row is zero: p = -(intercept + coupling . eps) / compression
     outer = coupling[..., :, None] * coupling[..., None, :]
     condensed = moduli[..., :3, :3] - outer / compression[..., None, None]
-    rest = kept[..., :3] - coupling * (kept[..., 3] / compression)[..., None]
+    rest = intercept[..., :3] - coupling * (intercept[..., 3] / compression)[..., None]
     scale = np.abs(expected.modulus).max()
     np.testing.assert_allclose(condensed, expected.modulus, atol=1e-12 * scale)
-    np.testing.assert_allclose(rest, expected.kept, atol=1e-12)
+    np.testing.assert_allclose(rest, expected.intercept, atol=1e-12)
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-def test_step_with_the_laws_own_strain_rate_changes_nothing(a_flow_law, ratio):
-    """(F9) written out, with the floor: a Newton step from the solution stays."""
-    _, mixed = both(a_flow_law, ratio)
+def test_step_with_the_laws_own_strain_rate_changes_nothing(a_flow_problem, ratio):
+    """(N19) written out, with the floor: a Newton step from the solution stays."""
+    _, mixed = both(a_flow_problem, ratio)
     stress = split(STRESSES, ratio)
     deviator, pressure = stress[:, :3], stress[:, 3]
     size = ((deviator @ COMPLIANCE) * deviator).sum(axis=1) + pressure**2 / ratio
@@ -102,21 +102,21 @@ def test_step_with_the_laws_own_strain_rate_changes_nothing(a_flow_law, ratio):
     np.testing.assert_allclose(
         advance_stress(mixed, tangent, generalised), stress, atol=1e-13
     )
-    fourth = tangent.kept[:, 3] + (tangent.modulus[:, 3] * generalised).sum(axis=1)
+    fourth = tangent.intercept[:, 3] + (tangent.modulus[:, 3] * generalised).sum(axis=1)
     np.testing.assert_allclose(fourth, 0.0, atol=1e-13)
 
 
-def test_total_stress_carries_the_pressure(a_flow_law):
-    _, mixed = both(a_flow_law, 1.8)
+def test_total_stress_carries_the_pressure(a_flow_problem):
+    _, mixed = both(a_flow_problem, 1.8)
     total = total_stress(mixed, split(STRESSES, 1.8))
     np.testing.assert_allclose(total[:, :3], STRESSES, atol=1e-15)
     np.testing.assert_array_equal(total[:, 3], 0.0)
 
 
 @pytest.mark.parametrize("ratio", [0.7, 1.8])
-def test_rough_slab_in_both_elements(a_mesh, a_flow_law, ratio):
+def test_rough_slab_in_both_elements(a_mesh, a_flow_problem, ratio):
     """A whole flow: forces on the net agree as two meshes of this size do."""
-    plain, mixed = both(a_flow_law, ratio)
+    plain, mixed = both(a_flow_problem, ratio)
     found = []
     for law in (plain, mixed):
         law = replace(law, ground="no-slip", friction=np.inf)
@@ -131,9 +131,9 @@ def test_rough_slab_in_both_elements(a_mesh, a_flow_law, ratio):
 
 # --- layers ------------------------------------------------------------------
 
-BOTTOM = FlowLayer(top=0.3, bulk_ratio=1.2, fluidity=2.0, density=1.5)
-MIDDLE = FlowLayer(top=0.8, bulk_ratio=2.0, fluidity=0.5, density=0.9)
-TOP = FlowLayer(top=1.0, bulk_ratio=3.0, fluidity=0.1, density=0.5)
+BOTTOM = FlowLayer(top=0.3, bulk_ratio=1.2, fluidity_ratio=2.0, density=1.5)
+MIDDLE = FlowLayer(top=0.8, bulk_ratio=2.0, fluidity_ratio=0.5, density=0.9)
+TOP = FlowLayer(top=1.0, bulk_ratio=3.0, fluidity_ratio=0.1, density=0.5)
 TOPS = (0.3, 0.8)
 
 
@@ -144,8 +144,8 @@ def layered_mesh(inclination_deg=0.0, element="velocity", size=MESH_LEVELS[1]):
     return kernel.build_placed_mesh(template, place_nodes(template, curve), element)
 
 
-def test_every_point_has_the_properties_of_its_layer(a_flow_law):
-    law = replace(a_flow_law(), layers=(BOTTOM, MIDDLE, TOP))
+def test_every_point_has_the_properties_of_its_layer(a_flow_problem):
+    law = replace(a_flow_problem(), layers=(BOTTOM, MIDDLE, TOP))
     mesh = layered_mesh()
     material = sample_material(law, mesh.template)
     heights = mesh.template.nodes[1, mesh.template.triangles[:3]].mean(axis=0)
@@ -153,21 +153,21 @@ def test_every_point_has_the_properties_of_its_layer(a_flow_law):
         inside = (heights > low) & (heights < layer.top)
         assert inside.any()
         assert (material.bulk_ratio[inside] == layer.bulk_ratio).all()
-        assert (material.fluidity[inside] == layer.fluidity).all()
+        assert (material.fluidity_ratio[inside] == layer.fluidity_ratio).all()
         assert (material.density[inside] == layer.density).all()
 
 
-def test_uniform_snow_needs_no_arrays(a_flow_law):
-    law = a_flow_law()
+def test_uniform_snow_needs_no_arrays(a_flow_problem):
+    law = a_flow_problem()
     material = sample_material(law, layered_mesh().template)
     assert material == (law.layers[0].bulk_ratio, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("inclination", [0.0, 30.0])
 @pytest.mark.parametrize("element", ["velocity", "mixed"])
-def test_load_of_layers_is_their_weight(a_flow_law, inclination, element):
+def test_load_of_layers_is_their_weight(a_flow_problem, inclination, element):
     """Each layer: 5 (top - bottom) and its slice of the wedge, times its density."""
-    law = replace(a_flow_law(), layers=(BOTTOM, MIDDLE, TOP), element=element)
+    law = replace(a_flow_problem(), layers=(BOTTOM, MIDDLE, TOP), element=element)
     mesh = layered_mesh(inclination, element)
     wedge = np.tan(np.radians(inclination)) / 2.0
     expected = sum(
@@ -183,9 +183,9 @@ def test_load_of_layers_is_their_weight(a_flow_law, inclination, element):
 
 
 @pytest.mark.parametrize("element", ["velocity", "mixed"])
-def test_equal_layers_are_one(a_flow_law, element):
+def test_equal_layers_are_one(a_flow_problem, element):
     """On one mesh: nothing but the sampling differs."""
-    whole = replace(a_flow_law(ground="no-slip"), element=element)
+    whole = replace(a_flow_problem(ground="no-slip"), element=element)
     layer = whole.layers[0]
     parts = tuple(replace(layer, top=top) for top in (*TOPS, 1.0))
     mesh = layered_mesh(30.0, element)
@@ -197,10 +197,13 @@ def test_equal_layers_are_one(a_flow_law, element):
     np.testing.assert_allclose(three.reaction, one.reaction, atol=1e-9 * scale)
 
 
-def test_fluidity_of_all_layers_leaves_the_stress(a_flow_law):
-    law = replace(a_flow_law(ground="no-slip"), layers=(BOTTOM, MIDDLE, TOP))
+def test_fluidity_of_all_layers_leaves_the_stress(a_flow_problem):
+    law = replace(a_flow_problem(ground="no-slip"), layers=(BOTTOM, MIDDLE, TOP))
     faster = replace(
-        law, layers=tuple(replace(la, fluidity=5.0 * la.fluidity) for la in law.layers)
+        law,
+        layers=tuple(
+            replace(la, fluidity_ratio=5.0 * la.fluidity_ratio) for la in law.layers
+        ),
     )
     mesh = layered_mesh(30.0)
     slow, fast = (solve_flow(each, mesh, tolerance=1e-10) for each in (law, faster))
@@ -215,22 +218,24 @@ def test_fluidity_of_all_layers_leaves_the_stress(a_flow_law):
 
 @pytest.mark.parametrize("exponent", [1.0, 3.0])
 @pytest.mark.parametrize("fluidity", [0.037, 1.0, 4.3])
-def test_ground_slips_by_the_fluidity_of_the_snow_on_it(a_flow_law, exponent, fluidity):
-    """G2 at its own stress: velocity = slip length times the snow's shear rate."""
-    law = a_flow_law(ground="sliding", slip_ratio=0.73, exponent=exponent)
+def test_ground_slips_by_the_fluidity_of_the_snow_on_it(
+    a_flow_problem, exponent, fluidity
+):
+    """N12 at its own stress: velocity = slip length times the snow's shear rate."""
+    law = a_flow_problem(ground="sliding", slip_ratio=0.73, exponent=exponent)
     shear = np.array([[-0.61, 0.13, 0.47]])
     tangent = linearise_sliding(law, shear, np.array([[fluidity]]))
     size = shear**2 + law.stress_floor**2
     velocity = 0.73 * fluidity * size ** ((exponent - 1.0) / 2.0) * shear
     np.testing.assert_allclose(
-        tangent.kept + tangent.modulus * velocity, shear, rtol=1e-12
+        tangent.intercept + tangent.modulus * velocity, shear, rtol=1e-12
     )
 
 
 def test_fluidity_of_triangles_is_a_number_or_their_own():
     numbers = np.array([2, 0, 2])
-    plain = Material(1.8, 0.7, 1.0).sample_fluidity(numbers)
+    plain = Material(1.8, 0.7, 1.0).sample_fluidity_ratio(numbers)
     np.testing.assert_array_equal(plain, [[0.7]] * 3)
     each = np.outer([1.0, 2.0, 3.0], np.ones(3))
-    found = Material(1.8, each, 1.0).sample_fluidity(numbers)
+    found = Material(1.8, each, 1.0).sample_fluidity_ratio(numbers)
     np.testing.assert_array_equal(found, [[3.0], [1.0], [3.0]])

@@ -32,7 +32,7 @@ def problem(a_mesh):
 
 
 def solve_dense(mesh, blocks, force, free, friction):
-    """Rows as (F6) has them: each tangential one with its share of the normal one."""
+    """Rows as (N14) has them: each tangential one with its share of the normal one."""
     matrix = sum(block.to_matrix(mesh.n_dofs) for block in blocks).toarray()
     right = -force.copy()
     for tangential in np.flatnonzero(friction):

@@ -33,7 +33,7 @@ class DyingScene(Scene):
     """Takes its whole process down as soon as somebody solves it."""
 
     @property
-    def flow_law(self):
+    def flow_problem(self):
         os._exit(9)
 
 
@@ -41,7 +41,7 @@ class LongScene(Scene):
     """Takes longer than any test waits."""
 
     @property
-    def flow_law(self):
+    def flow_problem(self):
         time.sleep(60.0)
         raise TimeoutError
 
@@ -50,7 +50,7 @@ class FaultyScene(Scene):
     """Raises what no case may raise: a bug."""
 
     @property
-    def flow_law(self):
+    def flow_problem(self):
         message = "spoilt"
         raise ZeroDivisionError(message)
 

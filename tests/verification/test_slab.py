@@ -15,7 +15,7 @@ import pytest
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.kernel import build_placed_mesh
-from netdesign.snow.law import FlowLaw, FlowLayer, Material, linearise_creep
+from netdesign.snow.law import FlowLayer, FlowProblem, Material, linearise_creep
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
 # FACTS.md, section 3
@@ -28,22 +28,22 @@ POISSON = (3 * A - 2 * B_BULK) / (6 * A + 2 * B_BULK)
 CONFINED = 4 / (3 * A) + 1 / B_BULK
 
 
-def a_law(**changes) -> FlowLaw:
+def a_law(**changes) -> FlowProblem:
     values = {
         "exponent": N,
         "gravity": (0.0, -1.0),
         "stress_floor": 1e-9,  # the closed forms know of no linear creep
     }
     layers = (FlowLayer(bulk_ratio=changes.pop("bulk_ratio", RATIO)),)
-    return FlowLaw(layers=layers, **{**values, **changes})
+    return FlowProblem(layers=layers, **{**values, **changes})
 
 
 def plane_strain_rate(stress, **changes):
-    """Strain rates (xx, yy, 2 xy) of the program's law, from its own tangent (F5)."""
+    """Strain rates (xx, yy, 2 xy) of the program's law, from its own tangent (N10)."""
     law = a_law(**changes)
     stress = np.array(stress, dtype=float)
     (layer,) = law.layers
-    material = Material(layer.bulk_ratio, layer.fluidity, layer.density)
+    material = Material(layer.bulk_ratio, layer.fluidity_ratio, layer.density)
     moduli, kept = linearise_creep(law, material, stress)
     return np.linalg.solve(moduli, stress - kept)
 
@@ -263,7 +263,9 @@ def test_layered_slab_slides_by_its_lowest_layer(seed):
     law = replace(
         a_law(exponent=1.0, gravity=(math.sin(slope), -math.cos(slope))),
         layers=tuple(
-            FlowLayer(top=high, bulk_ratio=RATIO, fluidity=fluidity, density=density)
+            FlowLayer(
+                top=high, bulk_ratio=RATIO, fluidity_ratio=fluidity, density=density
+            )
             for high, fluidity, density in zip(
                 (top, 1.0), fluidities, densities, strict=True
             )

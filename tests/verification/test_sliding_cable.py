@@ -66,7 +66,7 @@ def test_capstan_ratio_where_the_whole_net_glides(phi, end):
         old_lengths = compute_segment_lengths(points)
         old_lengths[-1 if end == "head" else 0] /= 1.0 + 10.0 * STRAIN
         step = slide(points, old_lengths, phi)
-        assert set(step.glide) == {-1 if end == "head" else 1}
+        assert set(step.slide_signs) == {-1 if end == "head" else 1}
         pulled, held = step.tensions[[-1, 0] if end == "head" else [0, -1]]
         errors.append(pulled / held / compute_capstan_ratio(WRAP, phi) - 1.0)
     assert abs(errors[-1]) < 1e-4
@@ -104,10 +104,10 @@ def test_net_glides_just_as_far_as_the_pull_reaches(phi, sense, end):
         expected = start * compute_capstan_ratio(slip_angle, sense * phi)
         errors.append(step.tensions[tail] / expected - 1.0)
         assert step.tensions[-1 - tail] == pytest.approx(start, rel=1e-12)
-        gliding = np.count_nonzero(step.glide) * WRAP / (n - 1)
+        gliding = np.count_nonzero(step.slide_signs) * WRAP / (n - 1)
         assert gliding == pytest.approx(slip_angle, abs=WRAP / (n - 1))
         towards = sense if end == "foot" else -sense
-        assert set(step.glide) == {0, towards}
+        assert set(step.slide_signs) == {0, towards}
     assert abs(errors[-1]) < 1e-4
     np.testing.assert_allclose(observed_orders(np.array(errors)), 2.0, atol=0.05)
 
@@ -122,7 +122,7 @@ def test_snow_is_sheared_to_its_limit_and_never_beyond(phi, end):
     step = slide(points, old_lengths, phi)
     forces = compute_node_forces(points, step.tensions)
     usage = forces.tangential / (forces.normal * math.tan(phi))
-    glides = step.glide != 0
-    np.testing.assert_allclose(usage[glides], -step.glide[glides], rtol=1e-8)
+    glides = step.slide_signs != 0
+    np.testing.assert_allclose(usage[glides], -step.slide_signs[glides], rtol=1e-8)
     assert np.abs(usage[~glides]).max(initial=0.0) <= 1.0
     assert (forces.normal > 0.0).all()

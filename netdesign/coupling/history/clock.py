@@ -9,13 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.fluidity import compute_fluidity
-
-Floats = NDArray[np.float64]
 
 _PARTS = 8  # of each interval between two readings, for the integral
 
@@ -83,13 +81,35 @@ class Clock:
         )
 
     def to_creep_time(self, time: float) -> float:
-        """Creep time [s] of a time [s]."""
+        """Creep time of a time.
+
+        Parameters
+        ----------
+        time : float
+            [s].
+
+        Returns
+        -------
+        float
+            [s].
+        """
         later = max(0.0, time - self.times[-1])
         known = float(np.interp(time, self.times, self.creep_times))
         return known + later * self.last_rate
 
     def to_time(self, creep_time: float) -> float:
-        """Time [s] of a creep time [s]."""
+        """Time of a creep time.
+
+        Parameters
+        ----------
+        creep_time : float
+            [s].
+
+        Returns
+        -------
+        float
+            [s].
+        """
         later = max(0.0, creep_time - self.creep_times[-1])
         known = float(np.interp(creep_time, self.creep_times, self.times))
         return known + later / self.last_rate

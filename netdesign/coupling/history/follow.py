@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.instant import Instant
@@ -17,12 +16,10 @@ from netdesign.coupling.history.state import (
     TransientState,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Signs
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
-
-Floats = NDArray[np.float64]
-Signs = NDArray[np.int8]
 
 
 class _Net(NamedTuple):
@@ -36,7 +33,23 @@ class _Net(NamedTuple):
 def follow(
     problem: TransientProblem, state: TransientState, instant: Instant, step: float
 ) -> tuple[TransientState, float]:
-    """State at the end of a step, and the mass of snow that fell over the head.
+    """State at the end of a step.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    instant : Instant
+        Equilibrium at its end.
+    step : float
+        Duration [time scale].
+
+    Returns
+    -------
+    TransientState, float
+        And the mass of snow that fell over the head [mean density times d^2].
 
     Raises
     ------
@@ -57,14 +70,16 @@ def follow(
         step=step,
         stress=instant.stress,
         base_shear=instant.base_shear,
-        glide=_match_glide(instant.response.sliding.glide, net.lengths.size - 1),
+        slide_signs=_match_signs(
+            instant.response.sliding.slide_signs, net.lengths.size - 1
+        ),
     )
     return following, fallen
 
 
-def _match_glide(glide: Signs, count: int) -> Signs:
+def _match_signs(signs: Signs, count: int) -> Signs:
     """The upper corner may have become a node of the net, or none any more."""
-    return np.append(glide, np.zeros(1, dtype=np.int8))[:count]
+    return np.append(signs, np.zeros(1, dtype=np.int8))[:count]
 
 
 def _move_top(
@@ -75,25 +90,25 @@ def _move_top(
     lengths = instant.response.sliding.lengths
     head, chord = problem.head, float(np.hypot(*problem.head))
     last = head - vertices[:, -2]
-    reach = float(np.hypot(*last))
+    distance = float(np.hypot(*last))
     if instant.top == "on-net":
-        below = float((head - vertices[:, -1]) @ last) / reach
+        below = float((head - vertices[:, -1]) @ last) / distance
         if below > HEAD_GAP * chord / 4.0:
             return _Net(vertices, lengths, "on-net")
         vertices[:, -1] = head
         return _Net(vertices, np.append(lengths[:-2], lengths[-2:].sum()), "held")
     vertices[:, -1] = head
-    upward = last / reach
+    upward = last / distance
     if instant.top == "slipping":
         return _Net(vertices, lengths, "slipping")
     normal = np.array([upward[1], -upward[0]])
     shear = float(instant.on_net[:, -1] @ upward)
-    limit = problem.law.friction * max(float(instant.on_net[:, -1] @ normal), 0.0)
+    limit = problem.snow.friction * max(float(instant.on_net[:, -1] @ normal), 0.0)
     if shear >= -limit:
         return _Net(vertices, lengths, "held")
     if not instant.response.sliding.tensions[-1] > 0.0:
         return _Net(vertices, lengths, "held")
-    share = HEAD_GAP * chord / reach
+    share = HEAD_GAP * chord / distance
     vertices[:, -1] = head - last * share
     parts = lengths[-1] * np.array([1.0 - share, share])
     return _Net(vertices, np.append(lengths[:-1], parts), "on-net")

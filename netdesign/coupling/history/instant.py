@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import NetResponse, hold_net
 from netdesign.cable.yielding import NetGuess, YieldingNodes, settle_net
@@ -29,11 +28,10 @@ from netdesign.coupling.history.step import (
     solve_linear,
 )
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-from netdesign.snow.law import squared_size
+from netdesign.snow.law import squared_invariant
 from netdesign.snow.straight_mesh import unfold_velocity
-
-Floats = NDArray[np.float64]
 
 # Error that a Newton iteration leaves, over the square of its change (measured: less).
 _LEFT_SHARE = 10.0
@@ -43,14 +41,16 @@ _TOP_CHANGES = 3  # of the upper corner, between held and slipping, in one step
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Instant:
-    """Equilibrium at the end of a step.
+    """Equilibrium at the end of a step; dimensionless as in ``TransientState``.
 
     Attributes
     ----------
     displaced : ndarray, shape (2, n_vertices)
         Where the vertices end.
-    velocity, stress, base_shear, top
-        As in ``TransientState``.
+    velocity, stress, base_shear : ndarray
+        Of the same shape and unit as there.
+    top : str
+        What the snow's upper corner does.
     points : ndarray, shape (2, n + 2)
         Foot, net nodes and head.
     response : NetResponse
@@ -62,7 +62,7 @@ class Instant:
     ground_normal : ndarray, shape (n_ground - 1,)
         Downward nodal forces on the ground, without the node at the foot.
     creep_rate : float
-        Mean size of the strain rate, S^n of eq. (F3), over the body.
+        Mean size of the strain rate, S^n of eq. (N8), over the body.
     residual : float
         Force missing from the balance of any free node and of all, over the weight.
     linear_solves : int
@@ -123,7 +123,7 @@ def advance(
     iterate = SnowIterate(unknowns, state.stress, state.base_shear)
     points = list_net_points(problem, state.body.vertices[:, state.carried])
     forces = hold_net(points, state.lengths, stiffness=problem.stiffness).forces
-    guess = NetGuess.at_rest(equations.place_net(unknowns), state.glide)
+    guess = NetGuess.at_rest(equations.place_net(unknowns), state.slide_signs)
     top_changes = 0
     for iteration in range(1, max_iterations + 1):
         last = iterate.stress
@@ -156,17 +156,36 @@ def advance_under(
 ) -> Instant:
     """Solve one step of snow under net forces that do not change in it.
 
-    ``response`` is the net at the step's start; the rest is as in ``advance``. Only a
-    base drag keeps such a step from being singular on a ground where the snow glides
-    freely.
+    Only a base drag keeps such a step from being singular on a ground where the snow
+    glides freely.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    step : float
+        Duration [time scale].
+    response : NetResponse
+        The net at the step's start.
+    tolerance : float
+        Relative change of the stress in the last iteration [-].
+    max_iterations : int
+        Newton iterations allowed.
+
+    Raises
+    ------
+    SolveError
+        If the step does not converge.
     """
     equations = assemble_step(problem, replace(state, step=0.0), step)
     unknowns = equations.hold(equations.mesh.to_node_axes(state.velocity))
     iterate = SnowIterate(unknowns, state.stress, state.base_shear)
     for iteration in range(1, max_iterations + 1):
         last = iterate.stress
-        answer = solve_linear(equations, iterate, response.forces, per_force=False)
-        iterate = advance_iterate(equations, iterate, answer.linear, answer.change)
+        solution = solve_linear(equations, iterate, response.forces, per_force=False)
+        iterate = advance_iterate(equations, iterate, solution.linear, solution.change)
         change = _require_finite(measure_change(equations, last, iterate.stress))
         if change < tolerance:
             return _finish(equations, state, iterate, response, iteration)
@@ -181,12 +200,12 @@ def _iterate(
     guess: NetGuess,
 ) -> tuple[SnowIterate, NetResponse, NetGuess]:
     """Newton iteration of the snow; the net is solved exactly on its linear answer."""
-    answer = solve_linear(equations, iterate, forces, per_force=True)
+    solution = solve_linear(equations, iterate, forces, per_force=True)
     dofs, rate = equations.net_dofs, equations.motion.rate
     nodes = YieldingNodes(
-        positions=equations.place_net(iterate.unknowns + answer.change),
+        positions=equations.place_net(iterate.unknowns + solution.change),
         forces=forces,
-        compliance=rate * answer.per_force[dofs],
+        compliance=rate * solution.per_force[dofs],
     )
     problem = equations.problem
     response, guess = settle_net(
@@ -194,24 +213,24 @@ def _iterate(
         guess,
         problem.head,
         lengths,
-        friction=problem.law.friction,
+        friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
     more = (response.forces - forces).ravel()
-    change = answer.change + answer.per_force @ more
-    iterate = advance_iterate(equations, iterate, answer.linear, change)
+    change = solution.change + solution.per_force @ more
+    iterate = advance_iterate(equations, iterate, solution.linear, change)
     return iterate, response, guess
 
 
 def _slips_over(equations: StepEquations, iterate: SnowIterate) -> bool:
-    """Whether the snow's upper corner slips up over the head, against friction (F6)."""
+    """The snow's upper corner slips up over the head, against friction (N14)."""
     top = equations.top
     if equations.free[top]:
         return False
     if equations.top_slips:
         return bool(iterate.unknowns[top + 1] > 0.0)
     pressure, shear = -compute_imbalance(equations, iterate)[top : top + 2]
-    return bool(shear > equations.problem.law.friction * max(pressure, 0.0))
+    return bool(shear > equations.problem.snow.friction * max(pressure, 0.0))
 
 
 def _require_finite(change: float) -> float:
@@ -269,10 +288,10 @@ def _finish(
 
 
 def _mean_creep_rate(equations: StepEquations, stress: Floats) -> float:
-    law, material = equations.problem.law, equations.material
+    snow, material = equations.problem.snow, equations.material
     weights = equations.mesh.weights
-    rate = material.fluidity * squared_size(law, material, stress) ** (
-        law.exponent / 2.0
+    rate = material.fluidity_ratio * squared_invariant(snow, material, stress) ** (
+        snow.exponent / 2.0
     )
     return float((weights * rate).sum() / weights.sum())
 
@@ -288,6 +307,6 @@ def _share_corner(
     below, above = equations.nodes[:, 0], equations.nodes[:, 1]
     first, second = np.hypot(*below), np.hypot(*(above - below))
     share = -response.forces[:, 0] * first / (first + second)
-    if equations.problem.law.ground != "no-slip":
+    if equations.problem.snow.ground != "no-slip":
         share[0] = corner[0]
     return np.asarray(share)

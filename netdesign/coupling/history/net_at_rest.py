@@ -5,17 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.state import TransientProblem
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.hanging import locate_nodes
 from netdesign.coupling.steady.rounds import find_hanging
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.snow.mesh import MeshSize
-
-Floats = NDArray[np.float64]
 
 _ROUNDS = 5  # for the sag of a polygon; each gains some two digits
 
@@ -44,6 +42,13 @@ class NetAtRest:
 
 def find_net_at_rest(scene: Scene, size: MeshSize) -> NetAtRest:
     """The net of the steady state on one mesh.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
 
     Raises
     ------

@@ -1,11 +1,10 @@
-"""Where a history begins: the net's shape, and the snow that lies against it."""
+"""Begin of a history: the net's shape, and the snow that lies against it."""
 
 from __future__ import annotations
 
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.net_at_rest import (
@@ -17,11 +16,11 @@ from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.steady.start import guess_pressure
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshSize, MeshTemplate
 
-Floats = NDArray[np.float64]
 Start = Literal["steady", "straight", "sagged"]
 
 TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"
@@ -30,7 +29,21 @@ _LARGEST_SAG = 0.6  # over the chord
 
 
 def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
-    """What ``build_start`` takes: of a steady start the net as it hangs at rest.
+    """Start in the form that ``build_start`` takes.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the history's mesh.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+
+    Returns
+    -------
+    str or NetAtRest
+        Of a steady start the net as it hangs at rest.
 
     Raises
     ------
@@ -84,12 +97,12 @@ def build_start(
         lengths = _spread_length(problem, curve)
     if not curve[1, 1:].min() > 0.0:
         raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
-    body = build_body(problem.law, template, curve)
+    body = build_body(problem.snow, template, curve)
     return TransientState(
         time=0.0,
         body=body,
         lengths=lengths,
-        glide=np.zeros(lengths.size - 1, dtype=np.int8),
+        slide_signs=np.zeros(lengths.size - 1, dtype=np.int8),
         top="on-net" if problem.has_freeboard else "held",
         velocity=np.zeros((2, template.nodes.shape[1])),
         moved=np.zeros_like(body.vertices),
@@ -105,7 +118,7 @@ def _hang_parabola(
         fractions = fractions / fractions[-1]
     pressure = 0.0
     if start == "sagged":
-        pressure = guess_pressure(problem.law, template.aspect)
+        pressure = guess_pressure(problem.snow, template.aspect)
     return _parabola(problem.head, _find_sag(problem, pressure), fractions)
 
 

@@ -12,7 +12,22 @@ from netdesign.snow.settling import Settling
 def build_problem(
     scene: Scene, *, densifies: bool, base_drag: float = 0.0
 ) -> TransientProblem:
-    """The scene's snow and net, dimensionless."""
+    """The scene's snow and net, dimensionless.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    densifies : bool
+        The creep law follows the density.
+    base_drag : float
+        Shear stress on the ground over its velocity [rho g d / velocity scale].
+
+    Raises
+    ------
+    ModelError
+        If the scene has a wall or a one-sided contact.
+    """
     net = scene.net
     if not isinstance(net, Net):
         raise ModelError("a history needs a net; a rigid wall has a steady state only")
@@ -23,12 +38,12 @@ def build_problem(
         )
     thickness = scene.snowpack.thickness
     return TransientProblem(
-        law=scene.flow_law,
+        snow=scene.flow_problem,
         settling=Settling(
             creep_law=scene.creep_law,
             mean_density=scene.snowpack.relative_density,
             densifies=densifies,
-            least_density=min(layer.density for layer in scene.flow_law.layers),
+            least_density=min(layer.density for layer in scene.flow_problem.layers),
         ),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,

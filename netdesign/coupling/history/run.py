@@ -6,19 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.instant import Instant
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
-    Moment,
+    HistoryPoint,
     Plateau,
     largest_pull,
     select_counted,
 )
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.settling import largest_density
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -29,7 +27,7 @@ class Run:
     ----------
     problem : TransientProblem
         Scene.
-    moments : tuple of Moment
+    moments : tuple of HistoryPoint
         After every step.
     plateau : Plateau
         Whether it came to rest.
@@ -46,7 +44,7 @@ class Run:
     """
 
     problem: TransientProblem
-    moments: tuple[Moment, ...]
+    moments: tuple[HistoryPoint, ...]
     plateau: Plateau
     state: TransientState
     instant: Instant
@@ -57,7 +55,7 @@ class Run:
     is_guessed: bool
 
     @property
-    def counted(self) -> Sequence[Moment]:
+    def counted(self) -> Sequence[HistoryPoint]:
         """Moments whose pulls are those of the scene's snow on its net."""
         return select_counted(self.moments, self.plateau, is_guessed=self.is_guessed)
 
@@ -69,10 +67,28 @@ def record_moment(
     way: Floats | float,
     strain: float,
     step: float,
-) -> tuple[Moment, Floats]:
-    """Moment at the end of a step, and the net vertices' ways (n,) until then.
+) -> tuple[HistoryPoint, Floats]:
+    """Point of a history at the end of a step.
 
-    ``state`` is that after the step, ``way`` and ``strain`` those before it.
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        After the step.
+    instant : Instant
+        Equilibrium at the step's end.
+    way : ndarray, shape (n,), or float
+        Ways of the net's vertices before the step [thickness]; 0 at first.
+    strain : float
+        Mean creep strain before the step [-].
+    step : float
+        Duration [time scale].
+
+    Returns
+    -------
+    HistoryPoint, ndarray, shape (n,)
+        And the ways after the step [thickness].
     """
     net = state.body.topology.net
     axes = _net_normals(state.body.vertices[:, net])
@@ -80,7 +96,7 @@ def record_moment(
     ways = way + across * step
     tensions = instant.response.sliding.tensions
     ends = np.hypot(*np.array([instant.foot_pull, instant.head_pull]).T)
-    moment = Moment(
+    moment = HistoryPoint(
         time=state.time,
         foot=instant.foot_pull,
         head=instant.head_pull,
@@ -97,7 +113,18 @@ def record_moment(
 
 
 def measure_run(run: Run) -> list[Floats]:
-    """Largest pulls that count on foot and head, shape (2,) each."""
+    """Largest pulls that count.
+
+    Parameters
+    ----------
+    run : Run
+        On one mesh.
+
+    Returns
+    -------
+    list of ndarray, shape (2,)
+        On foot and head [rho g d^2].
+    """
     return [
         largest_pull([moment.foot for moment in run.counted]),
         largest_pull([moment.head for moment in run.counted]),

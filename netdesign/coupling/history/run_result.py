@@ -11,7 +11,7 @@ from netdesign.cable.tension import compute_node_forces
 from netdesign.coupling.balance import check_balance, negative_share
 from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.run import Run
-from netdesign.coupling.moments import History, Moment
+from netdesign.coupling.moments import History, HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 
@@ -19,7 +19,21 @@ from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
 def scale_history(
     run: Run, scene: Scene, clock: Clock, *, start: str, densifies: bool
 ) -> History:
-    """History of a run in SI units, on the clock of its temperatures."""
+    """History of a run in SI units.
+
+    Parameters
+    ----------
+    run : Run
+        Dimensionless.
+    scene : Scene
+        Its scales.
+    clock : Clock
+        Of its temperatures.
+    start : str
+        ``steady``, ``straight`` or ``sagged``.
+    densifies : bool
+        The creep law followed the density.
+    """
     plateau = run.plateau
     if plateau.time is not None:
         time = clock.to_time(plateau.time * scene.time_scale)
@@ -46,6 +60,23 @@ def build_solution(
 ) -> Solution:
     """Solution whose shapes are those at the end of the finest run.
 
+    Parameters
+    ----------
+    scene : Scene
+        What was solved.
+    runs : sequence of Run
+        Of all meshes; the finest is the last.
+    foot, head : EndPull
+        Largest pulls with their errors.
+    history : History
+        Of the finest run.
+    method : str
+        ``transient`` or ``staggered``.
+    balance_tolerance : float
+        Largest force missing over the weight [-].
+    friction_tolerance : float, optional
+        Shear beyond the friction limit over the weight [-]; default is the former.
+
     Raises
     ------
     SolveError
@@ -59,8 +90,8 @@ def build_solution(
     sliding = run.instant.response.sliding
     points = run.instant.points
     along = run.problem.head / np.hypot(*run.problem.head)
-    slides = np.append(False, sliding.glide != 0)
-    if run.instant.on_net.shape[1] > sliding.glide.size:
+    slides = np.append(False, sliding.slide_signs != 0)
+    if run.instant.on_net.shape[1] > sliding.slide_signs.size:
         slides = np.append(slides, True)  # a corner held at the head slips freely
     balance = _measure_balance(run, scene)
     check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
@@ -94,7 +125,7 @@ def build_solution(
     )
 
 
-def _scale_moment(moment: Moment, scene: Scene, clock: Clock) -> Moment:
+def _scale_moment(moment: HistoryPoint, scene: Scene, clock: Clock) -> HistoryPoint:
     force, thickness = scene.force_scale, scene.snowpack.thickness
     return replace(
         moment,
@@ -113,11 +144,11 @@ def _measure_balance(run: Run, scene: Scene) -> Balance:
     weight = float(run.state.body.mass.sum())
     tensions = run.instant.response.sliding.tensions
     forces = compute_node_forces(run.instant.points, tensions)
-    friction = run.problem.law.friction
+    friction = run.problem.snow.friction
     excess = np.abs(forces.tangential) - friction * np.maximum(forces.normal, 0.0)
-    size = weight * float(np.hypot(*run.problem.law.gravity))
+    size = weight * float(np.hypot(*run.problem.snow.gravity))
     return Balance(
-        weight_along_slope=weight * run.problem.law.gravity[0] * scene.force_scale,
+        weight_along_slope=weight * run.problem.snow.gravity[0] * scene.force_scale,
         relative_residual=max(moment.residual for moment in run.moments),
         friction_excess=max(0.0, float(excess.max())) / size,
         smallest_tension=float(tensions.min()) * scene.force_scale,

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.incremental import (
     CableState,
@@ -34,25 +33,24 @@ from netdesign.coupling.history.run import Run, measure_run, record_moment
 from netdesign.coupling.history.run_result import build_solution, scale_history
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.history.transient import TRANSIENT_LEVELS
-from netdesign.coupling.moments import Moment, find_plateau, judge_plateau
+from netdesign.coupling.moments import HistoryPoint, find_plateau, judge_plateau
 from netdesign.coupling.refine import ErrorModel
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.guards import require_count, require_positive, require_within
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
 from netdesign.snow.mesh import MeshSize, build_template
-
-Floats = NDArray[np.float64]
 
 # Of the step: whole and halved.
 _ERROR = ErrorModel(share=1.0, floor=0.0)
 # Share of the time in which net and drag come to rest that a step may take.
 _STABLE_SHARE = 0.3
-# Shear beyond the friction limit, over the weight: increments keep the limit only as
-# steps vanish.
-_FRICTION_TOLERANCE = 1e-2
+# Force missing from the balance, over the weight. Shear beyond the friction limit, over
+# the weight: increments keep the limit only as steps vanish.
+_BALANCE_TOLERANCE, _FRICTION_TOLERANCE = 1e-8, 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
 _ADVICE = "the method transient has no such limit of explicit steps"
@@ -60,7 +58,7 @@ _ADVICE = "the method transient has no such limit of explicit steps"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaggeredSettings:
-    """How the paper's exchange is computed; pure numbers.
+    """Settings of the paper's exchange; pure numbers.
 
     Attributes
     ----------
@@ -74,7 +72,7 @@ class StaggeredSettings:
     horizon : float
         Creep time to follow, over thickness by velocity scale.
     stress_tolerance : float
-        Relative change of the stress in the last iteration of a step.
+        Relative change of the stress in the last iteration of a step [-].
     max_iterations : int
         Newton iterations of a step.
     size : MeshSize
@@ -120,6 +118,11 @@ def solve_staggered(
     Solution or FailedSolution
         ``error`` is that of the step, not of the mesh.
 
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
     Verified by
     -----------
     tests/coupling/history/test_staggered.py, ``netdesign verify``
@@ -144,12 +147,26 @@ def _solve(scene: Scene, settings: StaggeredSettings) -> Solution:
         runs[-1], scene, Clock(), start=settings.start, densifies=True
     )
     return build_solution(
-        scene, runs, foot, head, history, "staggered", 1e-8, _FRICTION_TOLERANCE
+        scene,
+        runs,
+        foot,
+        head,
+        history,
+        "staggered",
+        _BALANCE_TOLERANCE,
+        _FRICTION_TOLERANCE,
     )
 
 
 def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     """One history by the paper's exchange, dimensionless.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : StaggeredSettings
+        Drag, step, start.
 
     Raises
     ------
@@ -168,7 +185,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
     state = build_start(problem, template, start)
     cable = _start_cable(problem, state)
     step = settings.step_share * _longest_step(problem, aspect)
-    moments: list[Moment] = []
+    moments: list[HistoryPoint] = []
     way: Floats | float = 0.0
     solves, mass = 0, float(state.body.mass.sum())
     while state.time < settings.horizon:
@@ -250,7 +267,7 @@ def _follow(
         cable,
         measure_arcs(points),
         compute_turning_angles(points),
-        friction=problem.law.friction,
+        friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
     if increment.outcome is not Outcome.CONVERGED:

@@ -9,15 +9,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats, Ints, Signs
 from netdesign.snow.body import SnowBody
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.settling import Settling
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Signs = NDArray[np.int8]
 
 # The snow's upper corner: held at the net's head, slipping over it, or a node of the
 # net below it.
@@ -30,14 +26,30 @@ HEAD_GAP = 2e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TransientProblem:
-    """What stays the same while the snow moves, dimensionless."""
+    """Data that stay the same while the snow moves, dimensionless.
 
-    law: FlowLaw
+    Attributes
+    ----------
+    snow : FlowProblem
+        Creep, ground and friction.
+    settling : Settling
+        How the creep law follows the density.
+    head : ndarray, shape (2,)
+        Position of the net's head [thickness].
+    length : float
+        Unstressed, of the whole net [thickness].
+    stiffness : float
+        ES, the force of a strain of 1 [rho g d^2].
+    base_drag : float
+        Shear stress on the ground over its velocity [rho g d / velocity scale].
+    """
+
+    snow: FlowProblem
     settling: Settling
     head: Floats
-    length: float  # unstressed, of the whole net
+    length: float
     stiffness: float
-    base_drag: float = 0.0  # shear stress on the ground over its velocity
+    base_drag: float = 0.0
 
     @property
     def has_freeboard(self) -> bool:
@@ -52,29 +64,31 @@ class TransientState:
     Attributes
     ----------
     time : float
-        Creep time since the start.
+        Creep time since the start [time scale].
     body : SnowBody
         The snow.
     lengths : ndarray, shape (n_segments,)
-        Unstressed lengths of the net between its nodes.
-    glide : ndarray of int, shape (n_segments - 1,)
+        Unstressed lengths of the net between its nodes [thickness].
+    slide_signs : ndarray of int, shape (n_segments - 1,)
         How the net slid through its nodes in the last step, as in ``NetGuess``.
     top : str
         What the snow's upper corner does.
     velocity : ndarray, shape (2, n_nodes)
-        Of the last step.
+        Of the last step [velocity scale].
     moved : ndarray, shape (2, n_vertices)
-        Displacement in the last step.
+        Displacement in the last step [thickness].
     step : float
-        Its duration; 0 before the first.
-    stress, base_shear : ndarray or None
-        Of the last step; None before the first.
+        Its duration [time scale]; 0 before the first.
+    stress : ndarray, shape (n_triangles, n_points, R), or None
+        Of the last step [rho g d]; None before the first.
+    base_shear : ndarray, shape (n_edges, n_points), or None
+        Of a ground with a shear [rho g d].
     """
 
     time: float
     body: SnowBody
     lengths: Floats
-    glide: Signs
+    slide_signs: Signs
     top: Top
     velocity: Floats
     moved: Floats
@@ -84,13 +98,26 @@ class TransientState:
 
     @property
     def carried(self) -> Ints:
-        """Vertices that are nodes of the net, foot and a held top left out."""
+        """Vertices (n,) that are nodes of the net, foot and a held top left out."""
         net = self.body.topology.net
         return net[1:] if self.top == "on-net" else net[1:-1]
 
 
 def list_net_points(problem: TransientProblem, nodes: Floats) -> Floats:
-    """Foot, nodes (2, n) and head of the net."""
+    """Foot, nodes and head of the net.
+
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    nodes : ndarray, shape (2, n)
+        Of the net, foot and head left out [thickness].
+
+    Returns
+    -------
+    ndarray, shape (2, n + 2)
+        [thickness].
+    """
     points = np.zeros((2, nodes.shape[1] + 2))
     points[:, 1:-1], points[:, -1] = nodes, problem.head
     return points

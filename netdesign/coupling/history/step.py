@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.body import SnowBody
 from netdesign.snow.kernel import (
@@ -34,7 +34,7 @@ from netdesign.snow.law import (
     hold_stress,
     linearise_creep,
     linearise_sliding,
-    squared_size,
+    squared_invariant,
     total_stress,
 )
 from netdesign.snow.linear import (
@@ -46,22 +46,36 @@ from netdesign.snow.linear import (
 from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Mask = NDArray[np.bool_]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Motion:
-    """Displacement of a step as a function of its end velocity: offset + rate v."""
+    """Displacement of a step as a function of its end velocity: offset + rate v.
 
-    offset: Floats  # (2, n_vertices)
+    Attributes
+    ----------
+    offset : ndarray, shape (2, n_vertices)
+        [thickness].
+    rate : float
+        [time scale].
+    guess : ndarray, shape (2, n_vertices)
+        Displacement at which equilibrium is assembled [thickness].
+    """
+
+    offset: Floats
     rate: float
-    guess: Floats  # (2, n_vertices), where equilibrium is assembled
+    guess: Floats
 
     @classmethod
     def of_step(cls, state: TransientState, step: float) -> Motion:
-        """Second order from two steps (BDF2), first order for the first one."""
+        """Motion of second order from two steps, (K6); of first order for the first.
+
+        Parameters
+        ----------
+        state : TransientState
+            At the step's start.
+        step : float
+            Duration [time scale].
+        """
         if state.step == 0.0:
             still = np.zeros_like(state.moved)
             return cls(offset=still, rate=step, guess=still)
@@ -74,7 +88,17 @@ class Motion:
 
 
 class SnowIterate(NamedTuple):
-    """Velocities, and the stresses that belong to them once converged."""
+    """Velocities, and the stresses that belong to them once converged.
+
+    Attributes
+    ----------
+    unknowns : ndarray, shape (n_dofs,)
+        Velocities, and pressures of the mixed element, in node axes.
+    stress : ndarray, shape (n_triangles, n_points, R), or None
+        None before the first iteration [rho g d].
+    base_shear : ndarray, shape (n_edges, n_points), or None
+        Of a ground with a shear [rho g d].
+    """
 
     unknowns: Floats
     stress: Floats | None
@@ -89,7 +113,7 @@ class StepEquations:
     ----------
     problem, mesh, material
         Scene, mesh and creep law where equilibrium is assembled.
-    bottom_fluidity : ndarray, shape (n_ground_edges, 1)
+    bottom_fluidity_ratio : ndarray, shape (n_ground_edges, 1)
         Of the snow on the ground, over the reference.
     weight : ndarray, shape (n_dofs,)
         Nodal forces.
@@ -108,7 +132,7 @@ class StepEquations:
     problem: TransientProblem
     mesh: PlacedMesh
     material: Material
-    bottom_fluidity: Floats
+    bottom_fluidity_ratio: Floats
     weight: Floats
     free: Mask
     net_dofs: Ints
@@ -127,18 +151,46 @@ class StepEquations:
         return float(np.hypot(*self.mesh.to_slope_axes(self.weight).sum(axis=1)))
 
     def with_top(self, *, slips: bool) -> StepEquations:
-        """The same with an upper corner that slips, or is held."""
+        """The same equations with another upper corner.
+
+        Parameters
+        ----------
+        slips : bool
+            Whether the snow's upper corner slips; else it is held.
+        """
         free = self.free.copy()
         free[self.top + 1] = slips
         return replace(self, free=free, top_slips=slips)
 
     def place_net(self, unknowns: Floats) -> Floats:
-        """Where the velocities carry the net's nodes, (2, n)."""
+        """Net nodes as the velocities carry them.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Velocities at the step's end [velocity scale].
+
+        Returns
+        -------
+        ndarray, shape (2, n)
+            [thickness].
+        """
         moved = self.motion.rate * unknowns[self.net_dofs].reshape(2, -1)
         return np.asarray(self.nodes + moved)
 
     def hold(self, unknowns: Floats) -> Floats:
-        """The unknowns, 0 where held."""
+        """The unknowns, 0 where held.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n_dofs,)
+            Any unit.
+
+        Returns
+        -------
+        ndarray, shape (n_dofs,)
+            In that unit.
+        """
         return np.where(self.free, unknowns, 0.0)
 
 
@@ -151,12 +203,22 @@ class _Linear(NamedTuple):
     base_shear: Floats | None
 
 
-class Answer(NamedTuple):
-    """Change of the unknowns without, and per, unit force on each net unknown."""
+class LinearSolution(NamedTuple):
+    """Change of the unknowns, and its derivative by the forces on the net.
+
+    Attributes
+    ----------
+    linear : _Linear
+        The equations.
+    change : ndarray, shape (n_dofs,)
+        Under the forces of the last iteration.
+    per_force : ndarray, shape (n_dofs, 2 n) or (n_dofs, 0)
+        Per unit force on each net unknown.
+    """
 
     linear: _Linear
-    change: Floats  # (n_dofs,)
-    per_force: Floats  # (n_dofs, 2 n), or no column
+    change: Floats
+    per_force: Floats
 
 
 def assemble_step(
@@ -164,12 +226,21 @@ def assemble_step(
 ) -> StepEquations:
     """Equations of a step.
 
+    Parameters
+    ----------
+    problem : TransientProblem
+        What stays the same.
+    state : TransientState
+        At the step's start.
+    step : float
+        Duration [time scale].
+
     Raises
     ------
     SolveError
         If the mesh folds over where equilibrium is to be assembled.
     """
-    body, law = state.body, problem.law
+    body, snow = state.body, problem.snow
     motion = Motion.of_step(state, step)
     vertices = body.vertices + motion.guess
     template = body.topology.template
@@ -177,7 +248,7 @@ def assemble_step(
     if state.top != "on-net":
         last = problem.head - vertices[:, body.topology.net[-2]]
         top_axis = np.array([last[1], -last[0]]) / np.hypot(*last)
-    mesh = build_straight_mesh(template, vertices, law.element, top_axis)
+    mesh = build_straight_mesh(template, vertices, snow.element, top_axis)
     if not mesh.is_valid:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
@@ -185,12 +256,12 @@ def assemble_step(
             "shorter horizon",
         )
     moved = replace(body, vertices=vertices)
-    material = build_material(problem.settling, law, moved)
+    material = build_material(problem.settling, snow, moved)
     return StepEquations(
         problem=problem,
         mesh=mesh,
         material=material,
-        bottom_fluidity=material.sample_fluidity(body.topology.bottom),
+        bottom_fluidity_ratio=material.sample_fluidity_ratio(body.topology.bottom),
         weight=_nodal_weight(problem, mesh, body),
         free=_free_places(problem, mesh, state),
         net_dofs=np.concatenate([2 * state.carried, 2 * state.carried + 1]),
@@ -202,11 +273,22 @@ def assemble_step(
 
 def solve_linear(
     equations: StepEquations, iterate: SnowIterate, forces: Floats, *, per_force: bool
-) -> Answer:
-    """Newton step of the snow under net forces (2, n), and its change per force.
+) -> LinearSolution:
+    """Newton step of the snow under net forces, and its change per force.
 
     Written for changes of the velocities: what rounding leaves of equilibrium in one
     iteration is mended in the next.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        The last one.
+    forces : ndarray, shape (2, n)
+        Of the net on its nodes [rho g d^2].
+    per_force : bool
+        The change per force is wanted, too.
 
     Raises
     ------
@@ -215,38 +297,63 @@ def solve_linear(
     """
     linear, blocks, force = _linearise(equations, iterate)
     dofs = equations.net_dofs
-    right = np.zeros((force.size, 1 + (dofs.size if per_force else 0)))
-    right[:, 0] = force
-    right[dofs, 0] -= forces.ravel()
+    rhs = np.zeros((force.size, 1 + (dofs.size if per_force else 0)))
+    rhs[:, 0] = force
+    rhs[dofs, 0] -= forces.ravel()
     if per_force:
-        right[dofs, 1 + np.arange(dofs.size)] = -1.0
-    answers = _solve(equations, blocks, right)
-    return Answer(linear, answers[:, 0], answers[:, 1:])
+        rhs[dofs, 1 + np.arange(dofs.size)] = -1.0
+    solutions = _solve(equations, blocks, rhs)
+    return LinearSolution(linear, solutions[:, 0], solutions[:, 1:])
 
 
 def advance_iterate(
     equations: StepEquations, iterate: SnowIterate, linear: _Linear, change: Floats
 ) -> SnowIterate:
-    """The iterate after a change of its unknowns."""
-    mesh, law = equations.mesh, equations.problem.law
+    """The iterate after a change of its unknowns.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        The last one.
+    linear : _Linear
+        The equations linearised about it.
+    change : ndarray, shape (n_dofs,)
+        Of its unknowns [velocity scale].
+    """
+    mesh, snow = equations.mesh, equations.problem.snow
     base_shear = linear.base_shear
     if linear.base is not None and base_shear is not None:
-        glide = compute_base_velocity(mesh, change)
-        base_shear = base_shear + linear.base.modulus * glide
+        base_velocity = compute_base_velocity(mesh, change)
+        base_shear = base_shear + linear.base.modulus * base_velocity
     return SnowIterate(
         unknowns=iterate.unknowns + change,
         stress=advance_stress(
-            law, linear.tangent, linear.strain, compute_strain(mesh, change)
+            snow, linear.tangent, linear.strain, compute_strain(mesh, change)
         ),
         base_shear=base_shear,
     )
 
 
 def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
-    """Internal forces less the weight (n_dofs,): what supports and net have to give."""
-    mesh, law = equations.mesh, equations.problem.law
+    """Internal forces less the weight.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    iterate : SnowIterate
+        With its stresses.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        Forces that supports and net have to give [rho g d^2]; (K7).
+    """
+    mesh, snow = equations.mesh, equations.problem.snow
     assert iterate.stress is not None
-    residual = assemble_stress(mesh, total_stress(law, iterate.stress))
+    residual = assemble_stress(mesh, total_stress(snow, iterate.stress))
     residual -= equations.weight
     if iterate.base_shear is not None:
         residual += assemble_base_force(mesh, iterate.base_shear)
@@ -256,30 +363,45 @@ def compute_imbalance(equations: StepEquations, iterate: SnowIterate) -> Floats:
 def measure_change(
     equations: StepEquations, old: Floats | None, new: Floats | None
 ) -> float:
-    """Relative change of the stress, by its invariant over the body."""
+    """Relative change of the stress, by its invariant over the body.
+
+    Parameters
+    ----------
+    equations : StepEquations
+        Of the step.
+    old, new : ndarray, shape (n_triangles, n_points, R), or None
+        Stresses [rho g d].
+
+    Returns
+    -------
+    float
+        [-]; 1 without one of them.
+    """
     if old is None or new is None:
         return 1.0
-    law, material = equations.problem.law, equations.material
+    snow, material = equations.problem.snow, equations.material
     weights = equations.mesh.weights
-    change = (weights * squared_size(law, material, new - old)).sum()
-    return float(np.sqrt(change / (weights * squared_size(law, material, new)).sum()))
+    change = (weights * squared_invariant(snow, material, new - old)).sum()
+    return float(
+        np.sqrt(change / (weights * squared_invariant(snow, material, new)).sum())
+    )
 
 
 def _linearise(
     equations: StepEquations, iterate: SnowIterate
 ) -> tuple[_Linear, list[Blocks], Floats]:
-    mesh, law, stress = equations.mesh, equations.problem.law, iterate.stress
+    mesh, snow, stress = equations.mesh, equations.problem.snow, iterate.stress
     if stress is None:  # the first iterate is linear creep
-        law = replace(law, exponent=1.0)
+        snow = replace(snow, exponent=1.0)
         stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
-    tangent = linearise_creep(law, equations.material, stress)
+    tangent = linearise_creep(snow, equations.material, stress)
     strain = compute_strain(mesh, iterate.unknowns)
     blocks = [build_stiffness(mesh, tangent.modulus)]
     force = assemble_stress(mesh, hold_stress(tangent, strain)) - equations.weight
     base, shear = _linearise_base(equations, iterate), None
     if base is not None:
-        glide = compute_base_velocity(mesh, iterate.unknowns)
-        shear = base.kept + base.modulus * glide
+        base_velocity = compute_base_velocity(mesh, iterate.unknowns)
+        shear = base.intercept + base.modulus * base_velocity
         blocks.append(build_base_stiffness(mesh, base.modulus))
         force += assemble_base_force(mesh, shear)
     return _Linear(tangent, strain, base, shear), blocks, force
@@ -288,25 +410,25 @@ def _linearise(
 def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent | None:
     weights, problem = equations.mesh.base.weights, equations.problem
     shear = iterate.base_shear
-    if problem.law.ground == "sliding":
-        law = problem.law
+    if problem.snow.ground == "sliding":
+        snow = problem.snow
         if shear is None:
-            law, shear = replace(law, exponent=1.0), np.zeros_like(weights)
-        return linearise_sliding(law, shear, equations.bottom_fluidity)
+            snow, shear = replace(snow, exponent=1.0), np.zeros_like(weights)
+        return linearise_sliding(snow, shear, equations.bottom_fluidity_ratio)
     if problem.base_drag > 0.0:
         drag = np.full_like(weights, problem.base_drag)
-        return Tangent(modulus=drag, kept=np.zeros_like(weights))
+        return Tangent(modulus=drag, intercept=np.zeros_like(weights))
     return None
 
 
 def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) -> Floats:
-    mesh, law = equations.mesh, equations.problem.law
+    mesh, snow = equations.mesh, equations.problem.snow
     friction = None
-    if equations.top_slips and law.friction > 0.0:
-        # over the head the snow slips up, with friction against it (F6)
+    if equations.top_slips and snow.friction > 0.0:
+        # over the head the snow slips up, with friction against it (N14)
         friction = np.zeros(mesh.n_dofs)
-        friction[equations.top + 1] = -law.friction
-    is_mixed = law.element == "mixed"
+        friction[equations.top + 1] = -snow.friction
+    is_mixed = snow.element == "mixed"
     ordering = build_ordering(mesh.template, has_pressures=is_mixed, couples_net=False)
     try:
         return solve_blocks(
@@ -328,7 +450,7 @@ def _nodal_weight(
     nodal = gather(
         template.triangles.T, np.outer(body.mass, shares), mesh.nodes.shape[1]
     )
-    loads = np.outer(problem.law.gravity, fold_load(template, nodal))
+    loads = np.outer(problem.snow.gravity, fold_load(template, nodal))
     return mesh.to_node_axes(loads)
 
 
@@ -341,7 +463,7 @@ def _free_places(
     free[2 * midpoints] = free[2 * midpoints + 1] = False
     free[2 * ground + 1] = False
     free[2 * ground[0]] = False
-    if problem.law.ground == "no-slip":
+    if problem.snow.ground == "no-slip":
         free[2 * ground] = False
     if state.top != "on-net":
         free[2 * template.net[-1]] = False

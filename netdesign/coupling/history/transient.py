@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.clock import Clock
@@ -27,7 +26,7 @@ from netdesign.coupling.history.run import (
 from netdesign.coupling.history.run_result import build_solution, scale_history
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.coupling.moments import (
-    Moment,
+    HistoryPoint,
     Plateau,
     find_plateau,
     judge_plateau,
@@ -37,10 +36,9 @@ from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.guards import require_count, require_positive, require_within
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template
-
-Floats = NDArray[np.float64]
 
 # Meshes from the fewest triangles upwards; as for the steady state, sectors around the
 # net's ends are worth more than triangles along its middle. Corners much smaller than
@@ -75,12 +73,14 @@ _TOO_LARGE = 2.0  # a step whose error is that many times what is allowed is rep
 _ERROR_SHARE = 0.25
 # Of the largest pulls of a history (coupling/THEORY.md, section 6).
 _ERROR = ErrorModel(share=2.0, floor=5e-3)
+# Balance of a whole history, over what is asked of a step.
+_WHOLE_BALANCE = 100.0
 _LARGEST_GAIN = 0.01  # of mass, by a surface that the mesh cannot follow
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TransientSettings:
-    """How a history is computed.
+    """Settings of a history.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class TransientSettings:
     stops_at_plateau : bool
         End once the plateau is proven instead of at the horizon.
     stress_tolerance, balance_tolerance : float
-        Of every step, as in ``SolverSettings``.
+        Of every step, as in ``SolverSettings`` [-].
     max_steps, max_iterations : int
         Steps of the run; Newton iterations in one of them.
     levels : tuple of MeshSize
@@ -152,6 +152,11 @@ def solve_transient(
         (``select_counted``), whatever the horizon; the plateau's own are in
         ``history``. A history whose plateau is not reached, or is left again, says so
         and proves nothing.
+
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
 
     Verified by
     -----------
@@ -233,7 +238,7 @@ class _Walk:
     step: float
     step_share: float
     horizon: float
-    moments: list[Moment] = field(default_factory=list)
+    moments: list[HistoryPoint] = field(default_factory=list)
     instant: Instant | None = None
     way: Floats | float = 0.0
     fallen: float = 0.0
@@ -322,7 +327,7 @@ class _Walk:
         return _ERROR_SHARE * distance / allowed
 
     def _sensitive_way(self, instant: Instant) -> float:
-        """Way of the net's middle that would change its tension by its own size."""
+        """Way of the net's middle that changes its tension by its own size, (K8)."""
         head = self.problem.head
         chord = float(np.hypot(*head))
         x, y = instant.points
@@ -404,5 +409,5 @@ def _refine(scene: Scene, settings: TransientSettings, clock: Clock) -> Solution
             densifies=settings.densifies,
         ),
         "transient",
-        100.0 * settings.balance_tolerance,
+        _WHOLE_BALANCE * settings.balance_tolerance,
     )

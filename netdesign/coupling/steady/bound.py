@@ -19,7 +19,15 @@ _SHARES = (0.75, 0.5, 0.25, 0.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PullBound:
-    """Pulls of the same net with less slack; its own are smaller [N/m]."""
+    """Pulls of the same net with less slack; its own are smaller.
+
+    Attributes
+    ----------
+    slack : float
+        Of the net that was solved [-].
+    foot, head : EndPull
+        Its pulls.
+    """
 
     slack: float
     foot: EndPull

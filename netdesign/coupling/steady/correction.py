@@ -9,15 +9,13 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.steady.hanging import Hanging, SteadyProblem
 from netdesign.coupling.steady.round_tangent import linearise_round
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.flow import FlowResult
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.linear import SingularError
-
-Floats = NDArray[np.float64]
 
 _MOST_HALVINGS = 3
 _PLAIN_STEP = 0.5  # share of what is missed that is made good without a derivative
@@ -50,7 +48,17 @@ class Round:
 
 
 class Correction(NamedTuple):
-    """A curve, how far its round moved it, and the step that leads on from it."""
+    """A curve, how far its round moved it, and the step that leads on from it.
+
+    Attributes
+    ----------
+    curve, step : ndarray, shape (2, n_net)
+        [thickness].
+    moved : float
+        [thickness].
+    halvings : int
+        Of the step so far.
+    """
 
     curve: Floats
     moved: float
@@ -68,14 +76,24 @@ class Correction(NamedTuple):
 
     @property
     def target(self) -> Floats:
-        """Curve of the next round."""
+        """Curve of the next round, shape (2, n_net) [thickness]."""
         return self.curve + self.step
 
 
 def correct_round(
     problem: SteadyProblem, played: Round, last: Correction | None
 ) -> Correction:
-    """Step after a round; half of the ``last`` one if that made things worse."""
+    """Step after a round; half of the ``last`` one if that made things worse.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    played : Round
+        The last round.
+    last : Correction or None
+        What led to it.
+    """
     if last is not None and last.may_halve and played.moved > last.moved:
         return last.halve()
     step = _find_step(problem, played)
@@ -88,7 +106,7 @@ def _find_step(problem: SteadyProblem, played: Round) -> Floats:
     hanging, size = played.hanging, miss.size
     try:
         tangent = linearise_round(
-            problem.law,
+            problem.snow,
             played.mesh,
             played.flow.state,
             hanging.cable,

@@ -9,19 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.cable.parted import PartedCable, part_cable
 from netdesign.coupling.steady.start import guess_pressure
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -30,7 +27,7 @@ class SteadyProblem:
 
     Attributes
     ----------
-    law : FlowLaw
+    snow : FlowProblem
         Creep, ground and friction.
     template : MeshTemplate
         Reference mesh.
@@ -39,10 +36,10 @@ class SteadyProblem:
     length, slack : float
         Unstressed, of the whole net; what of it exceeds the chord, over the chord.
     stiffness : float
-        ES, the force of a strain of 1.
+        ES, the force of a strain of 1 [rho g d^2].
     """
 
-    law: FlowLaw
+    snow: FlowProblem
     template: MeshTemplate
     head: Floats
     length: float
@@ -81,6 +78,11 @@ class Hanging:
 def start_hanging(problem: SteadyProblem) -> Hanging:
     """The net under a uniform pressure of about the right size.
 
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+
     Raises
     ------
     SolveError
@@ -89,7 +91,7 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
     chord = float(np.hypot(*problem.head))
     along = problem.head / chord
     outward = np.array([along[1], -along[0]])
-    pressure = guess_pressure(problem.law, problem.template.aspect)
+    pressure = guess_pressure(problem.snow, problem.template.aspect)
     sag = compute_parabola_sag(pressure, chord, problem.stiffness, problem.slack)
     pull = pressure * chord * (chord / (8.0 * sag) * along + outward / 2.0)
     marks = _list_marks(problem)
@@ -105,7 +107,16 @@ def start_hanging(problem: SteadyProblem) -> Hanging:
 
 
 def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hanging:
-    """The net under other forces on the nodes in the snow, shape (2, n_net).
+    """The net under other forces.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    hanging : Hanging
+        As the net hung last.
+    on_net : ndarray, shape (2, n_net)
+        Forces on the nodes in the snow, foot to head [rho g d^2].
 
     Raises
     ------
@@ -116,12 +127,38 @@ def hang_again(problem: SteadyProblem, hanging: Hanging, on_net: Floats) -> Hang
 
 
 def find_contact_curve(problem: SteadyProblem, hanging: Hanging) -> Floats:
-    """Net nodes that lie in the snow, shape (2, n_net)."""
+    """Net nodes that lie in the snow.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Scene on a mesh, dimensionless.
+    hanging : Hanging
+        The net.
+
+    Returns
+    -------
+    ndarray, shape (2, n_net)
+        Foot to head [thickness].
+    """
     return hanging.cable.curve[:, : problem.template.net.size]
 
 
 def locate_nodes(template: MeshTemplate, hanging: Hanging) -> Floats:
-    """Unstressed length below each net node, over that in the snow; shape (n_net,)."""
+    """Unstressed length below each net node, over that in the snow.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    hanging : Hanging
+        The net.
+
+    Returns
+    -------
+    ndarray, shape (n_net,)
+        0 at the foot, 1 at the snow's surface [-].
+    """
     marks = np.array([0.0, *template.interfaces, 1.0])
     below = np.append(0.0, np.cumsum(hanging.parts[: marks.size - 1]))
     return np.asarray(np.interp(template.net_fractions, marks, below / below[-1]))

@@ -28,7 +28,7 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 
 
@@ -36,7 +36,7 @@ from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 class _Pressed:
     """Snow against the wall on one mesh, dimensionless."""
 
-    law: FlowLaw
+    problem: FlowProblem
     mesh: PlacedMesh
     state: FlowState
     forces: SupportForces
@@ -76,7 +76,7 @@ def solve_rigid(
         )
         end = states[-1]
         balance = measure_balance(
-            end.law, end.mesh, end.forces, force.vector, None, scene.force_scale
+            end.problem, end.mesh, end.forces, force.vector, None, scene.force_scale
         )
         check_balance(
             balance,
@@ -123,22 +123,22 @@ def _build_solution(
 
 
 def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
-    law = scene.reach_law
-    template = build_template(scene.reach, size, scene.layer_tops)
+    problem = scene.steady_flow_problem
+    template = build_template(scene.modelled_aspect, size, scene.layer_tops)
     heights = template.net_fractions
     wall = np.array([heights * np.tan(scene.net.inclination), heights])
-    mesh = build_placed_mesh(template, place_nodes(template, wall), law.element)
+    mesh = build_placed_mesh(template, place_nodes(template, wall), problem.element)
     flow = solve_flow(
-        law,
+        problem,
         mesh,
         tolerance=settings.stress_tolerance,
         max_iterations=settings.max_iterations,
     )
     if flow.outcome is not Outcome.CONVERGED:
         raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
-    state, forces = find_support_forces(law, mesh, flow.state)
+    state, forces = find_support_forces(problem, mesh, flow.state)
     return _Pressed(
-        law=law,
+        problem=problem,
         mesh=mesh,
         state=state,
         forces=forces,

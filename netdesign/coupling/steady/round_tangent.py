@@ -1,4 +1,4 @@
-"""How the curve that a round gives moves with the curve it was given.
+"""Derivative of the curve that a round gives by the curve that it was given.
 
 Theory: coupling/THEORY.md, eq. (K0).
 """
@@ -6,19 +6,17 @@ Theory: coupling/THEORY.md, eq. (K0).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.funicular import Funicular, linearise_curve
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import FlowState, linearise_reaction
 from netdesign.snow.kernel import PlacedMesh, turn_normals
-from netdesign.snow.law import FlowLaw
-
-Floats = NDArray[np.float64]
+from netdesign.snow.law import FlowProblem
 
 
 def linearise_round(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     state: FlowState,
     cable: Funicular,
@@ -30,14 +28,18 @@ def linearise_round(
 
     Parameters
     ----------
-    law : FlowLaw
+    problem : FlowProblem
         Creep, ground and friction.
     mesh, state : PlacedMesh, FlowState
         Snow against the curve that was given.
     cable : Funicular
         The net under the forces found.
-    forces, lengths, stiffness
-        As given to ``solve_funicular``; the forces of a freeboard are its last.
+    forces : ndarray, shape (2, 2 n + 1)
+        As given to ``solve_funicular``; those of a freeboard are the last [rho g d^2].
+    lengths : ndarray, shape (n,)
+        Unstressed lengths of the elements [thickness].
+    stiffness : float
+        ES [rho g d^2].
 
     Returns
     -------
@@ -49,6 +51,6 @@ def linearise_round(
     speed = state.unknowns[tangential]
     # velocity along the net turns into one out of the snow: v.n = 0 in a turned n
     across = -speed[:, None, None] * turn_normals(mesh)[1:]
-    loads = np.tensordot(linearise_reaction(law, mesh, state), across, 1)
+    loads = np.tensordot(linearise_reaction(problem, mesh, state), across, 1)
     curve = linearise_curve(cable, forces, lengths, stiffness)
     return np.tensordot(curve[:, :count, :, :count], loads, 2)

@@ -16,7 +16,6 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
 from netdesign.coupling.balance import (
@@ -52,6 +51,7 @@ from netdesign.coupling.steady.hanging import (
     start_hanging,
 )
 from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
@@ -60,8 +60,6 @@ from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
 
-Floats = NDArray[np.float64]
-
 # What iterations may leave of the accuracy asked for; the meshes take the rest.
 _ITERATED_SHARE = 0.04
 # The flow of a round is solved this much more tightly than the net still moves.
@@ -69,9 +67,9 @@ _INNER_SHARE = 0.1
 _LOOSEST_INNER = 1e-2
 # How far a net that was found on a coarser mesh may still move.
 _REFINED = 4e-3
-# A corrected round tells apart what its step and what the flow has left.
+# Flows of corrected rounds leave this much less, so that a miss is the step's own.
 _CORRECTED = 0.1
-# The first mesh is only compared with the next, whose error is far larger.
+# Iterations on the first mesh may leave more: it is only compared with the next.
 _FIRST_MESH = 5.0
 _HALVINGS = 4
 # Layers whose creep rates differ by more may have no steady state that rounds find.
@@ -127,6 +125,11 @@ def solve_steady(
         The error of each end pull is estimated from two meshes. If the finest mesh
         does not reach the accuracy asked for, the error says so.
 
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
     Verified by
     -----------
     tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
@@ -142,9 +145,23 @@ def solve_steady(
 def find_end_pulls(
     scene: Scene, size: MeshSize, settings: SolverSettings
 ) -> tuple[Floats, Floats]:
-    """Pulls at foot and head on one mesh, shape (2,) each [N/m], of unknown error.
+    """Pulls at foot and head on one mesh, of unknown error.
 
     A benchmark compares them with the truth; a check takes ``solve_steady``.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
+
+    Returns
+    -------
+    ndarray, ndarray, shape (2,)
+        [N/m].
 
     Raises
     ------
@@ -160,6 +177,15 @@ def find_hanging(
     scene: Scene, size: MeshSize, settings: SolverSettings
 ) -> tuple[SteadyProblem, Hanging]:
     """Net at rest on one mesh, dimensionless: where a history may begin.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
 
     Raises
     ------
@@ -266,14 +292,14 @@ def _require_pressure(end: _Coupled) -> None:
     SuctionError
         With some margin: the finest mesh decides.
     """
-    on_net = share_net_forces(end.problem.law, end.mesh, end.state.reaction)
+    on_net = share_net_forces(end.problem.snow, end.mesh, end.state.reaction)
     suction = measure_suction(end.mesh, on_net)
     if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
         raise SuctionError(suction)
 
 
 def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
-    """What the first mesh starts from; None if from nothing."""
+    """State that the first mesh starts from; None if there is none."""
     if not settings.shares_start:
         return None
     net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
@@ -297,8 +323,8 @@ def _find_stuck(scene: Scene, settings: SolverSettings) -> _Coupled | None:
 def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
     thickness = scene.snowpack.thickness
     return SteadyProblem(
-        law=scene.reach_law,
-        template=build_template(scene.reach, size, scene.layer_tops),
+        snow=scene.steady_flow_problem,
+        template=build_template(scene.modelled_aspect, size, scene.layer_tops),
         head=net.head / thickness,
         length=net.unstressed_length / thickness,
         slack=net.slack,
@@ -368,7 +394,7 @@ def _couple(
 
 def _allow_solves(problem: SteadyProblem) -> float:
     """Linear solves that rounds on one mesh may take."""
-    least = _LEAST_WORK_LAYERED if len(problem.law.layers) > 1 else _LEAST_WORK
+    least = _LEAST_WORK_LAYERED if len(problem.snow.layers) > 1 else _LEAST_WORK
     return float(max(least, _MOST_WORK / problem.template.triangles.shape[1]))
 
 
@@ -376,7 +402,7 @@ def _has_settled(
     problem: SteadyProblem, played: Sequence[Round], allowed: float
 ) -> bool:
     """Pulls of layered snow on the net changed by a small share in the last round."""
-    if len(problem.law.layers) < 2:
+    if len(problem.snow.layers) < 2:
         return True
     ends = [
         (one.hanging.cable.foot_pull, one.hanging.cable.head_pull) for one in played
@@ -390,7 +416,7 @@ def _has_settled(
 def _start_state(
     guess: _Coupled | None, played: Sequence[Round], mesh: PlacedMesh
 ) -> FlowState | None:
-    """What the flow of a round starts from; None if from nothing."""
+    """State that the flow of a round starts from; None if there is none."""
     if played:
         return played[-1].flow.state
     if guess is not None:
@@ -406,14 +432,14 @@ def _hang_round(
     flow: FlowResult,
 ) -> Round:
     """The net under the forces of a flow."""
-    on_net = share_net_forces(problem.law, mesh, flow.state.reaction)
+    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
     found = hang_again(problem, hanging, on_net)
     image = find_contact_curve(problem, found)
     return Round(curve=curve, mesh=mesh, flow=flow, hanging=found, image=image)
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
-    """What the flow of a round may leave, for a net that still moves."""
+    """Error that the flow of a round may leave, for a net that still moves."""
     tighter = _CORRECTED if is_corrected else 1.0
     return tighter * max(tolerance, min(_INNER_SHARE * moved, _LOOSEST_INNER))
 
@@ -421,7 +447,7 @@ def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> floa
 def _choose_tolerances(
     settings: SolverSettings, *, is_first: bool
 ) -> tuple[float, float]:
-    """What the last Newton step may leave, and how far the last round may move."""
+    """Error that the last Newton step may leave, and way of the last round."""
     rough = _FIRST_MESH if is_first else 1.0
     share = _ITERATED_SHARE * settings.accuracy
     return (
@@ -439,7 +465,7 @@ def _flow_along(
 ) -> FlowResult:
     """Converged flow along a net at rest."""
     flow = solve_flow(
-        problem.law,
+        problem.snow,
         mesh,
         start,
         tolerance=tolerance,
@@ -453,13 +479,13 @@ def _flow_along(
 
 def _fail(problem: SteadyProblem, outcome: Outcome, what: str) -> SolveError:
     """The failure, with what in the scene is known to leave no steady state."""
-    law, causes = problem.law, []
-    if "one-sided" in (law.ground_contact, law.net_contact):
+    snow, causes = problem.snow, []
+    if "one-sided" in (snow.ground_contact, snow.net_contact):
         causes.append(
             "snow lifts off a one-sided support and settles again; a two-sided "
             "contact, or more friction on the net, is accepted"
         )
-    rates = [layer.fluidity for layer in law.layers]
+    rates = [layer.fluidity_ratio for layer in snow.layers]
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
         causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
@@ -503,7 +529,7 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
             "net is needed",
         )
     nodes = place_nodes(problem.template, curve)
-    mesh = build_placed_mesh(problem.template, nodes, problem.law.element)
+    mesh = build_placed_mesh(problem.template, nodes, problem.snow.element)
     if not mesh.is_valid:
         above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
         raise SolveError(
@@ -523,13 +549,13 @@ def _start_curve(
     curve = find_contact_curve(guess.problem, hanging)
     known = locate_nodes(guess.problem.template, hanging)
     wanted = locate_nodes(problem.template, hanging)
-    # between its nodes as smooth as the net is: a polygon would be off by some 1e-3
+    # between its nodes as smooth as the net is, which a polygon is not
     return interpolate_curve(known, curve, wanted)
 
 
 def _finish(end: _Coupled) -> tuple[_Coupled, SupportForces]:
     """Forces from the stresses alone, and the net that hangs under these."""
-    state, forces = find_support_forces(end.problem.law, end.mesh, end.state)
+    state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
     hanging = hang_again(end.problem, end.hanging, forces.on_net)
     return replace(end, state=state, hanging=hanging), forces
 
@@ -540,7 +566,7 @@ def _build_solution(
     """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
     end, forces = _finish(states[-1])
     thickness, scale = scene.snowpack.thickness, scene.force_scale
-    cable, mesh, law = end.hanging.cable, end.mesh, end.problem.law
+    cable, mesh, snow = end.hanging.cable, end.mesh, end.problem.snow
     foot, head = (
         EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
         for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
@@ -565,7 +591,7 @@ def _build_solution(
         mesh_triangles=mesh.template.triangles[:3],
         mesh_density=triangle_density(scene, mesh.template),
         largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
-        balance=measure_balance(law, mesh, forces, held, cable.tension, scale),
+        balance=measure_balance(snow, mesh, forces, held, cable.tension, scale),
         cost=Cost(
             linear_solves=sum(state.linear_solves for state in states),
             rounds=sum(state.rounds for state in states),

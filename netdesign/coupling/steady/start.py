@@ -4,14 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 
 
-def guess_pressure(law: FlowLaw, aspect: float) -> float:
-    """Mean pressure on the net [rho g d]: the snow that its base does not hold."""
-    reach = {
+def guess_pressure(problem: FlowProblem, aspect: float) -> float:
+    """Mean pressure on the net of the snow that its base does not hold.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Gravity and ground.
+    aspect : float
+        Upslope length over thickness [-].
+
+    Returns
+    -------
+    float
+        [rho g d].
+    """
+    length = {
         "free": aspect,
         "no-slip": 1.0,
-        "sliding": 1.0 + 2.0 * float(np.sqrt(law.slip_ratio)),
-    }[law.ground]
-    return max(0.05, law.gravity[0]) * min(aspect, reach)
+        "sliding": 1.0 + 2.0 * float(np.sqrt(problem.slip_ratio)),
+    }[problem.ground]
+    return max(0.05, problem.gravity[0]) * min(aspect, length)

@@ -16,7 +16,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
@@ -39,6 +38,7 @@ from netdesign.evidence.benchmark.scenes import build_tables
 from netdesign.evidence.benchmark.spread import spread
 from netdesign.evidence.benchmark.statistics import share
 from netdesign.evidence.benchmark.truth import solve_fine
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.mesh import MeshSize
 
 LINES_SCHEMA = "netdesign.lines/1"
@@ -49,7 +49,6 @@ LARGEST_EXCESS = 1.5  # of a true error over the stated one
 ENDS = ("foot", "head")
 _BISECTIONS = 5  # of the gap in which a pull seems to jump
 
-Floats = NDArray[np.float64]
 
 # Truths: finer than any level in every direction, so that all have the same one.
 _TRUE_SIZE = MeshSize(

@@ -9,11 +9,10 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from netdesign.numerics.arrays import Floats
 from netdesign.search.maxima import Maxima, MaximaSearch, SearchSettings
 
-Floats = NDArray[np.float64]
 Response = Callable[[Floats], Floats]
 
 _SAMPLES = 21  # of each axis, for the true maximum

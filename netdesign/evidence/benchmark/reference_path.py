@@ -3,7 +3,7 @@
 Same equations, points and contacts as ``snow/flow.py``, written as one would with
 the library's forms: a basis per placement of the mesh, matrices assembled and
 condensed by scikit-fem, solved by SciPy's sparse direct solver. Pass ``advance`` as
-``SolverSettings.step``. Theory: snow/THEORY.md, (F4) to (F6), (F10), (G2).
+``SolverSettings.step``. Theory: snow/THEORY.md, (N9) to (N14) and (N20).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 import skfem
-from numpy.typing import NDArray
 from skfem.element import DiscreteField
 
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact, free_unknowns, friction_shares
 from netdesign.snow.flow import FlowState
 from netdesign.snow.forms import (
@@ -27,15 +27,13 @@ from netdesign.snow.forms import (
 )
 from netdesign.snow.kernel import PlacedMesh, assemble_end_load
 from netdesign.snow.law import (
-    FlowLaw,
+    FlowProblem,
     Material,
     Tangent,
     advance_stress,
     linearise_creep,
     linearise_sliding,
 )
-
-Floats = NDArray[np.float64]
 
 _BASE_DEGREE = 7  # four Gauss points an edge, as the kernel
 
@@ -44,11 +42,11 @@ class _Base(NamedTuple):
     """Velocities on the ground; ``order`` takes the kernel's points to scikit-fem's."""
 
     basis: skfem.FacetBasis
-    order: NDArray[np.int64]
+    order: Ints
 
 
 def advance(
-    law: FlowLaw,
+    problem: FlowProblem,
     material: Material,
     mesh: PlacedMesh,
     state: FlowState,
@@ -62,21 +60,21 @@ def advance(
     -----------
     tests/evidence/benchmark/test_reference_path.py
     """
-    tangent = linearise_creep(law, material, state.stress)
-    matrix = _assemble_matrix(law, mesh, tangent)
-    force = _assemble_force(law, material, mesh, tangent)
+    tangent = linearise_creep(problem, material, state.stress)
+    matrix = _assemble_matrix(problem, mesh, tangent)
+    force = _assemble_force(problem, material, mesh, tangent)
     base = None
     if state.base_shear is not None:
-        base = _linearise_base(law, state.base_shear, contact)
+        base = _linearise_base(problem, state.base_shear, contact)
         matrix = matrix + _assemble_base_matrix(mesh, base.modulus)
-        force += _assemble_base_force(mesh, base.kept)
+        force += _assemble_base_force(mesh, base.intercept)
     turn = _rotation(mesh)
     matrix, force = turn.T @ matrix @ turn, turn.T @ force
-    unknowns = _solve(law, mesh, contact, matrix, force)
-    stress = advance_stress(law, tangent, _compute_strain(mesh, turn @ unknowns))
+    unknowns = _solve(problem, mesh, contact, matrix, force)
+    stress = advance_stress(problem, tangent, _compute_strain(mesh, turn @ unknowns))
     base_shear = None
     if base is not None:
-        base_shear = base.kept + base.modulus * _base_velocity(mesh, unknowns)
+        base_shear = base.intercept + base.modulus * _base_velocity(mesh, unknowns)
     return FlowState(
         unknowns=unknowns,
         reaction=force + matrix @ unknowns,
@@ -87,30 +85,30 @@ def advance(
 
 
 def _assemble_matrix(
-    law: FlowLaw, mesh: PlacedMesh, tangent: Tangent
+    problem: FlowProblem, mesh: PlacedMesh, tangent: Tangent
 ) -> sparse.csr_matrix:
-    if law.element == "mixed":
+    if problem.element == "mixed":
         return assemble_mixed_form(mesh, tangent.modulus)
     return assemble_tangent_form(mesh, tangent.modulus)
 
 
 def _assemble_force(
-    law: FlowLaw, material: Material, mesh: PlacedMesh, tangent: Tangent
+    problem: FlowProblem, material: Material, mesh: PlacedMesh, tangent: Tangent
 ) -> Floats:
     """Forces of the kept stress less those of gravity (n_dofs,), slope's axes."""
     velocity = build_basis(mesh)
     density = np.broadcast_to(np.asarray(material.density), mesh.weights.shape)
-    force = assemble_stress_form(mesh, tangent.kept[..., :3])
+    force = assemble_stress_form(mesh, tangent.intercept[..., :3])
     force -= skfem.LinearForm(_gravity_power).assemble(
-        velocity, density=density, x=law.gravity[0], y=law.gravity[1]
+        velocity, density=density, x=problem.gravity[0], y=problem.gravity[1]
     )
-    if law.end_load:
-        force -= assemble_end_load(mesh, law.end_load)[: mesh.n_velocities]
-    if law.element == "velocity":
+    if problem.end_load:
+        force -= assemble_end_load(mesh, problem.end_load)[: mesh.n_velocities]
+    if problem.element == "velocity":
         return force
     pressure = velocity.with_element(skfem.ElementTriP1())
     kept = skfem.LinearForm(_pressure_power).assemble(
-        pressure, kept=DiscreteField(tangent.kept[..., 3])
+        pressure, intercept=DiscreteField(tangent.intercept[..., 3])
     )
     return np.concatenate([force, kept])
 
@@ -141,19 +139,19 @@ def _base_velocity(mesh: PlacedMesh, unknowns: Floats) -> Floats:
 
 
 def _solve(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     contact: Contact,
     matrix: sparse.csr_matrix,
     force: Floats,
 ) -> Floats:
-    shares = friction_shares(law, mesh, contact)
+    shares = friction_shares(problem, mesh, contact)
     if shares is not None:
-        # normal rows are added to the tangential rows after them, eq. (F6)
+        # normal rows are added to the tangential rows after them, eq. (N14)
         friction = sparse.identity(mesh.n_dofs) + sparse.diags(shares[1:], -1)
         matrix = sparse.csr_matrix(friction @ matrix)
         force = np.asarray(friction @ force)
-    held = np.flatnonzero(~free_unknowns(law, mesh, contact))
+    held = np.flatnonzero(~free_unknowns(problem, mesh, contact))
     condensed = skfem.condense(sparse.csc_matrix(matrix), -force, D=held)
     return np.asarray(skfem.solve(*condensed))
 
@@ -169,12 +167,12 @@ def _compute_strain(mesh: PlacedMesh, velocity: Floats) -> Floats:
     return np.stack(strains, axis=-1)
 
 
-def _linearise_base(law: FlowLaw, shear: Floats, contact: Contact) -> Tangent:
+def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
     """Tangent of the base law; edges that have lifted wholly carry nothing."""
-    tangent = linearise_sliding(law, shear)
+    tangent = linearise_sliding(problem, shear)
     lifted = np.append(False, contact.is_lifted)
     bears = ~(lifted[:-2:2] & lifted[1::2] & lifted[2::2])[:, None]
-    return Tangent(modulus=tangent.modulus * bears, kept=tangent.kept * bears)
+    return Tangent(modulus=tangent.modulus * bears, intercept=tangent.intercept * bears)
 
 
 @lru_cache(maxsize=2)
@@ -217,4 +215,4 @@ def _gravity_power(w: Any, at: Any) -> Any:
 
 
 def _pressure_power(q: Any, at: Any) -> Any:
-    return at.kept * q
+    return at.intercept * q

@@ -105,7 +105,7 @@ def refine_size(size: MeshSize, times: int) -> MeshSize:
 
 def find_level(solution: Solution, levels: tuple[MeshSize, ...]) -> MeshSize:
     """Level whose mesh a solution was found on, by its number of triangles."""
-    aspect = solution.scene.reach
+    aspect = solution.scene.modelled_aspect
     for level in levels:
         template = build_template(aspect, level, solution.scene.layer_tops)
         if template.triangles.shape[1] == solution.cost.elements:

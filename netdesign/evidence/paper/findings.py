@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.evidence.paper.cases import (
     DESIGN_NET_DEG,
@@ -27,10 +26,10 @@ from netdesign.evidence.paper.cases import (
 )
 from netdesign.evidence.paper.runs import PaperRun, Track
 from netdesign.evidence.paper.study import PaperStudy
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.creep_law import ICE_DENSITY
 from netdesign.units import SECONDS_PER_DAY
 
-Floats = NDArray[np.float64]
 Call = Literal["agrees", "does not agree", "not decided"]
 Trend = Literal["grows", "level", "falls", "mixed", "unknown"]
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.clock import Clock
 from netdesign.coupling.history.run_result import scale_history
@@ -22,8 +21,7 @@ from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.paper.cases import PaperCase, PaperSettings, horizon_of
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats, Ints
 
 # Heights of the two nodes that are followed, over the net's. The paper's nodes 3 and 8
 # stand in a drawing only; these are at a quarter and at three quarters.
@@ -73,7 +71,7 @@ class Shape:
     """Snow and net at the end: nodes, curve (2, n) [m], triangles, density [kg/m3]."""
 
     nodes: Floats
-    triangles: NDArray[np.int64]
+    triangles: Ints
     density: Floats
     curve: Floats
     sag: float

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_parabola_sag
 from netdesign.cable.funicular import Funicular, solve_funicular
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.manufactured import build_square
 from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.creep_law import (
     ZWINGER_2007,
     compute_bulk_factor,
@@ -19,11 +19,9 @@ from netdesign.snow.creep_law import (
     compute_strain_rate,
 )
 from netdesign.snow.kernel import build_placed_mesh, interpolate
-from netdesign.snow.law import FlowLaw, FlowLayer
+from netdesign.snow.law import FlowLayer, FlowProblem
 from netdesign.snow.mesh import place_nodes
 from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
-
-Floats = NDArray[np.float64]
 
 _ROUNDING = 1e-12
 _ELMER = "Porous Law for snow and firn in Elmer/Ice (2012)"
@@ -179,7 +177,7 @@ def _solve_slab(divisions: int, slope: float, axis: int) -> tuple[float, float]:
     on_ground = mesh.nodes[1] == 0.0
     on_side = (template.nodes[0] == 0.0) | (template.nodes[0] == 1.0)
     gravity = (math.sin(slope), -math.cos(slope))
-    law = FlowLaw(
+    law = FlowProblem(
         exponent=_N,
         layers=(FlowLayer(bulk_ratio=_BULK_RATIO),),
         gravity=gravity,

@@ -23,7 +23,7 @@ from netdesign.evidence.verification.case import (
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.ground import GroundKind, GroundLaw
 from netdesign.snow.kernel import assemble_stress, build_placed_mesh
-from netdesign.snow.law import FlowLaw
+from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
@@ -342,7 +342,7 @@ def _mirror() -> float:
     return largest_difference(mirrored, _kernel_forces(np.eye(2)))
 
 
-def _flow_resultant(law: FlowLaw) -> float:
+def _flow_resultant(law: FlowProblem) -> float:
     """Size of the snow's force on a straight net of the reference scene."""
     template = build_template(5.0, _LEVELS[1])
     heights = template.net_fractions
@@ -354,12 +354,12 @@ def _flow_resultant(law: FlowLaw) -> float:
 
 
 def _floor_forces(floor: float) -> float:
-    law = build_scene(ground="no-slip").flow_law
+    law = build_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, stress_floor=floor))
 
 
 def _mixed_over_velocity() -> float:
-    law = build_scene(ground="no-slip").flow_law
+    law = build_scene(ground="no-slip").flow_problem
     return _flow_resultant(replace(law, element="mixed")) / _flow_resultant(law)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.history.run import Run
 from netdesign.coupling.history.staggered import StaggeredSettings, run_exchange
@@ -14,14 +13,13 @@ from netdesign.coupling.history.transient import (
     TransientSettings,
     run_history,
 )
-from netdesign.coupling.moments import Moment
+from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.coupled import build_scene
-
-Floats = NDArray[np.float64]
+from netdesign.numerics.arrays import Floats
 
 _HORIZON = 0.06  # creep time
 _DRAGS = (0.1, 0.05)
@@ -112,7 +110,7 @@ def _largest_return(run: Run) -> float:
     return worst
 
 
-def _sizes(moments: list[Moment], end: str) -> Floats:
+def _sizes(moments: list[HistoryPoint], end: str) -> Floats:
     return np.array([float(np.hypot(*getattr(moment, end))) for moment in moments])
 
 

@@ -11,15 +11,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
+from netdesign.numerics.arrays import Floats
 from netdesign.snow.kernel import Element, PlacedMesh, build_placed_mesh, interpolate
-from netdesign.snow.law import FlowLaw, FlowLayer
+from netdesign.snow.law import FlowLayer, FlowProblem
 from netdesign.snow.mesh import MeshTemplate, place_nodes, triangulate
 
-Floats = NDArray[np.float64]
 Vector = tuple[Any, Any, Any]  # (xx, yy, xy)
 
 EXPONENT = 3
@@ -53,7 +52,7 @@ def strain_slopes(x: Any, y: Any) -> tuple[Vector, Vector]:
 
 
 def linear_stress(strain: Vector) -> Vector:
-    """M times a strain rate, snow/THEORY.md (F2)."""
+    """M times a strain rate, snow/THEORY.md (N7)."""
     xx, yy, xy = strain
     bulk = BULK_RATIO * (xx + yy) - (xx + yy) * 2 / 3
     return 2 * xx + bulk, 2 * yy + bulk, xy
@@ -96,9 +95,9 @@ def list_manufactured() -> list[VerificationCase]:
     return cases
 
 
-def build_law(element: Element) -> FlowLaw:
+def build_law(element: Element) -> FlowProblem:
     """Law of the bench, with a stress floor far below its stresses."""
-    return FlowLaw(
+    return FlowProblem(
         exponent=float(EXPONENT),
         layers=(FlowLayer(bulk_ratio=float(BULK_RATIO)),),
         gravity=(0.0, 0.0),

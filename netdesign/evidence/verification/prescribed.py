@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
 from netdesign.errors import SolveError
+from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import (
     PlacedMesh,
@@ -18,14 +18,13 @@ from netdesign.snow.kernel import (
     compute_strain,
 )
 from netdesign.snow.law import (
-    FlowLaw,
+    FlowProblem,
     advance_stress,
     linearise_creep,
     sample_material,
-    squared_size,
+    squared_invariant,
 )
 
-Floats = NDArray[np.float64]
 _LARGEST_ITERATIONS = 60
 _TOLERANCE = 1e-9
 
@@ -50,10 +49,10 @@ class PrescribedFlow:
 
 
 def solve_prescribed(
-    law: FlowLaw,
+    problem: FlowProblem,
     mesh: PlacedMesh,
     *,
-    held: NDArray[np.bool_],
+    held: Mask,
     values: Floats,
     body_force: Floats,
 ) -> PrescribedFlow:
@@ -61,7 +60,7 @@ def solve_prescribed(
 
     Parameters
     ----------
-    law : FlowLaw
+    problem : FlowProblem
         Creep law; its ground, friction and gravity are not used.
     mesh : PlacedMesh
         Of the law's element.
@@ -77,32 +76,32 @@ def solve_prescribed(
     SolveError
         If Newton's method does not converge.
     """
-    material = sample_material(law, mesh.template)
+    material = sample_material(problem, mesh.template)
     given = mesh.to_node_axes(np.where(held, values, 0.0))
     free = np.ones(mesh.n_dofs, dtype=bool)
     free[: mesh.n_velocities] = ~held.T.ravel()
     places = np.flatnonzero(free)
     load = assemble_body_force(mesh, body_force)
     stress = np.zeros((*mesh.weights.shape, mesh.operator.shape[2]))
-    current = replace(law, exponent=1.0)  # a linear start
+    current = replace(problem, exponent=1.0)  # a linear start
     for _ in range(_LARGEST_ITERATIONS):
         tangent = linearise_creep(current, material, stress)
         matrix = assemble_stiffness(mesh, tangent.modulus)
-        force = assemble_stress(mesh, tangent.kept) - load + matrix @ given
+        force = assemble_stress(mesh, tangent.intercept) - load + matrix @ given
         unknowns = given.copy()
         unknowns[places] = splu(matrix[places][:, places].tocsc()).solve(-force[places])
         strain = compute_strain(mesh, unknowns)
         before, stress = stress, advance_stress(current, tangent, strain)
-        change = _norm(law, mesh, stress - before) / _norm(law, mesh, stress)
-        if current is law and change < _TOLERANCE:
+        change = _norm(problem, mesh, stress - before) / _norm(problem, mesh, stress)
+        if current is problem and change < _TOLERANCE:
             velocity = mesh.to_slope_axes(unknowns)
             return PrescribedFlow(
                 velocity=velocity, strain=strain[..., :3], stress=stress
             )
-        current = law
+        current = problem
     raise SolveError(Outcome.MAX_ITERATIONS, "flow with prescribed velocities")
 
 
-def _norm(law: FlowLaw, mesh: PlacedMesh, stress: Floats) -> float:
-    size = squared_size(law, sample_material(law, mesh.template), stress)
+def _norm(problem: FlowProblem, mesh: PlacedMesh, stress: Floats) -> float:
+    size = squared_invariant(problem, sample_material(problem, mesh.template), stress)
     return float(np.sqrt((mesh.weights * size).sum()))

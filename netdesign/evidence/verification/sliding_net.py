@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.cable.closed_form import compute_capstan_ratio
 from netdesign.cable.incremental import advance_increment, build_cable_state
@@ -17,9 +16,8 @@ from netdesign.cable.tension import (
 )
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase, observe_order
+from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
-
-Floats = NDArray[np.float64]
 
 _STIFFNESS = 2e7  # [N/m]
 _WRAP, _FRICTION_ANGLE = math.radians(60.0), math.radians(30.0)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from netdesign.coupling.solution import Solution, WallSolution
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.report.drawing.charts import dress
 from netdesign.report.drawing.figures import (
     ACCENT,
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Floats = NDArray[np.float64]
 
 _DARK = "#4d5761"  # of the densest snow; text stays readable beside it
 _LONGEST_ARROW = 0.42  # heights of the net
@@ -58,7 +57,7 @@ class Face:
 
     points: Floats
     forces: Floats
-    slides: NDArray[np.bool_]
+    slides: Mask
     friction: float | None
     is_quadratic: bool
 
@@ -189,7 +188,7 @@ class MeshPicture:
 
     title: str
     nodes: Floats
-    triangles: NDArray[np.int64]
+    triangles: Ints
     density: Floats
     face: Floats  # net or wall, shape (2, k) [m]
 

@@ -40,7 +40,7 @@ def pass_on(state, instant, step):
         time=state.time + step,
         body=replace(state.body, vertices=instant.displaced),
         lengths=instant.response.sliding.lengths,
-        glide=instant.response.sliding.glide,
+        slide_signs=instant.response.sliding.slide_signs,
         top=instant.top,
         velocity=instant.velocity,
         moved=instant.displaced - state.body.vertices,
@@ -111,12 +111,12 @@ def test_net_forces_are_those_at_the_steps_end(a_scene, friction):
     again = respond(
         instant.points,
         state.lengths,
-        friction=problem.law.friction,
+        friction=problem.snow.friction,
         stiffness=problem.stiffness,
     )
     np.testing.assert_allclose(again.forces, instant.response.forces, atol=2e-9)
     forces = compute_node_forces(instant.points, again.sliding.tensions)
-    limit = problem.law.friction * np.maximum(forces.normal, 0.0)
+    limit = problem.snow.friction * np.maximum(forces.normal, 0.0)
     assert (np.abs(forces.tangential) - limit).max() < 1e-9
 
 

@@ -83,7 +83,7 @@ def test_sagged_net_hangs_under_the_mean_pressure(a_scene, slack, ground):
     problem, state = begin(a_scene(slack=slack, ground=ground), "sagged", size=FINE)
     points = points_of(problem, state)
     sag = largest_sag(problem, points)
-    pressure = guess_pressure(problem.law, 5.0)
+    pressure = guess_pressure(problem.snow, 5.0)
     tension = pressure * math.hypot(1.0 / (8.0 * sag), 1.0 / 2.0)
     # force of half the load at each end: p c / 2
     strain = parabola_length(sag) / (1.0 + slack) - 1.0
@@ -149,28 +149,28 @@ def test_net_that_would_sag_to_the_ground_is_refused(a_scene, stiffness, clear):
 # --- mean pressure -----------------------------------------------------------
 
 
-def test_pressure_of_freely_gliding_snow_is_its_weight(a_flow_law):
-    law = a_flow_law(slope_deg=40.0)
+def test_pressure_of_freely_gliding_snow_is_its_weight(a_flow_problem):
+    law = a_flow_problem(slope_deg=40.0)
     expected = math.sin(math.radians(40.0)) * 7.0
     assert guess_pressure(law, 7.0) == pytest.approx(expected, rel=1e-14)
 
 
-def test_rough_ground_holds_all_but_the_nearest_snow(a_flow_law):
-    law = a_flow_law(ground="no-slip")
+def test_rough_ground_holds_all_but_the_nearest_snow(a_flow_problem):
+    law = a_flow_problem(ground="no-slip")
     weight = math.sin(math.radians(40.0))
     assert guess_pressure(law, 7.0) == pytest.approx(weight, rel=1e-14)
     assert guess_pressure(law, 0.5) == pytest.approx(0.5 * weight, rel=1e-14)
 
 
-def test_sliding_ground_lies_between(a_flow_law):
+def test_sliding_ground_lies_between(a_flow_problem):
     between = [
-        guess_pressure(a_flow_law(ground="sliding", slip_ratio=ratio), 7.0)
+        guess_pressure(a_flow_problem(ground="sliding", slip_ratio=ratio), 7.0)
         for ratio in (0.1, 1.0, 100.0)
     ]
-    rough = guess_pressure(a_flow_law(ground="no-slip"), 7.0)
-    free = guess_pressure(a_flow_law(), 7.0)
+    rough = guess_pressure(a_flow_problem(ground="no-slip"), 7.0)
+    free = guess_pressure(a_flow_problem(), 7.0)
     assert rough < between[0] < between[1] < between[2] == free
 
 
-def test_flat_ground_still_gives_a_start(a_flow_law):
-    assert guess_pressure(a_flow_law(slope_deg=0.0), 5.0) == pytest.approx(0.25)
+def test_flat_ground_still_gives_a_start(a_flow_problem):
+    assert guess_pressure(a_flow_problem(slope_deg=0.0), 5.0) == pytest.approx(0.25)

@@ -18,7 +18,7 @@ def a_round(curve, image):
     return Round(curve=curve, mesh=None, flow=flow, hanging=hanging, image=image)
 
 
-PROBLEM = SimpleNamespace(law=None, stiffness=None)
+PROBLEM = SimpleNamespace(snow=None, stiffness=None)
 
 
 @pytest.mark.parametrize("seed", range(4))

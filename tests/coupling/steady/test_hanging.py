@@ -19,10 +19,10 @@ from netdesign.snow.mesh import build_template
 
 
 @pytest.fixture
-def build_problem(a_flow_law):
+def build_problem(a_flow_problem):
     def build(height, interfaces=()):
         return SteadyProblem(
-            law=a_flow_law(),
+            snow=a_flow_problem(),
             template=build_template(5.0, MESH_LEVELS[0], interfaces),
             head=np.array([0.5, height]),
             length=1.05 * float(np.hypot(0.5, height)),

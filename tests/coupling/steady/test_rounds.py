@@ -391,8 +391,11 @@ def test_snow_that_the_ground_holds_or_that_is_near_is_not_cut(a_scene, changes)
     contact = changes.get("ground_contact", "two-sided")
     given = {key: value for key, value in changes.items() if key != "ground_contact"}
     scene = replace(a_scene(**{"length_m": 80.0, **given}), ground_contact=contact)
-    assert scene.reach == scene.snowpack.upslope_length / scene.snowpack.thickness
-    assert scene.reach_law.end_load == 0.0
+    assert (
+        scene.modelled_aspect
+        == scene.snowpack.upslope_length / scene.snowpack.thickness
+    )
+    assert scene.steady_flow_problem.end_load == 0.0
 
 
 def test_pressures_are_skipped_far_from_ice(solved):

@@ -45,7 +45,7 @@ def test_paths_agree(name):
 
 
 def test_both_elements_are_compared():
-    elements = {build_tables(tables).flow_law.element for tables in CHOSEN.values()}
+    elements = {build_tables(tables).flow_problem.element for tables in CHOSEN.values()}
     assert elements == {"velocity", "mixed"}
 
 
