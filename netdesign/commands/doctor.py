@@ -121,7 +121,7 @@ def _round_trip_example() -> str:
         write_site_workbook(path, example=True)
         site = read_site(path)
     if site.notes:
-        raise RuntimeError("; ".join(site.notes))
+        raise RuntimeError("; ".join(map(str, site.notes)))
     return f"example written and read: {len(site.rows)} net rows"
 
 

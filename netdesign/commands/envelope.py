@@ -114,7 +114,7 @@ def envelope(
             executor=executor,
             processes=jobs or os.cpu_count() or 1,
             store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
+            tell=lambda message: click.echo(str(message), err=True),
         ) as runner,
         show_phases(_list_phases(given, confirm), quiet=quiet) as progress,
     ):

@@ -74,7 +74,7 @@ def open_rows(
             executor=executor,
             processes=run.jobs,
             store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
+            tell=lambda message: click.echo(str(message), err=True),
         ) as runner,
         show_phases(list_phases(site, run, profiles), quiet=quiet) as progress,
     ):

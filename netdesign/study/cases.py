@@ -33,6 +33,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.study.probe import build_scene
 from netdesign.study.record_monitoring import follow_monitoring
 from netdesign.study.records import MonitoringRecord
+from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
 # has a limit of its own, and a row so many members. Beside the envelope a row that
@@ -179,14 +180,15 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
         If it refuses every corner.
     """
     spans = (ranges.density, ranges.friction_angle, ranges.inclination)
-    refusals: dict[str, None] = {}
+    refusals: dict[Message, None] = {}
     for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
         case = Case(density=density, friction_angle=friction, inclination=inclination)
         try:
             return build_scene(row, case, law)
         except ModelError as error:
-            refusals.setdefault(f"net row {row.id}: {error}")
-    raise ModelError("\n".join(refusals))
+            refused = say("study.net_row", row=row.id, reason=error.message)
+            refusals.setdefault(refused)
+    raise ModelError(say("text.lines", lines=tuple(refusals)))
 
 
 def solve_site(
