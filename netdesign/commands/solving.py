@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from netdesign.commands.language import tell
 from netdesign.commands.options import jobs_option
+from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -62,6 +64,7 @@ def open_rows(
     cache: bool,
     quiet: bool,
     profiles: int = 1,
+    language: Language = "en",
 ) -> Iterator[SolvedRows]:
     """Search or sample the rows of a site; workers, store and progress stay open."""
     from netdesign.edge.progress import show_phases
@@ -74,9 +77,11 @@ def open_rows(
             executor=executor,
             processes=run.jobs,
             store=find_store() if cache else None,
-            tell=lambda message: click.echo(str(message), err=True),
+            tell=lambda message: tell(message, language, err=True),
         ) as runner,
-        show_phases(list_phases(site, run, profiles), quiet=quiet) as progress,
+        show_phases(
+            list_phases(site, run, profiles), quiet=quiet, language=language
+        ) as progress,
     ):
         follow_runner(progress, runner)
         envelopes: list[RowEnvelope] | None = None

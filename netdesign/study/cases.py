@@ -74,26 +74,31 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
         _plan_envelope(site, run),
         Phase(
             key="histories",
-            words="histories of the governing cases",
+            words=say("phase.histories"),
             cases=histories * _HISTORIES[0],
             most=histories * _HISTORIES[1],
             cost=HISTORY / run.jobs,
         ),
         Phase(
             key="measured",
-            words="histories beside measured series",
+            words=say("phase.measured"),
             cases=measured,
             most=measured,
             cost=HISTORY,
         ),
         Phase(
             key="checks",
-            words="other creep laws, and what would turn a check",
+            words=say("phase.checks"),
             cases=profiles * rows * _BESIDE[0],
             most=profiles * rows * _BESIDE[1],
             pieces=profiles * checks,
         ),
-        Phase(key="reports", words="reports", cases=0, seconds=_REPORTS_S * profiles),
+        Phase(
+            key="reports",
+            words=say("phase.reports"),
+            cases=0,
+            seconds=_REPORTS_S * profiles,
+        ),
     ]
     return [one for one in phases if one.most or one.seconds]
 
@@ -102,9 +107,9 @@ def _plan_envelope(site: Site, run: CheckRun) -> Phase:
     """The grid, or the search with its confirmations."""
     cases, cost = count_cases(site), 1.0 / run.jobs
     if site.ranges.is_grid:
-        words, most = "cases of the grid", cases
+        words, most = say("phase.grid_cases"), cases
     else:
-        words = "largest forces and their confirmation"
+        words = say("phase.search_cases")
         most = len(site.rows) * _SEARCH[1]
     return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
 

@@ -83,7 +83,10 @@ def test_sliding_snow_answers_for_nothing(end):
 
 def test_another_line_and_a_failed_case_answer_for_nothing(end):
     skip = after_two_tests(end)
-    skip.learn(LOW, CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")))
+    skip.learn(
+        LOW,
+        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")),
+    )
     skip.learn((0.4, 0.0), sticking(end))
     assert needs_solve(skip, HIGH)
 

@@ -20,10 +20,10 @@ from netdesign.envelope.store import CaseStore, name_search
 from netdesign.envelope.surrogate import Surrogate
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 from tests.envelope.made_up_workers import Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 from tests.envelope.synthetic import drive, smooth
-from netdesign.words.message import say
 
 WATCHED = {0: Watched(), 2: Watched(worth=0.1, floor=3.0)}
 BOX = Box(
@@ -244,7 +244,7 @@ def test_a_damaged_search_is_told_and_made_anew(row, change):
     row.edit(f"UPDATE searches SET {change}")
     second, counts = row.search(OPEN)
     assert (row.searches, counts.solved) == (2, 0)
-    assert "is damaged, made anew" in row.str(said[0])
+    assert "is damaged, made anew" in str(row.said[0])
     assert_same_row(first, second)
     row.search(OPEN)
     assert row.searches == 2
@@ -258,7 +258,9 @@ def test_an_open_gap_stays_open(row):
 
 
 def lose_rough(job, end):
-    lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason=say("text.as_given", text="lost"))
+    lost = CaseEnd(
+        outcome=Outcome.WORKER_FAILED, reason=say("text.as_given", text="lost")
+    )
     return lost if job.scene.net.friction_angle > 0.7 else end
 
 

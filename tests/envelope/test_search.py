@@ -24,9 +24,9 @@ from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 from tests.envelope.made_up_workers import Recording, Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
-from netdesign.words.message import say
 
 SCENE = build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5))
 BOX = Box(
@@ -141,7 +141,11 @@ def test_rows_together_end_as_each_alone(found):
 
 def spoil_rough_dense(job, end):
     spoilt = job.scene.net.friction_angle > 0.7 and job.scene.snowpack.density > 390.0
-    return CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")) if spoilt else end
+    return (
+        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt"))
+        if spoilt
+        else end
+    )
 
 
 def test_a_failed_case_leaves_a_gap_by_name():

@@ -14,8 +14,8 @@ from netdesign.envelope.state import CaseEnd, SolvedState, decode_end, encode_en
 from netdesign.envelope.store import CaseStore, StoreError, find_store, name_case
 from netdesign.envelope.workers import Job, solve_job
 from netdesign.outcome import Outcome
-from tests.envelope.small_scene import COARSE, build_scene
 from netdesign.words.message import say
+from tests.envelope.small_scene import COARSE, build_scene
 
 CASE = Case(density=300.0, friction_angle=math.radians(30), inclination=0.5)
 SCENE = build_scene(CASE)
@@ -54,7 +54,10 @@ def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
 
 
 def test_a_failure_survives_too():
-    failed = CaseEnd(outcome=Outcome.NO_EQUILIBRIUM, reason=say("text.as_given", text="the post ü would pull"))
+    failed = CaseEnd(
+        outcome=Outcome.NO_EQUILIBRIUM,
+        reason=say("text.as_given", text="the post ü would pull"),
+    )
     assert decode_end(*encode_end(failed)) == failed or (
         decode_end(*encode_end(failed)).reason == failed.reason
     )

@@ -44,9 +44,9 @@ from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.workbook import write_site_workbook
 from netdesign.study.records import read_document, write_document
+from netdesign.words.message import say
 from tests.full_scene import FULL_SCENE
 from tests.report.build_study import build_study
-from netdesign.words.message import say
 
 SECONDS = 20  # for one input; a hang ends as a find
 _REFUSED = 3
@@ -555,7 +555,9 @@ def try_config(content: bytes) -> None:
     assert is_shown_only(err), err
 
 
-END = CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="residual grew"))
+END = CaseEnd(
+    outcome=Outcome.DIVERGED, reason=say("text.as_given", text="residual grew")
+)
 
 
 @cache

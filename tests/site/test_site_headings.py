@@ -39,7 +39,9 @@ def test_groups_merged_above_headings_complete_them(sheets, save):
 
 def test_a_group_that_is_not_merged_says_nothing(sheets, save, refused):
     group(sheets)
-    rules = {(f.cell, str(f.rule)) for f in refused(save(sheets)) if f.severity == "error"}
+    rules = {
+        (f.cell, str(f.rule)) for f in refused(save(sheets)) if f.severity == "error"
+    }
     assert (
         "I2",
         "is ambiguous: "
@@ -105,7 +107,9 @@ def test_notes_below_a_table_are_listed_and_not_read(sheets, save):
     ]
     site = read_site(save(sheets))
     assert len(site.rows) == 2
-    notes = [note for note in map(str, site.notes) if "is a note below the table" in note]
+    notes = [
+        note for note in map(str, site.notes) if "is a note below the table" in note
+    ]
     assert len(notes) == 2
     assert "Nets › A5" in notes[1]
 

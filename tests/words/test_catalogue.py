@@ -17,7 +17,7 @@ TEXTS = {language: load_texts(language) for language in LANGUAGES}
 FAMILIES: tuple[str, ...] = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
     *("outcome.", "ended.", "envelope_member.", "os_error.", "shape."),
-    *("finding.error", "finding.note"),
+    *("finding.error", "finding.note", "case_count."),
 )
 
 

@@ -29,7 +29,9 @@ def test_an_empty_cell_a_sheet_and_a_file_are_called_so():
 
 
 def test_long_text_and_line_breaks_are_shortened_only_in_the_message():
-    finding = Finding(file="f.xlsx", cell="A1", text="a\n" + "b" * 500, rule=say("cell.too_long"))
+    finding = Finding(
+        file="f.xlsx", cell="A1", text="a\n" + "b" * 500, rule=say("cell.too_long")
+    )
     assert "\n" not in str(finding)
     assert len(quote(finding.text)) <= 62
     assert len(finding.text) == 502
@@ -43,7 +45,9 @@ def test_near_matches_are_suggested_and_far_ones_are_not():
 
 
 def test_the_exception_carries_every_finding_and_shows_each_on_a_line():
-    findings = [Finding(file="f.xlsx", rule=say("book.many_parts", count=n)) for n in range(3)]
+    findings = [
+        Finding(file="f.xlsx", rule=say("book.many_parts", count=n)) for n in range(3)
+    ]
     error = SiteDataError(findings)
     assert error.findings == tuple(findings)
     assert str(error).splitlines() == [str(finding) for finding in findings]

@@ -83,7 +83,11 @@ def list_columns():
         plan = next(plan for plan in SHEETS if plan.matches(name))
         for column, heading in enumerate(rows[0]):
             for field in plan.fields:
-                if heading == field.heading_for("en") and field.units and rows[1][column]:
+                if (
+                    heading == field.heading_for("en")
+                    and field.units
+                    and rows[1][column]
+                ):
                     yield name, column, field
 
 
@@ -175,7 +179,9 @@ def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field
         read_site(write_csv(tmp_path / "site.csv", sheets))
     (finding,) = (one for one in caught.value.findings if one.severity == "error")
     assert finding.text == text
-    assert str(finding.rule) == f"is a percentage, the unit of the column is {field.unit}"
+    assert (
+        str(finding.rule) == f"is a percentage, the unit of the column is {field.unit}"
+    )
 
 
 def cell_of_ods(value, shown, kind="float"):
