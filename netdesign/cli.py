@@ -43,7 +43,7 @@ from netdesign.commands.paper import paper
 from netdesign.commands.report import DEFAULT_FOLDER, report
 from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options, temporary_example
-from netdesign.commands.solving import judge_rows, open_rows, solving_options
+from netdesign.commands.solving import open_run, solving_options
 from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
 from netdesign.commands.verify import verify
@@ -189,6 +189,7 @@ def check(
         render_files,
     )
     from netdesign.study.cases import CheckRun
+    from netdesign.study.check_site import check_site
 
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
@@ -216,7 +217,7 @@ def check(
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     style = ReportStyle(language=language, detail=detail)
-    with open_rows(
+    with open_run(
         site,
         run,
         executor=executor,
@@ -224,10 +225,11 @@ def check(
         quiet=quiet,
         profiles=len(profiles),
         language=language,
-    ) as solved:
-        studies = judge_rows(site, run, solved, profiles)
+    ) as (runner, progress):
+        studies = check_site(site, profiles, run, runner, progress)
+        progress.enter("reports")
         files = render_files(studies, names, style)
-    failed = tell_faults(solved.runner.faults, language)
+    failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
     _report_places(names, language, quiet=quiet or as_json)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from itertools import zip_longest
 
 import click
 
@@ -48,7 +49,7 @@ def _find_command(
 def _find_option(words: Sequence[str]) -> str | None:
     """Value of the last ``--language``, as click takes it."""
     found = None
-    for word, following in zip(words, [*words[1:], None], strict=True):
+    for word, following in zip_longest(words, words[1:]):
         name, mark, value = word.partition("=")
         if name == _OPTION:
             found = value if mark else following

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import io
 import sys
 from typing import Any
@@ -45,8 +46,14 @@ class ToldGroup(click.Group):
         except click.UsageError as error:
             if isinstance(error, click.NoSuchOption):
                 raise
-            told = say("usage.no_command", command=args[0])
-            raise UsageRefusal(told, ctx) from None
+            raise UsageRefusal(_refuse_command(args[0], self), ctx) from None
+
+
+def _refuse_command(word: str, group: click.Group) -> Message:
+    near = difflib.get_close_matches(word, list(group.commands), n=1)
+    if not near:
+        return say("usage.no_command", command=word)
+    return say("usage.no_command_near", command=word, near=near[0])
 
 
 def describe_refusal(error: click.ClickException, language: Language) -> str:

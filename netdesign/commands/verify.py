@@ -16,7 +16,7 @@ import click
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.language import tell
 from netdesign.commands.options import jobs_option, json_option, language_option
-from netdesign.commands.solving import judge_rows, open_rows
+from netdesign.commands.solving import open_run
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
@@ -104,6 +104,7 @@ def _verify_study(
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.checks import load_standard
     from netdesign.study.audit import audit_study
+    from netdesign.study.check_site import check_site
     from netdesign.study.records import load_study
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
@@ -127,11 +128,11 @@ def _verify_study(
             say("verify.its_arithmetic"), audit_study(study, profile, site)
         ),
     ]
-    with open_rows(
+    with open_run(
         site, run, executor="", cache=False, quiet=False, language=language
-    ) as solved:
-        (again,) = judge_rows(site, run, solved, [profile])
-    if failed := tell_faults(solved.runner.faults, language):
+    ) as (runner, watch):
+        (again,) = check_site(site, [profile], run, runner, watch)
+    if failed := tell_faults(runner.faults, language):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]

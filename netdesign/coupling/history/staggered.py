@@ -122,7 +122,7 @@ def solve_staggered(
 
     Verified by
     -----------
-    tests/coupling/test_staggered.py, ``netdesign verify``
+    tests/coupling/history/test_staggered.py, ``netdesign verify``
     """
     try:
         return _solve(scene, settings or StaggeredSettings())

@@ -156,7 +156,7 @@ def solve_transient(
 
     Verified by
     -----------
-    tests/coupling/test_transient.py, ``netdesign verify``
+    tests/coupling/history/test_transient.py, ``netdesign verify``
     """
     settings = settings or TransientSettings()
     clock = clock or Clock()

@@ -127,7 +127,7 @@ def solve_steady(
 
     Verified by
     -----------
-    tests/coupling/test_steady.py, tests/verification/test_reference_scene.py
+    tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
     """
     try:
         return _solve(scene, settings or SolverSettings())
