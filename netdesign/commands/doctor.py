@@ -1,4 +1,7 @@
-"""What the program runs on, and whether it works here."""
+"""What the program runs on, and whether it works here.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
 
 from __future__ import annotations
 
