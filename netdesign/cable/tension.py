@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
+from netdesign.guards import name_quantity, require_positive, require_within
 from netdesign.numerics.arrays import Floats
+from netdesign.words.message import say
 
 _LARGEST_FRICTION = np.tan(np.radians(89.0))
 
@@ -231,5 +232,10 @@ def require_lengths(name: str, lengths: Floats) -> None:
     if not sound.all():
         first = int(np.argmin(sound))
         raise ModelError(
-            f"{name} {first} = {lengths[first]!r}: must be a finite number above 0 in m"
+            say(
+                "guard.positive_entry",
+                name=name_quantity(name),
+                place=first,
+                value=float(lengths[first]),
+            )
         )

@@ -27,6 +27,7 @@ from netdesign.cable.sliding import NetState, SlidingStep
 from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Mask, Signs
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 _MOST_ITERATIONS = 40
 # Over the chord: Newton's method is quadratic, the next step would be its square.
@@ -213,7 +214,7 @@ def settle_net(
                 return pull_nodes(net.points, sliding), end
         else:
             slides = slides + part * (wanted - slides)
-    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
@@ -222,7 +223,7 @@ def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
     steps = np.diff(points)
     chords = np.hypot(*steps)
     if not chords.min() > 0.0:
-        raise SolveError(Outcome.NONFINITE, "two nodes of the net at one place")
+        raise SolveError(Outcome.NONFINITE, say("cable.nodes_at_one_place"))
     directions = steps / chords
     (ax, ay), (bx, by) = directions[:, :-1], directions[:, 1:]
     angles = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
@@ -331,7 +332,7 @@ def _solve(matrix: Floats, rhs: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(matrix, rhs), dtype=np.float64)
     except np.linalg.LinAlgError:
-        raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
+        raise SolveError(Outcome.NONFINITE, say("cable.friction_singular")) from None
 
 
 def _choose(
@@ -363,7 +364,7 @@ def _choose(
         if number >= _FREE_ROUNDS:
             changes = changes[:1]
         signs[changes] = wanted[changes]
-    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
 def _go(

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from netdesign.commands.language import tell
 from netdesign.commands.options import jobs_option
+from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from netdesign.edge.progress import RunProgress
@@ -47,6 +49,7 @@ def open_run(
     cache: bool,
     quiet: bool,
     profiles: int = 1,
+    language: Language = "en",
 ) -> Iterator[tuple[Runner, RunProgress]]:
     """Workers, store and progress for the check of a site, open while it lasts."""
     from netdesign.edge.progress import show_phases
@@ -59,9 +62,11 @@ def open_run(
             executor=executor,
             processes=run.jobs,
             store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
+            tell=lambda message: tell(message, language, err=True),
         ) as runner,
-        show_phases(list_phases(site, run, profiles), quiet=quiet) as progress,
+        show_phases(
+            list_phases(site, run, profiles), quiet=quiet, language=language
+        ) as progress,
     ):
         follow_runner(progress, runner)
         yield runner, progress

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from netdesign.numerics.arrays import Floats
+from netdesign.words.message import Message
 
 # Plateau, each per e-fold of time (coupling/THEORY.md, section 6).
 PULL_DRIFT = 0.05  # change of an end pull, over its size
@@ -118,8 +119,8 @@ class History:
         The creep law followed the density.
     fallen_share : float
         Share of the snow's mass that fell over the head.
-    ended : str
-        Why it ended before its horizon; empty if it did not.
+    ended : Message or None
+        Why it ended before its horizon; None if it did not.
     """
 
     moments: tuple[HistoryPoint, ...]
@@ -127,7 +128,7 @@ class History:
     start: str
     densifies: bool
     fallen_share: float
-    ended: str
+    ended: Message | None
 
     @property
     def at_plateau(self) -> HistoryPoint | None:

@@ -14,12 +14,10 @@ from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.words.message import Message, say
 
 # What a reader must know of a net that was to hold the snow on both sides.
-RELEASED = (
-    "the snow would pull on the net more than a two-sided contact stands for: solved "
-    "with a net that lets go of it (one-sided)"
-)
+RELEASED = say("balance.released")
 Method = Literal["steady", "transient", "staggered"]
 
 
@@ -266,7 +264,7 @@ class FailedSolution:
     """A solve that gave no number that may be used."""
 
     outcome: Outcome
-    reason: str
+    reason: Message
 
 
 def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:

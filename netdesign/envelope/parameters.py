@@ -11,6 +11,7 @@ from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,12 +36,9 @@ class Parameter:
 def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
         if name == "density" and scene.snowpack.layers:
-            raise ModelError(
-                "density: layered snow has no single density to range over; give "
-                "snow.density_kg_m3 instead of snow.layers"
-            )
+            raise ModelError(say("envelope.layered_density"))
         if name == "thickness" and scene.snowpack.layers:
-            raise ModelError("thickness: that of layered snow is the sum of its layers")
+            raise ModelError(say("envelope.layered_thickness"))
         pack: Snowpack = replace(scene.snowpack, **{name: value})  # type: ignore[arg-type]
         return replace(scene, snowpack=pack)
 
@@ -50,7 +48,7 @@ def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
 def _put_net(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
         if not isinstance(scene.net, Net):
-            raise ModelError(f"{name}: a rigid wall has no envelope; it needs a net")
+            raise ModelError(say("envelope.wall_parameter", name=name))
         return replace(scene, net=replace(scene.net, **{name: value}))
 
     return put

@@ -13,6 +13,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.parameters import PARAMETERS, place_scene
 from netdesign.errors import ModelError
+from netdesign.words.message import Message, say
 
 # What every case has; the other parameters only where they range.
 _USUAL = ("density", "friction_angle", "inclination")
@@ -33,14 +34,11 @@ class Interval:
     def __post_init__(self) -> None:
         """Refuse reversed and endless ranges, and samples that leave an end out."""
         if not -math.inf < self.low <= self.high < math.inf:
-            raise ModelError(
-                f"range {self.low!r} to {self.high!r}: must run from a finite low end "
-                "to a finite high end"
-            )
+            raise ModelError(say("envelope.range_ends", low=self.low, high=self.high))
         if self.count is None:
             return
         if self.count < 1 or (self.count == 1 and self.low != self.high):
-            raise ModelError(f"range with {self.count} samples: at least 2 are needed")
+            raise ModelError(say("envelope.range_samples", count=self.count))
 
     @property
     def samples(self) -> tuple[float, ...]:
@@ -70,8 +68,11 @@ class Ranges:
         known = [name for name in PARAMETERS if name in names]
         if sorted(names) != sorted(known):
             raise ModelError(
-                f"ranges of {', '.join(names)}: accepted are {', '.join(PARAMETERS)}, "
-                "each once"
+                say(
+                    "envelope.unknown_ranges",
+                    names=tuple(names),
+                    known=tuple(PARAMETERS),
+                )
             )
         order = list(PARAMETERS)
         ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
@@ -136,7 +137,7 @@ def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
     """Case of a scene with some values of its own."""
     net = scene.net
     if not isinstance(net, Net):
-        raise ModelError("net: a rigid wall has no envelope; it needs a net of cables")
+        raise ModelError(say("envelope.wall"))
     base = {
         "density": scene.snowpack.density,
         "friction_angle": net.friction_angle,
@@ -166,13 +167,13 @@ def require_valid(scene: Scene, ranges: Ranges) -> None:
         With every distinct reason.
     """
     count = len(ranges.axes)
-    reasons: dict[str, None] = {}
+    reasons: dict[Message, None] = {}
     for point in [*product((0.0, 1.0), repeat=count), (0.5,) * count]:
         if point == (0.5,) * count and reasons:
             continue  # a corner has said why already
         try:
             place_scene(scene, ranges.place(point))
         except ModelError as error:
-            reasons.setdefault(str(error))
+            reasons.setdefault(error.message)
     if reasons:
-        raise ModelError("\n".join(reasons))
+        raise ModelError(say("text.lines", lines=tuple(reasons)))

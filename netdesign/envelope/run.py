@@ -20,6 +20,7 @@ from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +33,7 @@ class CaseTask:
 
     case: Case
     job: Job | None
-    refusal: str
+    refusal: Message | None
     layout: SupportLayout | None
 
     def solved_by(self, settings: Settings) -> CaseTask:
@@ -67,7 +68,7 @@ class CaseResult:
 
     case: Case
     outcome: Outcome
-    reason: str = ""
+    reason: Message | None = None
     member_forces: dict[str, Band]
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
@@ -236,13 +237,14 @@ def build_task(
     settings: Settings,
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
-    job, refusal = None, ""
+    job: Job | None = None
+    refusal: Message | None = None
     try:
         job = Job(scene=build_scene(case), settings=settings)
     except ModelError as error:
-        refusal = str(error)
+        refusal = error.message
     return CaseTask(case=case, job=job, refusal=refusal, layout=layout)
 
 
-def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:
+def _failed(task: CaseTask, outcome: Outcome, reason: Message | None) -> CaseResult:
     return CaseResult(case=task.case, outcome=outcome, reason=reason, member_forces={})

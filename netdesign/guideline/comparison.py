@@ -19,6 +19,7 @@ from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_table
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +75,7 @@ class GuidelineResult:
     load: SnowLoad | None = None
     pull: NetPull | None = None
     anchors: AnchorForces | None = None
-    reason: str = ""
+    reason: Message | None = None
 
 
 def find_glide_factor(
@@ -151,7 +152,7 @@ def compare_with_guideline(
             result = _solve_case(model, net, name, rho, h, glide_factor)
         except ModelError as error:  # outside the closed forms
             result = GuidelineResult(
-                name=name, density=rho, height_vertical=h, reason=str(error)
+                name=name, density=rho, height_vertical=h, reason=error.message
             )
         results.append(result)
     return tuple(results)
@@ -193,7 +194,7 @@ def _solve_case(
     if isinstance(anchors, FailedSupport):
         reason, found = anchors.reason, None
     else:
-        reason, found = "", anchors
+        reason, found = None, anchors
     return GuidelineResult(
         name=name,
         density=density,

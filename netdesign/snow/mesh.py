@@ -22,6 +22,7 @@ from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 # Radii of rings are powers of equal steps: the forces that a triangle near a singular
 # point adds fall with its size. Then depth over width of the outermost triangles.
@@ -438,8 +439,7 @@ def _connect(points: Floats) -> Ints:
         # found while solving, on a mesh that the refinement asked for: an outcome
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the mesh is too fine: its smallest triangles vanish by rounding; allow a "
-            "larger error, or join thin layers",
+            say("snow.mesh_too_fine"),
         )
     return np.asarray(triangles, dtype=np.int64)
 

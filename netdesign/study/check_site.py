@@ -312,7 +312,7 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
 
 def list_case_notes(cases: Sequence[CaseRecord]) -> list[str]:
     """What was done otherwise than asked in some cases."""
-    released = sum(case.reason == RELEASED for case in cases)
+    released = sum(case.reason == str(RELEASED) for case in cases)
     if not released:
         return []
     return [f"in {released} of {len(cases)} cases {RELEASED}"]
@@ -367,7 +367,7 @@ def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     return CaseRecord(
         case=record_point(result.case),
         outcome=result.outcome,
-        reason=result.reason,
+        reason=str(result.reason or ""),  # seam: records keep English so far
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
         is_calibrated=is_calibrated(law, row, result.case.density),
@@ -497,7 +497,8 @@ def name_law(law: CreepLaw) -> str:
 
 def list_notes(site: Site, law: CreepLaw) -> list[str]:
     """What the reader noted, and what the model does with the site's snow."""
-    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
+    notes = map(str, site.notes)  # seam: records keep English so far
+    return [*notes, *_validity_notes(site, law), *_layer_notes(site)]
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[str]:

@@ -75,8 +75,8 @@ class RowTask:
     def gap(self) -> str:
         """Why the extremes do not cover every case; "" if they do."""
         if self.envelope is None:
-            return describe_gap(self.results)
-        return self.envelope.gap
+            return str(describe_gap(self.results) or "")
+        return str(self.envelope.gap or "")  # seam: records keep English so far
 
     def estimate_between(self, extreme: Extreme) -> EnvelopeGap:
         """What may hide between the cases: bounded by a search, else estimated."""
@@ -247,7 +247,7 @@ def _list_creep_laws(
             low=force.low * scale if force else None,
             high=force.high * scale if force else None,
             in_verdict=False,
-            note=result.reason if force is None else "in the governing case",
+            note=str(result.reason) if force is None else "in the governing case",
         )
 
 

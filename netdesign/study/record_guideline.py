@@ -102,7 +102,7 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
         post_kN=_kilonewton(forces.get("post")),
         load_difference_percent=_compare(load, snow.resultant[0] if snow else None),
         foot_difference_percent=_compare(foot, own_foot),
-        reason=case.reason,
+        reason=str(case.reason or ""),  # seam: records keep English so far
     )
 
 

@@ -24,6 +24,7 @@ from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.records import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_from_newton
+from netdesign.words.message import Message, say
 
 _START: Start = "steady"
 
@@ -34,7 +35,7 @@ class _Modelled:
 
     times_d: list[float]
     forces_kN: list[float]
-    reason: str = ""
+    reason: Message | None = None
 
 
 def follow_monitoring(
@@ -107,7 +108,7 @@ def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
         model_times_d=modelled.times_d,
         model_kN=modelled.forces_kN,
         model_start=_START,
-        model_reason=modelled.reason,
+        model_reason=str(modelled.reason or ""),  # seam: records keep English so far
     )
 
 
@@ -116,10 +117,10 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
         return _Modelled(times_d=[], forces_kN=[], reason=task.refusal)
     scene, asked = task.job.scene, task.job.settings
     if task.layout is None or isinstance(asked, StaggeredSettings):
-        reason = "a history of member forces needs a support and an accuracy"
+        reason = say("measured.needs_support")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
-        reason = "a single reading has no history"
+        reason = say("measured.single_reading")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     clock = build_clock(series, scene)
     settings = TransientSettings(
@@ -127,7 +128,7 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
     )
     solution = solve_transient(scene, settings, clock=clock)
     if isinstance(solution, FailedSolution) or solution.history is None:
-        reason = getattr(solution, "reason", "no history")
+        reason = getattr(solution, "reason", say("measured.no_history"))
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     return _read_member(task.layout, solution, solution.history.moments, series.member)
 

@@ -17,6 +17,7 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.state import CaseEnd
 from netdesign.solving.store import CaseStore, name_search
 from netdesign.solving.workers import OwnProcess
+from netdesign.words.message import say
 from tests.search.synthetic import assert_same
 from tests.solving.made_up_workers import Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene
@@ -157,7 +158,7 @@ def test_a_damaged_search_is_told_and_made_anew(row, change):
     row.edit(f"UPDATE searches SET {change}")
     second, counts = row.search(OPEN)
     assert (row.searches, counts.solved) == (2, 0)
-    assert "is damaged, made anew" in row.said[0]
+    assert "is damaged, made anew" in str(row.said[0])
     assert_same_row(first, second)
     row.search(OPEN)
     assert row.searches == 2
@@ -171,7 +172,9 @@ def test_an_open_gap_stays_open(row):
 
 
 def lose_rough(job, end):
-    lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason="lost")
+    lost = CaseEnd(
+        outcome=Outcome.WORKER_FAILED, reason=say("text.as_given", text="lost")
+    )
     return lost if job.scene.net.friction_angle > 0.7 else end
 
 

@@ -17,6 +17,7 @@ from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
 from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import ProcessPool
+from netdesign.words.message import say
 from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
@@ -58,7 +59,7 @@ def grid():
 
 
 def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
-    assert found.gap == ""
+    assert found.gap is None
     for result in grid:
         for member, band in result.member_forces.items():
             assert band.value <= found.bound(member).high
@@ -106,7 +107,7 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
         one.confirmed, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
     )
     lost = replace(found, confirmations=(replace(one, confirmed=failed),))
-    assert found.gap == ""
+    assert found.gap is None
     assert lost.gap == (
         f"the governing case of {one.member} could not be solved again (spoilt)"
     )
@@ -153,7 +154,11 @@ def test_rows_together_end_as_each_alone(found):
 
 def spoil_rough_dense(job, end):
     spoilt = job.scene.net.friction_angle > 0.7 and job.scene.snowpack.density > 390.0
-    return CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt") if spoilt else end
+    return (
+        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt"))
+        if spoilt
+        else end
+    )
 
 
 def test_a_failed_case_leaves_a_gap_by_name():

@@ -187,7 +187,7 @@ def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelo
     steady = envelopes[0]
     governing = {id(steady.governing(member)) for member in loaded(steady)}
     assert len(histories) == len(governing)
-    assert found.gap == ""
+    assert found.gap is None
     for member in loaded(steady):
         assert found.force(member).value >= steady.force(member).value
         assert found.bound(member).high >= steady.bound(member).high

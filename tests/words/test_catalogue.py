@@ -14,7 +14,11 @@ from netdesign.words.message import say
 PACKAGE = Path(netdesign.__file__).parent
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
-FAMILIES: tuple[str, ...] = ()
+FAMILIES: tuple[str, ...] = (
+    *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
+    *("outcome.", "ended.", "envelope_member.", "os_error.", "shape."),
+    *("finding.error", "finding.note", "case_count."),
+)
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])

@@ -19,6 +19,7 @@ from netdesign.numerics.arrays import Floats, Ints
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -214,7 +215,7 @@ def _find_parts(
     if found is None:
         raise SolveError(
             Outcome.NO_EQUILIBRIUM,
-            "the net's contact with the snow's surface and layers was not found",
+            say("steady.contact_not_found"),
         )
     return found
 

@@ -30,6 +30,7 @@ from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -135,7 +136,9 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
         max_iterations=settings.max_iterations,
     )
     if flow.outcome is not Outcome.CONVERGED:
-        raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+        raise SolveError(
+            flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
+        )
     state, forces = find_support_forces(problem, mesh, flow.state)
     return _Pressed(
         problem=problem,

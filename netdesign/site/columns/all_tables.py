@@ -5,6 +5,8 @@ English here; French and German texts stand in ``words/*.toml``.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from netdesign.site.columns.dimension_columns import (
     ANCHOR_DIMENSIONS,
     POST_DIMENSIONS,
@@ -27,6 +29,8 @@ from netdesign.site.columns.unit_names import (
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.layout import DEFAULT_POST_TILT
 from netdesign.units import degree_from_radian
+from netdesign.words.catalogue import LANGUAGES, Language, render
+from netdesign.words.message import say
 
 # Chosen low: a tauter net pulls harder on its anchors.
 DEFAULT_SLACK = 0.02
@@ -492,7 +496,13 @@ SHEETS: tuple[SheetPlan, ...] = (
     *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
     MONITORING,
 )
-# The sheet that an annotated copy lists its findings on.
-FINDINGS_SHEET = "netdesign findings"
+# The sheet that an annotated copy lists its findings on, by language.
+FINDINGS_SHEETS: Mapping[Language, str] = {
+    language: render(say("annotated.findings_sheet"), language)
+    for language in LANGUAGES
+}
 # Sheets of the program's own that hold nothing to read.
-QUIET_SHEETS: tuple[str, ...] = ("Notes", "Notice", "Hinweise", FINDINGS_SHEET)
+QUIET_SHEETS: tuple[str, ...] = (
+    *("Notes", "Notice", "Hinweise"),
+    *FINDINGS_SHEETS.values(),
+)

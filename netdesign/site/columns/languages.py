@@ -33,7 +33,7 @@ def word_field(field: Field, table: str) -> Field:
         for language in _TRANSLATED
         if field.key in load_words(language).get(table, {})
     }
-    return replace(field, wordings=found)
+    return replace(field, wordings=found, table=table)
 
 
 def word_plan(plan: SheetPlan) -> SheetPlan:
