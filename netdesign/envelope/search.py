@@ -30,6 +30,7 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.solve import Settings
 from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import Batch, Ends
+from netdesign.words.message import say
 
 _WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by one
 
@@ -136,7 +137,7 @@ class RowSearch:
             While something is still asked for.
         """
         if self._result is None:
-            raise ModelError("the search of a row has not ended")
+            raise ModelError(say("envelope.not_ended"))
         return self._result
 
     @property

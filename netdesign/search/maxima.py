@@ -32,6 +32,7 @@ from netdesign.search.upper_bound import (
     bound_quantities,
     build_lattice,
 )
+from netdesign.words.message import say
 
 Values = tuple[float, ...]
 
@@ -192,7 +193,7 @@ class MaximaSearch:
         """
         if not 1 <= dimension <= MOST_PARAMETERS:
             raise ModelError(
-                f"{dimension} parameters: an envelope takes 1 to {MOST_PARAMETERS}"
+                say("envelope.parameters", count=dimension, most=MOST_PARAMETERS)
             )
         self.settings = settings
         self.points: tuple[Point, ...] = ()
@@ -238,7 +239,7 @@ class MaximaSearch:
         """
         if not self._asked or len(values) != len(self._asked):
             raise ModelError(
-                f"{len(values)} values for the {len(self._asked)} points asked for"
+                say("envelope.values", given=len(values), asked=len(self._asked))
             )
         expected = self._predict()
         self._note(values, expected)
