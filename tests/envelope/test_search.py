@@ -116,7 +116,8 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
     lost = replace(found, confirmations=(replace(one, confirmed=failed),))
     assert found.gap is None
     assert str(lost.gap) == (
-        f"the governing case of {one.member.replace('_', ' ')} could not be solved again (spoilt)"
+        f"the governing case of {one.member.replace('_', ' ')} could not be solved "
+        "again (spoilt)"
     )
 
 
