@@ -12,7 +12,7 @@ import click
 
 from netdesign.commands.language import tell
 from netdesign.commands.usage import UsageRefusal, ValueRefusal
-from netdesign.edge.causes import explain
+from netdesign.edge.causes import explain_with_file
 from netdesign.errors import OutputError, SiteDataError
 from netdesign.words.catalogue import Language
 from netdesign.words.message import say
@@ -132,7 +132,7 @@ def temporary_example() -> Iterator[Path]:
         place = tempfile.TemporaryDirectory()
     except OSError as error:
         raise OutputError(
-            say("output.no_temporary_folder", cause=explain(error))
+            say("output.no_temporary_folder", cause=explain_with_file(error))
         ) from error
     with place as folder:
         path = Path(folder) / "example.xlsx"

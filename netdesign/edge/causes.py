@@ -53,6 +53,13 @@ def explain_system(error: OSError) -> Message | str:
     return say(f"os_error.{name}") if name else str(error.strerror)
 
 
+def explain_with_file(error: OSError) -> Message | str:
+    """Why something failed, with the file that the system names."""
+    if error.filename is None:
+        return explain(error)
+    return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
+
+
 def explain_shape(fault: Mapping[str, Any]) -> Message | str:
     """What is wrong with a value: one of the faults that pydantic lists."""
     kind, context = fault["type"], fault.get("ctx", {})

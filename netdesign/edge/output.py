@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from netdesign.edge.causes import explain_system
+from netdesign.edge.causes import explain_system, explain_with_file
 from netdesign.errors import OutputError
-from netdesign.words.message import Message, say
+from netdesign.words.message import say
 
 _OLD = ".old"
 _RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name
@@ -91,14 +91,9 @@ def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
                 _remove_leftovers(contents)
             _exchange(contents)
     except OSError as error:
-        raise OutputError(say("output.cannot_write", cause=_explain(error))) from error
-
-
-def _explain(error: OSError) -> Message | str:
-    cause = explain_system(error) if error.strerror else str(error)
-    if error.filename is None:
-        return cause
-    return say("os_error.at_file", cause=cause, file=str(error.filename))
+        raise OutputError(
+            say("output.cannot_write", cause=explain_with_file(error))
+        ) from error
 
 
 @contextmanager

@@ -187,7 +187,7 @@ def _default_inclination(field: Field) -> _Range:
         )
         for key, value in zip(("low", "high"), DEFAULT_INCLINATION_DEG, strict=True)
     )
-    samples_field = Field(key="samples", label="samples", kind="count", table="Ranges")
+    samples_field = Field(key="samples", kind="count", table="Ranges")
     samples = Reading(field=samples_field, state="default", value=SEARCHED)
     return _build_range(field, (low, high, samples))
 

@@ -217,7 +217,7 @@ def test_a_history_that_fails_leaves_its_searched_row_unproven(
     study = judge(standard, found)
     assert study.verdict is Verdict.NOT_PROVEN
     assert all(row.verdict is Verdict.NOT_PROVEN for row in study.rows)
-    assert all("history of a governing case: spoilt" in one.gap for one in found)
+    assert all("history of a governing case: spoilt" in str(one.gap) for one in found)
 
 
 def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):

@@ -38,7 +38,7 @@ class Field:
     key : str
         Name in the program.
     label : str
-        Name in headings and reports.
+        Name in headings and reports, in English; that of ``words/en/columns.toml``.
     aliases : tuple of str
         Other accepted headings.
     kind : str
@@ -67,7 +67,7 @@ class Field:
     """
 
     key: str
-    label: str
+    label: str = ""
     aliases: tuple[str, ...] = ()
     kind: Kind = "number"
     units: tuple[str, ...] = ()
