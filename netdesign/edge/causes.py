@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -60,6 +61,13 @@ def explain_with_file(error: OSError) -> Message | str:
     return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
 
 
+def _explain_literal(words: list[str]) -> Message:
+    """What a value may be: words that pydantic lists in quotes."""
+    if len(words) == 1:
+        return say("shape.literal_one", expected=words[0])
+    return say("shape.literal_error", some=tuple(words[:-1]), last=words[-1])
+
+
 def explain_shape(fault: Mapping[str, Any]) -> Message | str:
     """What is wrong with a value: one of the faults that pydantic lists."""
     kind, context = fault["type"], fault.get("ctx", {})
@@ -69,7 +77,7 @@ def explain_shape(fault: Mapping[str, Any]) -> Message | str:
     if kind in _PLAIN:
         return say(f"shape.{kind}")
     if kind == "literal_error":
-        return say("shape.literal_error", expected=str(context["expected"]))
+        return _explain_literal(re.findall(r"'[^']*'", str(context["expected"])))
     if kind == "string_pattern_mismatch":
         return say("shape.string_pattern_mismatch", pattern=str(context["pattern"]))
     error = context.get("error")

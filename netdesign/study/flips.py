@@ -289,6 +289,7 @@ def _find_violator(
     for case, result in zip(rivals, results, strict=True):
         utilisation = target.utilisation(result)
         if utilisation is None:
+            # seam: records keep English so far
             return f"a case has no result at {value:g}: {result.reason}"
         if utilisation > largest:
             worst, largest = case, utilisation

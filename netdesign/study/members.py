@@ -247,6 +247,7 @@ def _list_creep_laws(
             low=force.low * scale if force else None,
             high=force.high * scale if force else None,
             in_verdict=False,
+            # seam: records keep English so far
             note=str(result.reason) if force is None else "in the governing case",
         )
 

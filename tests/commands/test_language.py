@@ -6,6 +6,7 @@ import openpyxl
 import pytest
 
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS, SHEETS
+from tests.short_example import write_short_example
 from tests.words.english import find_words
 
 LANGUAGES = ["fr", "de"]
@@ -168,3 +169,95 @@ def test_an_unknown_language_is_refused_in_english(call):
     ended = call("check", "--example", "--language", "it")
     assert ended.code == 2
     assert "Invalid value for '--language'" in ended.err
+
+
+SCENE = """
+[slope]
+angle_deg = 38
+[snow]
+thickness_m = 2.5
+upslope_length_m = 6
+density_kg_m3 = 300
+[ground]
+law = "no-slip"
+[net]
+inclination_deg = 30
+stiffness_kN_per_m = 8000
+slack = 0.05
+friction_deg = 30
+[solve]
+accuracy = 0.05
+horizon_days = 3
+"""
+# Keys of documents, which are the same in all languages.
+KEYS = re.compile(r"\b\w+_(kN_per_m|kg_m3|deg)\b")
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return tmp_path / "scene.toml"
+
+
+@pytest.mark.parametrize("method", ["steady", "transient", "staggered"])
+def test_a_solution_is_told_in_the_language(call, scene, language, method):
+    if method == "staggered":
+        scene.write_text(SCENE.replace("no-slip", "free"))
+    ended = call("solve", scene, "--method", method, "--language", language)
+    assert ended.code in (0, 4)
+    assert find_english(ended.out + ended.err) == set()
+    assert {"fr": "du poids", "de": "des Gewichts"}[language] in ended.out
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("slack = 0.05", "slack = 0.4"),
+        ("thickness_m = 2.5", "thickness_m = 2.5\nheight_vertical_m = 3"),
+        ("angle_deg = 38", "angle_deg = 95"),
+        ('law = "no-slip"', 'law = "sliding"'),
+        ('law = "no-slip"', 'law = "glatt"'),
+        ("friction_deg = 30", ""),
+        ("[net]", "[nets]"),
+        ("stiffness_kN_per_m = 8000", 'stiffness_kN_per_m = 8000\nkind = "rigid"'),
+        ("density_kg_m3 = 300", "density_kg_m3 = 300\ncreep_law = 'salm'"),
+        ("inclination_deg = 30", "inclination_deg = 30\nheight_m = 1"),
+    ],
+)
+def test_a_refused_scene_is_refused_in_the_language(call, scene, language, old, new):
+    scene.write_text(SCENE.replace(old, new))
+    ended = call("solve", scene, "--language", language)
+    assert ended.code in (3, 4)
+    told = ended.out + ended.err
+    assert find_english(re.sub(r"\b[a-z]+(\.[a-z_A-Z0-9]+)+\b", " ", told)) == set()
+
+
+def test_an_envelope_is_told_in_the_language(call, scene, language):
+    ranges = ("--density", "280:300:2", "--jobs", 1, "--accuracy", 0.05)
+    ended = call("envelope", scene, *ranges, "--language", language)
+    assert ended.code == 0
+    assert find_english(KEYS.sub(" ", ended.out + ended.err)) == set()
+    assert {"fr": "grille", "de": "Raster"}[language] in ended.err
+    assert {"fr": "calculés", "de": "gerechnet"}[language] in ended.out
+
+
+def test_a_check_and_what_is_told_of_its_study_speak_the_language(
+    call, tmp_path, monkeypatch, language
+):
+    monkeypatch.setenv("NETDESIGN_STORE", str(tmp_path / "cases.sqlite"))
+    write_short_example(tmp_path / "site.xlsx", ["R7"])
+    chosen = ("--language", language)
+    options = ("--accuracy", 0.05, "--jobs", 1, "--no-html", "--no-excel")
+    ended = call("check", "site.xlsx", *options, *chosen)
+    assert ended.code in (0, 1, 4)
+    assert find_english(ended.err) == set()  # its terminal page has tests of its own
+    study = "netdesign-out/study.json"
+    verified = call("verify", "--study", study, "--jobs", 1, *chosen)
+    assert verified.code == 0
+    assert find_english(verified.out + verified.err) == set()
+    same = call("diff", study, study, *chosen)
+    assert find_english(same.out) == set()
+    refused = call("report", study, "--site", "scene.toml", "--out", "new", *chosen)
+    assert refused.code == 3
+    assert find_english(refused.err) == set()
