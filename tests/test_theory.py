@@ -247,7 +247,7 @@ def test_a_citation_that_leads_nowhere_is_found():
     assert list_lost_sections("snow/THEORY.md, section 9") == [("snow", "9")]
     assert list_lost_sections("section 9", own="snow") == [("snow", "9")]
     assert list_lost_sections("tests/FACTS.md, section 9", own="snow") == []
-    assert list_lost_sections("FACTS.md, section 99") == [("FACTS", "99")]
+    assert list_lost_sections("FACTS.md, " + "section 99") == [("FACTS", "99")]
 
 
 def test_a_constant_that_is_none_is_found():
