@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import StrEnum
 
+from netdesign.words.message import Message, say
+
 
 class Outcome(StrEnum):
     """End of one solve. Only ``CONVERGED`` carries numbers that may be used."""
@@ -21,23 +23,19 @@ class Outcome(StrEnum):
     PROGRAM_FAULT = "program_fault"
 
     @property
-    def sentence(self) -> str:
+    def message(self) -> Message:
         """What the outcome means, for a report."""
-        return _SENTENCES[self]
+        return say(f"outcome.{self.value}")
 
+    @property
+    def word(self) -> Message:
+        """Its name, before a reason."""
+        return say(f"ended.{self.value}")
 
-_SENTENCES = {
-    Outcome.CONVERGED: "The solution converged and its balances were checked.",
-    Outcome.MAX_ITERATIONS: "The iteration limit was reached before convergence.",
-    Outcome.DIVERGED: "The iteration did not lower its energy or residual.",
-    Outcome.NONFINITE: "A value stopped being a finite number.",
-    Outcome.BALANCE_VIOLATED: "A balance, tension or friction test was not met.",
-    Outcome.NO_EQUILIBRIUM: "The net has no equilibrium under these loads.",
-    Outcome.PLATEAU_NOT_REACHED: "The history came to no plateau within its horizon.",
-    Outcome.OUT_OF_VALIDITY: "The scene lies outside what the model can represent.",
-    Outcome.WORKER_FAILED: "The process that computed this case ended early.",
-    Outcome.PROGRAM_FAULT: "A fault of the program, not of the input.",
-}
+    @property
+    def sentence(self) -> str:
+        """What the outcome means, in English."""
+        return str(self.message)
 
 
 class Verdict(StrEnum):

@@ -19,6 +19,8 @@ from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_table
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.words.message import Message
+from netdesign.words.names import read_reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +51,7 @@ class GuidelineResult:
     load: SnowLoad | None = None
     pull: NetPull | None = None
     anchors: AnchorForces | None = None
-    reason: str = ""
+    reason: Message | None = None
 
 
 def find_glide_factor(
@@ -102,9 +104,9 @@ def compare_with_guideline(
     factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
     share = model.case_2_height
     cases = (
-        ("same snow", density, height),
-        ("load case 1", factor * model.density, height),
-        ("load case 2", model.case_2_density, share * height),
+        ("same_snow", density, height),
+        ("load_case_1", factor * model.density, height),
+        ("load_case_2", model.case_2_density, share * height),
     )
     results = []
     for name, rho, h in cases:
@@ -112,7 +114,10 @@ def compare_with_guideline(
             result = _solve_case(model, net, name, rho, h, glide_factor)
         except ModelError as error:  # outside the closed forms
             result = GuidelineResult(
-                name=name, density=rho, height_vertical=h, reason=str(error)
+                name=name,
+                density=rho,
+                height_vertical=h,
+                reason=read_reason(getattr(error, "message", str(error))),
             )
         results.append(result)
     return tuple(results)
@@ -152,9 +157,9 @@ def _solve_case(
         post_spacing=net.layout.post_spacing,
     )
     if isinstance(anchors, FailedSupport):
-        reason, found = anchors.reason, None
+        reason, found = read_reason(anchors.reason), None
     else:
-        reason, found = "", anchors
+        reason, found = None, anchors
     return GuidelineResult(
         name=name,
         density=density,

@@ -101,7 +101,7 @@ def _describe_change(change: ChangeRecord, words: Callable[[str], str]) -> str:
     if change.solves:
         unit = "solve" if change.solves == 1 else "solves"
         text += f"; {change.solves} {words(unit)}"
-    return f"{text} ({words(change.note)})" if change.note else text
+    return f"{text} ({words(str(change.note))})" if change.note else text
 
 
 def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:

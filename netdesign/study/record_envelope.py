@@ -32,6 +32,7 @@ from netdesign.study.records import (
     MapRecord,
 )
 from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.words.names import read_reason
 
 _ANGLE_DECIMALS = 9  # undoes the rounding of degrees to radians and back
 _LINE_POINTS = 25
@@ -259,7 +260,7 @@ def _show_confirmation(one: Confirmation) -> ConfirmationRecord:
         difference_percent=None if difference is None else 100.0 * difference,
         elements=confirmed.elements if confirmed else None,
         screened_elements=screened.elements if screened else 0,
-        reason=one.confirmed.reason,
+        reason=read_reason(one.confirmed.reason),
     )
 
 

@@ -24,6 +24,8 @@ from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.records import MonitoringRecord
 from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import read_reason
 
 _START: Start = "steady"
 
@@ -34,7 +36,7 @@ class _Modelled:
 
     times_d: list[float]
     forces_kN: list[float]
-    reason: str = ""
+    reason: Message | None = None
 
 
 def follow_monitoring(
@@ -88,7 +90,7 @@ def _guard(
     if not isinstance(found, Fault):
         return found
     on_fault(found)
-    return _Modelled(times_d=[], forces_kN=[], reason=SENTENCE)
+    return _Modelled(times_d=[], forces_kN=[], reason=read_reason(SENTENCE))
 
 
 def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
@@ -113,20 +115,24 @@ def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
 
 def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
     if task.scene is None:
-        return _Modelled(times_d=[], forces_kN=[], reason=task.refusal)
+        return _Modelled(times_d=[], forces_kN=[], reason=read_reason(task.refusal))
+    reason: Message | None
     if task.layout is None or isinstance(task.settings, StaggeredSettings):
-        reason = "a history of member forces needs a support and an accuracy"
+        reason = say("monitoring.needs_support")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
-        reason = "a single reading has no history"
+        reason = say("monitoring.single_reading")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     clock = build_clock(series, task.scene)
     settings = TransientSettings(
         accuracy=task.settings.accuracy, start=_START, horizon=series.times[-1]
     )
     solution = solve_transient(task.scene, settings, clock=clock)
-    if isinstance(solution, FailedSolution) or solution.history is None:
-        reason = getattr(solution, "reason", "no history")
+    if isinstance(solution, FailedSolution):
+        reason = read_reason(solution.reason)
+        return _Modelled(times_d=[], forces_kN=[], reason=reason)
+    if solution.history is None:
+        reason = say("monitoring.no_history")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     return _read_member(task.layout, solution, solution.history.moments, series.member)
 
@@ -145,7 +151,7 @@ def _read_member(
             post_spacing=layout.post_spacing,
         )
         if isinstance(forces, FailedSupport):
-            return replace(found, reason=forces.reason)
+            return replace(found, reason=read_reason(forces.reason))
         found.times_d.append(day_from_second(moment.time))
         found.forces_kN.append(kilonewton_from_newton(forces.member_forces[member]))
     return found

@@ -3,6 +3,8 @@
 A language is a folder of TOML files, one for each area, whose tables give the first
 part of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistance``. A
 gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace.
+Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sentence
+that becomes part of another loses its full stop by ``{reason:clause}``.
 Every language has every key with the same gaps; a test says so.
 """
 
@@ -21,15 +23,19 @@ from netdesign.words.message import Message
 Language = Literal["en", "fr", "de"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
 
+_CLAUSE = "clause"
 
-def render(message: Message, language: Language) -> str:
-    """Text of a message in a language.
+
+def render(message: Message | str, language: Language) -> str:
+    """Text of a message in a language; somebody else's words stay.
 
     Raises
     ------
     KeyError
         If no text has this key, or an argument lacks: a fault of the program.
     """
+    if isinstance(message, str):
+        return message
     return _Gaps(language).vformat(
         load_texts(language)[message.key], (), message.arguments
     )
@@ -44,9 +50,11 @@ class _Gaps(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
         """An argument as text: words of ours in the language of the whole."""
         if isinstance(value, Message):
-            return render(value, self.language)
+            text = render(value, self.language)
+            return text.rstrip(".") if format_spec == _CLAUSE else text
         if isinstance(value, tuple):
-            return ", ".join(render(one, self.language) for one in value)
+            parts = (self.format_field(one, "") for one in value)
+            return (format_spec or ", ").join(parts)
         return str(super().format_field(value, format_spec))
 
 

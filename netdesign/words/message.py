@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TypeAlias
 
-Argument: TypeAlias = "str | int | float | Message | tuple[Message, ...]"
+Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class Message:
         Key of the text in ``words/LANGUAGE/AREA.toml``, as ``check.no_resistance``.
     arguments : mapping of str to Argument
         What stands in the gaps of the text. Somebody's own words are ``str``; words of
-        ours are a `Message`, rendered in the same language; a tuple is a list of them.
+        ours are a `Message`, rendered in the same language; a tuple is a list of both.
 
     Examples
     --------

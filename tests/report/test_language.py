@@ -10,8 +10,11 @@ from netdesign.report.page.html import render_html
 from netdesign.report.translation import translate_drawing, translate_view
 from netdesign.report.view.table import Cell
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.record_guideline import _SENTENCES as GUIDELINE_SENTENCES
+from netdesign.study.record_guideline import _SENTENCES
+from netdesign.words.message import say
 from tests.report.build_study import SCRIPT, build_study
+
+GUIDELINE_SENTENCES = {kind: str(say(key)) for kind, key in _SENTENCES.items()}
 
 # Not translated: texts of the made-up study, which no solver and no profile writes.
 MADE_UP = (
@@ -24,7 +27,10 @@ MADE_UP = (
     *("Partial factor of a tendon", "Partial factor of a tested anchor"),
     *("NF P 95-304 style profile, 1992", "secondary literature, see NOTES.md"),
     *("Smallest inclination of the net", "Largest inclination of the net"),
-    *("type =1+1 has 900 kN", "type =1+1 has 900 kN, now 480 kN"),
+    *(
+        "type =1+1 of the workbook has 900 kN",
+        "type =1+1 of the workbook has 900 kN, now 480 kN",
+    ),
 )
 WORD = re.compile(r"[^\W\d_]{4}")
 SHIPPED = ("nf-p-95-304-style", "eurocode", "onr-24805-style", "swiss-guideline-2007")

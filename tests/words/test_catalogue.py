@@ -14,7 +14,10 @@ from netdesign.words.message import say
 PACKAGE = Path(netdesign.__file__).parent
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
-FAMILIES: tuple[str, ...] = ()
+FAMILIES: tuple[str, ...] = (
+    *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
+    *("law.", "termination."),
+)
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])

@@ -34,7 +34,7 @@ def describe_monitoring(records: Sequence[MonitoringRecord]) -> str:
         "In snow of one temperature warmth only makes time run faster: a daily swing "
         "of the tension is not in the model. Drawn for comparison, it decides nothing."
     )
-    reasons = sorted({one.model_reason for one in records if one.model_reason})
+    reasons = sorted({str(one.model_reason) for one in records if one.model_reason})
     return f"{note} Without a history: {'; '.join(reasons)}." if reasons else note
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
+from netdesign.edge.json_text import list_fields
 from netdesign.study.records import Study
 
 if TYPE_CHECKING:
@@ -24,8 +24,9 @@ def build_case_table(study: Study) -> pandas.DataFrame:
     lines = []
     for row in study.rows:
         for record in row.cases:
-            fields = asdict(record)
-            point = fields.pop("case")
+            fields = list_fields(record)
+            point = list_fields(fields.pop("case"))
+            fields["reason"] = str(record.reason or "")
             lines.append({"net_row": row.id, **point, **fields})
     return pandas.DataFrame(lines)
 

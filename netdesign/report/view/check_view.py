@@ -136,7 +136,7 @@ def view_check(check: CheckRecord) -> CheckView:
         verdict=VERDICTS[check.verdict],
         case=name_case(check.case),
         case_short=name_case_short(check.case),
-        reason=show_text(check.reason),
+        reason=show_text(str(check.reason)),
     )
 
 
@@ -202,7 +202,7 @@ def _derive_resistance(check: CheckRecord) -> tuple[Step, ...]:
     return (
         Step(
             symbols="R_k",
-            numbers=show_text(check.resistance_derivation),
+            numbers=show_text(str(check.resistance_derivation)),
             result=show_with_unit("resistance_characteristic_kN", given),
         ),
     )

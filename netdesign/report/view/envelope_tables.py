@@ -64,7 +64,7 @@ def _bound_row(bound: BoundRecord) -> tuple[Cell, ...]:
     gap = bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN > 0.0 else 0.0
     by = MISSING
     if again is not None:
-        by = again.reason or f"{again.method}, {again.elements} triangles"
+        by = str(again.reason or "") or f"{again.method}, {again.elements} triangles"
     difference = again.difference_percent if again else None
     return (
         word_cell(name_member(bound.quantity)),

@@ -23,7 +23,13 @@ from netdesign.report.words import (
     show_quantity,
     show_with_unit,
 )
-from netdesign.study.records import ChangeRecord, CheckRecord, RowStudy, SpreadRecord
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    GuidelineCase,
+    RowStudy,
+    SpreadRecord,
+)
 
 _LAWS = {
     "global_balance": "Force missing from the global balance, over the weight",
@@ -125,13 +131,18 @@ def build_guideline(row: RowStudy) -> Table:
     )
     cases = tuple(
         (
-            word_cell(f"{case.name}: {case.reason}" if case.reason else case.name),
+            word_cell(_name_load_case(case)),
             number_cell("density_kg_m3", case.density_kg_m3),
             *(number_cell(key, getattr(case, key)) for key in _GUIDELINE),
         )
         for case in record.cases
     )
     return Table(caption=caption, columns=columns, rows=(solved, *cases), empty=empty)
+
+
+def _name_load_case(case: GuidelineCase) -> str:
+    name = case.name.replace("_", " ")
+    return f"{name}: {case.reason}" if case.reason else name
 
 
 def build_spreads(check: CheckRecord | None) -> Table:
@@ -159,12 +170,12 @@ def _spread_row(check: CheckRecord, spread: SpreadRecord) -> tuple[Cell, ...]:
     demands = [_scale(end, resistance) for end in ends]
     changes = [_compare(end, used) for end in ends]
     return (
-        word_cell(spread.source),
+        word_cell(str(spread.source)),
         word_cell(show_band("utilisation", *ends)),
         *(number_cell("demand_kN", demand) for demand in demands),
         *(number_cell("change_percent", change) for change in changes),
         word_cell("yes" if spread.in_verdict else "no, for comparison"),
-        word_cell(spread.note),
+        word_cell(str(spread.note or "")),
     )
 
 
@@ -208,7 +219,7 @@ def build_changes(row: RowStudy) -> Table:
                 word_cell(describe_change(change)),
                 Cell(text=_show(change.now, change.unit), number=None),
                 given_cell(change.solves),
-                word_cell(change.note),
+                word_cell(str(change.note or "")),
             )
             for check in row.checks
             for change in check.changes

@@ -110,8 +110,8 @@ def build_failed(row: RowStudy) -> Table:
 
 def _explain(case: CaseRecord) -> Cell:
     if case.outcome is Outcome.CONVERGED:
-        return word_cell(case.reason)
-    return word_cell(f"{case.outcome.sentence} {case.reason}")
+        return word_cell(str(case.reason or ""))
+    return word_cell(f"{case.outcome.sentence} {case.reason or ''}")
 
 
 def build_cases(row: RowStudy) -> Table:

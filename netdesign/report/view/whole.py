@@ -29,7 +29,6 @@ from netdesign.report.words import (
     VERDICTS,
     VerdictWords,
     name_case,
-    name_check,
     name_member,
     show_quantity,
     show_text,
@@ -141,7 +140,7 @@ def build_view(study: Study) -> ReportView:
         ranges=tables.build_inputs(study.range_inputs, "Ranges of the envelope"),
         profile_title=show_text(f"{study.profile.title}, {study.profile.edition}"),
         profile=tables.build_profile(study),
-        notes=tuple(show_text(note) for note in study.notes),
+        notes=tuple(show_text(str(note)) for note in study.notes),
         quality=tables.build_quality(study),
         outcomes=tables.build_outcomes(study),
         provenance=tables.build_provenance(study),
@@ -189,18 +188,14 @@ def _view_row(row: RowStudy, number: int) -> RowView:
         flips=row_tables.list_flips(governing),
         independent=row_tables.build_independent(row),
         guideline=row_tables.build_guideline(row),
-        guideline_sentence=row.guideline.sentence if row.guideline else "",
-        notes=tuple(show_text(note) for note in row.notes),
+        guideline_sentence=str(row.guideline.sentence) if row.guideline else "",
+        notes=tuple(show_text(str(note)) for note in row.notes),
     )
 
 
 def _name_reasons(row: RowStudy) -> tuple[str, ...]:
     """Reasons of a row, each under the name of its check instead of its key."""
-    names = {f"{check.member}.{check.mode}": name_check(check) for check in row.checks}
-    parts = [reason.partition(": ") for reason in row.reasons]
-    return tuple(
-        show_text(f"{names.get(head, head)}{mark}{rest}") for head, mark, rest in parts
-    )
+    return tuple(show_text(str(reason)) for reason in row.reasons)
 
 
 def _name_unloaded(row: RowStudy) -> str:

@@ -18,6 +18,7 @@ from netdesign.study.records import (
     ExtremeRecord,
     RowStudy,
 )
+from netdesign.words.names import read_reason
 
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _AXES = ("density_kg_m3", "friction_deg", "inclination_deg")
@@ -79,7 +80,7 @@ def _audit_case(
         numbers += [case.error_percent, case.balance_residual]
     if case.outcome is Outcome.CONVERGED:
         is_whole = all(number is not None and number >= 0.0 for number in numbers)
-        if not is_whole or case.reason not in ("", RELEASED):
+        if not is_whole or case.reason not in (None, read_reason(RELEASED)):
             yield f"{place} converged, but has a reason, or no numbers of at least 0"
         elif (case.balance_residual or 0.0) > tolerance:
             yield f"{place} converged, but its balance is left open"

@@ -104,7 +104,7 @@ def test_first_page_lists_the_assumed_values(page):
 def test_card_says_what_would_flip_the_governing_check(page):
     card = page[page.index('id="verdict"') : page.index('id="identification"')]
     assert "It passes with any one of these alone:" in card
-    assert "type =1+1 has 900 kN, now 480 kN" in card
+    assert "type =1+1 of the workbook has 900 kN, now 480 kN" in card
     assert "snow density" not in card  # no density flips it
 
 
