@@ -43,7 +43,7 @@ def build_run(study: Study, jobs: int) -> CheckRun:
         raise StudyError(f"provenance.settings: cannot be had again: {error}") from None
     if given.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
-            f"provenance.settings: creep law {given.get('creep law')!r:.120}: this "
+            f"provenance.settings: creep law {given.get('creep_law')!r:.120}: this "
             f"version solves with {name_law(run.creep_law)!r}"
         )
     return run

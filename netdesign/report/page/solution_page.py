@@ -27,9 +27,16 @@ from netdesign.report.view.table import (
     name_columns,
     number_cell,
     number_column,
+    quantity_column,
     text_cell,
 )
-from netdesign.report.words import show_given, show_number, show_text, show_with_unit
+from netdesign.report.words import (
+    ENGLISH,
+    show_given,
+    show_number,
+    show_text,
+    show_with_unit,
+)
 
 Solved = Solution | WallSolution | FailedSolution
 PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history.csv"
@@ -236,8 +243,8 @@ def _tabulate_nodes(document: dict[str, Any]) -> Table:
         Column(heading="Node", is_number=True),
         number_column("sag_m", "x [m]"),
         number_column("sag_m", "y [m]"),
-        number_column("force_x_kN_per_m"),
-        number_column("force_y_kN_per_m"),
+        quantity_column(ENGLISH, "force_x_kN_per_m"),
+        quantity_column(ENGLISH, "force_y_kN_per_m"),
         Column(heading="Snow"),
     )
     rows = tuple(
