@@ -11,7 +11,12 @@ def name(family: str, key: str) -> Message:
     text = f"{family}.{key}"
     if text in load_texts("en"):
         return say(text)
-    return say("text.as_given", text=key.replace("_", " "))
+    return as_given(key.replace("_", " "))
+
+
+def as_given(text: str) -> Message:
+    """Somebody else's words, as they are in every language."""
+    return say("text.as_given", text=text)
 
 
 def name_member(member: str) -> Message:
@@ -33,4 +38,4 @@ def read_reason(reason: Message | str | None) -> Message | None:
     """Reason as a message; None for none. Somebody else's words stay as they are."""
     if isinstance(reason, Message):
         return reason
-    return say("text.as_given", text=reason) if reason else None
+    return as_given(reason) if reason else None

@@ -19,7 +19,16 @@ FAMILIES: tuple[str, ...] = (
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
     *("method.", "method_used.", "setting.", "start.", "end.", "input_end."),
-    *("profile_title.", "profile_text.", "profile_source."),
+    *("profile_title.", "profile_text.", "profile_source.", "solve_method."),
+    *(
+        "solve_caption.",
+        "solve.foot",
+        "solve.head",
+        "diff_value.",
+        "diff_check.",
+        "diff_project.",
+        "diff_area.",
+    ),
 )
 
 
