@@ -120,7 +120,7 @@ def test_a_check_that_does_not_govern_turns_first_and_by_name():
     )
     assert first.is_turned
     assert not any(change.is_turned for change in others)
-    told = [change.what for change in others]
+    told = [change.name(ENGLISH) for change in others]
     assert f"{name}: resistance [kN]" in told
     assert f"{name}: utilisation" in told
 
