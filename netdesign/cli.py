@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from netdesign.site.model import Site
     from netdesign.solving.solve import Settings
     from netdesign.study.records import Study
+    from netdesign.words.catalogue import Language
 
 DEFAULT_STANDARD = "nf-p-95-304-style"
 EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
@@ -470,18 +471,17 @@ def _show(
     from netdesign.study.records import write_document
 
     if not as_json:
-        from netdesign.report.language import load_words
         from netdesign.report.terminal import (
             open_console,
             print_changes,
             print_summary,
         )
 
-        words, console = load_words(language), open_console()
+        console = open_console()
         for study in studies:
-            print_summary(study, console, words)
+            print_summary(study, console, language)
             if explain:
-                print_changes(study, console, words)
+                print_changes(study, console, language)
     elif len(studies) == 1:
         print_json(write_document(studies[0]))
     else:

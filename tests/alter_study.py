@@ -2,15 +2,31 @@
 
 from netdesign.outcome import Outcome, Verdict
 
-OBJECTS = ("action", "case", "drawing", "guideline", "envelope", "confirmation")
+OBJECTS = (
+    "action",
+    "case",
+    "drawing",
+    "guideline",
+    "envelope",
+    "confirmation",
+    "note",
+    "reason",
+    "model_reason",
+    "resistance_derivation",
+)
 WORDS = ([*Verdict], [*Outcome])
 
 
 def list_leaves(part, path=()):
-    """Path of every value of a JSON document that is no list and no object."""
+    """Path of every value of a JSON document that is no list and no object.
+
+    The key of a message is none: another one is refused.
+    """
     if not isinstance(part, dict | list):
         return [] if part is None and path[-1] in OBJECTS else [path]
     members = part.items() if isinstance(part, dict) else enumerate(part)
+    if isinstance(part, dict) and set(part) == {"key", "arguments"}:
+        members = [("arguments", part["arguments"])]  # another key has no text
     return [leaf for key, one in members for leaf in list_leaves(one, (*path, key))]
 
 

@@ -15,6 +15,7 @@ from netdesign.site.model import (
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.study.cases import CheckRun
+from netdesign.words.names import as_given
 
 STRONG, WEAK = 1e7, 1e3  # [N]
 RUN = CheckRun(
@@ -73,7 +74,7 @@ def build_site(*rows, **changes):
         "rows": rows,
         "file_name": "site.xlsx",
         "sha256": "0" * 64,
-        "notes": ("column X was not read",),
+        "notes": (as_given("column X was not read"),),
     }
     return Site(**(values | changes))
 

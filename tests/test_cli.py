@@ -530,7 +530,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
     )
     assert result.returncode == 1, result.stderr
     document = json.loads(result.stdout)
-    assert document["schema"] == "netdesign.study/1"
+    assert document["schema"] == "netdesign.study/2"
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
     verdicts = {row["id"]: row["verdict"] for row in document["rows"]}

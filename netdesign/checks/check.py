@@ -13,6 +13,8 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import compute_pull_out_from_tests
+from netdesign.words.message import Message, say
+from netdesign.words.names import name, name_member, name_mode
 
 
 def judge(
@@ -52,7 +54,11 @@ def judge(
 
 
 def check_member(
-    action: Band | None, resistance: GivenResistance, standard: Standard, *, gap: str
+    action: Band | None,
+    resistance: GivenResistance,
+    standard: Standard,
+    *,
+    gap: Message | None,
 ) -> CheckResult:
     """Check one member in one mode: factored action against factored resistance.
 
@@ -65,8 +71,8 @@ def check_member(
         Names member and mode; its value [N] may be missing.
     standard : Standard
         Profile that gives the partial factors.
-    gap : str
-        Why the action does not cover every case ("3 of 40 cases failed"); "" if it
+    gap : Message or None
+        Why the action does not cover every case ("3 of 40 cases failed"); None if it
         does. With a gap nothing passes.
 
     Returns
@@ -75,7 +81,7 @@ def check_member(
         Never a pass where anything needed is missing.
     """
     if action is None:
-        gap = gap or "no case was solved"
+        gap = gap or say("check.no_case_solved")
     on_action = standard.find(ACTION_FACTOR)
     on_resistance = standard.find_resistance_factor(resistance.mode, resistance.basis)
     demand = action.times(on_action.value_si) if action and on_action else None
@@ -85,10 +91,10 @@ def check_member(
     gaps = [gap] if gap else []
     gaps += [lack] if lack else []
     gaps += _missing(resistance, standard, on_action, on_resistance)
-    is_slack = action is not None and action.high == 0.0 and not gap
+    is_slack = action is not None and action.high == 0.0 and gap is None
     if is_slack:  # nothing to resist: the utilisation is 0 of any resistance
         utilisation, gaps = action, []
-    verdict = _judge_utilisation(utilisation, is_complete=not gap)
+    verdict = _judge_utilisation(utilisation, is_complete=gap is None)
     return CheckResult(
         id=f"{resistance.member}.{resistance.mode}",
         clause=on_resistance.clause if on_resistance else "-",
@@ -109,7 +115,7 @@ def check_member(
 
 def find_characteristic(
     resistance: GivenResistance, standard: Standard
-) -> tuple[float | None, str]:
+) -> tuple[float | None, Message | None]:
     """Characteristic resistance, and what is missing for it.
 
     Parameters
@@ -123,19 +129,17 @@ def find_characteristic(
     -------
     float or None
         [N]; None where it cannot be known.
-    str
-        Why it cannot be known, or is not usable; "" if it can.
+    Message or None
+        Why it cannot be known, or is not usable; None if it can.
     """
-    member = f"{resistance.member} ({resistance.mode})"
-    named = f"type {resistance.type_id}" if resistance.type_id else member
-    what = f"{named}, cell {resistance.source}"
+    what = _name_place(resistance)
     if resistance.value is not None:
         if _is_usable(resistance.value):
-            return resistance.value, ""
-        lack = f"the resistance {resistance.value!r} N is not usable for {what}"
-        return resistance.value, lack
+            return resistance.value, None
+        value = resistance.value
+        return value, say("check.resistance_not_usable", value=value, what=what)
     if resistance.tests is None:
-        return None, f"no resistance is given for {what}"
+        return None, say("check.no_resistance", what=what)
     factors = [
         table.find(resistance.tests.count) if table else None
         for table in map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
@@ -143,14 +147,21 @@ def find_characteristic(
     on_mean, on_least = factors
     if on_mean is None or on_least is None:
         count = resistance.tests.count
-        return (
-            None,
-            f"the profile has no correlation factors for {count} tests ({what})",
-        )
+        return None, say("check.no_correlation", count=count, what=what)
     value = compute_pull_out_from_tests(
         resistance.tests, correlation_mean=on_mean, correlation_least=on_least
     )
-    return value, ""
+    return value, None
+
+
+def _name_place(resistance: GivenResistance) -> Message:
+    """Type, or member and mode, with the cell of a resistance."""
+    if resistance.type_id:
+        kind = say("check.type", type=resistance.type_id)
+    else:
+        member, mode = name_member(resistance.member), name_mode(resistance.mode)
+        kind = say("check.member_in_mode", member=member, mode=mode)
+    return say("check.of_cell", what=kind, cell=resistance.source)
 
 
 def _judge_utilisation(utilisation: Band | None, *, is_complete: bool) -> Verdict:
@@ -178,14 +189,18 @@ def _missing(
     standard: Standard,
     on_action: StandardValue | None,
     on_resistance: StandardValue | None,
-) -> list[str]:
+) -> list[Message]:
     """List the factors that a utilisation lacks, by their names."""
     lacks = []
     if on_action is None:
-        lacks.append(f"the profile has no factor {ACTION_FACTOR}")
+        lacks.append(say("check.no_factor", factor=ACTION_FACTOR))
     if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
-        basis = f" with basis {resistance.basis!r}" if resistance.basis else ""
-        lacks.append(f"the profile has no factor resistance.{resistance.mode}{basis}")
+        factor = f"resistance.{resistance.mode}"
+        if resistance.basis:
+            basis = name("basis", resistance.basis)
+            lacks.append(say("check.no_factor_of_basis", factor=factor, basis=basis))
+        else:
+            lacks.append(say("check.no_factor", factor=factor))
     return lacks
 
 
@@ -197,17 +212,21 @@ def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -
     )
 
 
-def _explain(verdict: Verdict, gaps: list[str], *, is_slack: bool) -> str:
+def _explain(verdict: Verdict, gaps: list[Message], *, is_slack: bool) -> Message:
     """One sentence without digits, so that rounding cannot contradict it."""
-    also = "; ".join(gaps)
+    also = tuple(gaps)
     if verdict is Verdict.FAIL:
-        finding = "The demand exceeds the resistance over its whole band"
-        return f"{finding}; besides, {also}." if gaps else f"{finding}."
+        if also:
+            return say("check.fails_besides", gaps=also)
+        return say("check.fails")
     if verdict is Verdict.NOT_PROVEN:
-        return f"Not proven: {also or 'the band of the demand spans the resistance'}."
-    if is_slack:
-        return "The member is slack in every case and needs no resistance."
-    return "The demand stays within the resistance over its whole band."
+        return not_proven(*also or (say("check.band_spans_resistance"),))
+    return say("check.slack") if is_slack else say("check.passes")
+
+
+def not_proven(*gaps: Message) -> Message:
+    """The sentence of a check that is not proven, with what is missing."""
+    return say("check.not_proven", gaps=gaps)
 
 
 def list_assumed(*values: StandardValue | None) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from netdesign.checks.check import judge, list_assumed
+from netdesign.checks.check import judge, list_assumed, not_proven
 from netdesign.checks.loader import Standard, StandardValue
 from netdesign.checks.result import CheckResult
 from netdesign.checks.schema import (
@@ -21,12 +21,22 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import Verdict
 from netdesign.units import degree_from_radian, radian_from_percent
+from netdesign.words.message import Message, say
 
-_PLACES = {
-    Verdict.PASS: "lies inside",
-    Verdict.FAIL: "lies outside",
-    Verdict.NOT_PROVEN: "is not all inside",
+# Sentences by verdict, or by whether a limit is kept.
+_INCLINATIONS = {
+    Verdict.PASS: "geometry.inclination_inside",
+    Verdict.FAIL: "geometry.inclination_outside",
+    Verdict.NOT_PROVEN: "geometry.inclination_not_all_inside",
 }
+_SLOPES = {
+    Verdict.PASS: "geometry.slope_inside",
+    Verdict.FAIL: "geometry.slope_outside",
+    Verdict.NOT_PROVEN: "geometry.slope_not_all_inside",
+}
+_HEIGHTS = {True: "geometry.height_reaches", False: "geometry.height_too_low"}
+_SPACINGS = {True: "geometry.spacing_within", False: "geometry.spacing_exceeds"}
+_GAPS = {True: "geometry.gap_within", False: "geometry.gap_exceeds"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,13 +99,15 @@ def check_inclination(low: float, high: float, standard: Standard) -> CheckResul
     """
     least, most = standard.find(MIN_INCLINATION), standard.find(MAX_INCLINATION)
     if least is None or most is None:
-        reason = "Not proven: the profile has no limits of the net inclination."
+        reason = not_proven(say("geometry.no_inclination_limits"))
         return _result("inclination", Verdict.NOT_PROVEN, reason)
     verdict = judge(low, high, least=least.value_si, most=most.value_si)
-    given = f"{degree_from_radian(low):g} to {degree_from_radian(high):g} degrees"
-    reason = (
-        f"The net inclination {given} {_PLACES[verdict]} {least.value:g} to "
-        f"{most.value:g} degrees."
+    reason = say(
+        _INCLINATIONS[verdict],
+        low=degree_from_radian(low),
+        high=degree_from_radian(high),
+        least=least.value,
+        most=most.value,
     )
     return _result("inclination", verdict, reason, least, most)
 
@@ -114,18 +126,21 @@ def check_slope(slope_angle: float, standard: Standard) -> CheckResult:
     most = standard.find(MOST_PLAUSIBLE_SLOPE)
     plausible = _judge_slope(slope_angle, least, most)
     if least is None or most is None or plausible is None:
-        reason = "Not proven: the profile has no plausible range of the slope angle."
+        reason = not_proven(say("geometry.no_plausible_slope"))
         return _result("slope", Verdict.NOT_PROVEN, reason)
     if plausible.verdict is Verdict.PASS:
         return limits or plausible
     number = degree_from_radian(slope_angle)
     meant = degree_from_radian(radian_from_percent(number))
-    guess = f" Is it a percentage? {number:g} % are {meant:.4g} degrees."
-    reason = (
-        f"Not proven: the slope angle {number:g} degrees lies outside the plausible "
-        f"{least.value:g} to {most.value:g} degrees."
-        f"{guess if slope_angle > most.value_si else ''}"
+    gap = say(
+        "geometry.slope_not_plausible",
+        slope=number,
+        least=least.value,
+        most=most.value,
     )
+    reason = not_proven(gap)
+    if slope_angle > most.value_si:
+        reason = say("geometry.percentage", reason=reason, slope=number, meant=meant)
     return _result("slope", Verdict.NOT_PROVEN, reason, least, most)
 
 
@@ -135,9 +150,11 @@ def _judge_slope(
     if least is None or most is None:
         return None
     verdict = judge(slope_angle, slope_angle, least=least.value_si, most=most.value_si)
-    reason = (
-        f"The slope angle {degree_from_radian(slope_angle):g} degrees "
-        f"{_PLACES[verdict]} {least.value:g} to {most.value:g} degrees."
+    reason = say(
+        _SLOPES[verdict],
+        slope=degree_from_radian(slope_angle),
+        least=least.value,
+        most=most.value,
     )
     return _result("slope", verdict, reason, least, most)
 
@@ -154,8 +171,8 @@ def check_height(
         return None
     needed = ratio.value * snow_thickness
     verdict = judge(net_height, net_height, least=needed, most=math.inf)
-    word = "reaches" if verdict is Verdict.PASS else "does not reach"
-    reason = f"The net height {net_height:g} m {word} the {needed:g} m that are needed."
+    key = _HEIGHTS[verdict is Verdict.PASS]
+    reason = say(key, height=net_height, needed=needed)
     return _result("height", verdict, reason, ratio)
 
 
@@ -195,8 +212,8 @@ def check_row_spacing(row: RowGeometry, standard: Standard) -> CheckResult | Non
     most = compute_largest_row_spacing(row.slope_angle, row.net_height, friction.value)
     length = row.upslope_length
     verdict = judge(length, length, least=0.0, most=most)
-    word = "is within" if verdict is Verdict.PASS else "exceeds"
-    reason = f"The distance of the rows {length:g} m {word} f_L H_K = {most:.4g} m."
+    key = _SPACINGS[verdict is Verdict.PASS]
+    reason = say(key, length=length, most=most)
     return _result("spacing", verdict, reason, friction)
 
 
@@ -207,15 +224,14 @@ def check_gap(gap: float, standard: Standard) -> CheckResult | None:
         return None
     verdict = judge(gap, gap, least=0.0, most=most.value)
     if verdict is Verdict.NOT_PROVEN:
-        reason = "Not proven: no gap to the next work is given."
+        reason = not_proven(say("geometry.no_gap"))
     else:
-        word = "is within" if verdict is Verdict.PASS else "exceeds"
-        reason = f"The gap to the next work {gap:g} m {word} {most.value:g} m."
+        reason = say(_GAPS[verdict is Verdict.PASS], gap=gap, most=most.value)
     return _result("gap", verdict, reason, most)
 
 
 def _result(
-    mode: str, verdict: Verdict, reason: str, *values: StandardValue
+    mode: str, verdict: Verdict, reason: Message, *values: StandardValue
 ) -> CheckResult:
     return CheckResult(
         id=f"geometry.{mode}",

@@ -9,7 +9,7 @@ from typing import Protocol
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +82,7 @@ class CheckResult:
         Name of the check, clause of its limit ("-" if none), and its subject.
     verdict : Verdict
         From ``check.judge`` alone.
-    reason : str
+    reason : Message
         Why, in one sentence.
     action : Band or None
         Characteristic force [N].
@@ -103,7 +103,7 @@ class CheckResult:
     member: str
     mode: str
     verdict: Verdict
-    reason: str
+    reason: Message
     action: Band | None = None
     action_factor: float | None = None
     demand: Band | None = None

@@ -14,6 +14,7 @@ from netdesign.report.page.solution_page import (
 )
 from netdesign.snow.wall import Wall
 from netdesign.solving.solve import Settings, method_of
+from netdesign.words.catalogue import Language
 
 
 def require_free_folder(
@@ -38,9 +39,10 @@ def write_solution_folder(
     scene_file: str,
     *,
     overwrite: bool,
+    language: Language = "en",
 ) -> list[Path]:
     """Write page, drawings, tables and document; their paths."""
-    contents = render_solution(solution, document, scene_file)
+    contents = render_solution(solution, document, scene_file, language)
     files = {folder / name: content for name, content in contents.items()}
     write_files(files, overwrite=overwrite)
     return list(files)

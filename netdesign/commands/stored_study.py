@@ -87,9 +87,7 @@ def contradict_command(study: Study) -> Iterator[Message]:
     accuracy, method = values.get("accuracy"), values.get("method")
     if accuracy is not None and not _is_number(accuracy, made.settings.get("accuracy")):
         yield say("stored.asks_accuracy", given=f"{accuracy!r:.20}")
-    used = made.settings.get("method", "").partition(";")[0]
-    is_transient = used != made.settings.get("method", "")
-    if method is not None and (method == "transient") is not is_transient:
+    if method is not None and method != made.settings.get("method"):
         yield say("stored.asks_method", given=f"{method!r:.20}")
     standards = values.get("standards") or ()
     if standards and not any(_may_be(one, study.profile.id) for one in standards):

@@ -9,6 +9,7 @@ from functools import lru_cache
 from json.encoder import encode_basestring
 from math import isfinite
 from operator import attrgetter
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from netdesign.errors import ContentError
@@ -55,7 +56,7 @@ def _write_value(value: Any, margin: str) -> str:
     """
     inside = f"{margin} "
     encode = _build_encoder(inside).encode
-    if is_dataclass(value):
+    if is_dataclass(value) or isinstance(value, MappingProxyType):
         value = list_fields(value)
     if not value or not isinstance(value, dict | list | tuple):
         return encode(value)
@@ -90,7 +91,12 @@ def _write_key(key: str) -> str:
 
 
 def list_fields(value: Any) -> dict[str, Any]:
-    """Fields of a dataclass as they are; quicker than a copy of all that is in them."""
+    """Fields of a dataclass as they are; quicker than a copy of all that is in them.
+
+    Of a mapping that cannot be changed, its members.
+    """
+    if isinstance(value, MappingProxyType):
+        return dict(value)
     shape: type = type(value)
     names, read = _open_shape(shape)
     return dict(zip(names, read(value), strict=True))

@@ -142,9 +142,9 @@ def compare_with_guideline(
     factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
     share = model.case_2_height
     cases = (
-        ("same snow", density, height),
-        ("load case 1", factor * model.density, height),
-        ("load case 2", model.case_2_density, share * height),
+        ("same_snow", density, height),
+        ("load_case_1", factor * model.density, height),
+        ("load_case_2", model.case_2_density, share * height),
     )
     results = []
     for name, rho, h in cases:

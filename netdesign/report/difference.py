@@ -11,30 +11,37 @@ from typing import Any, TypeVar
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.report.view.check_view import find_governing
+from netdesign.report.view.input_names import show_input
+from netdesign.report.words import Words, add_unit
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import Difference, compare_values
+from netdesign.words.catalogue import Language
+from netdesign.words.message import Message, say
+from netdesign.words.names import as_given, name
 
 SCHEMA = "netdesign.diff/1"
+_WITH_UNIT = "diff.with_unit"
 _MET, _UNMET = "met", "not met"
 _PASSING = (str(Verdict.PASS), _MET)
 _RANKS = {str(Verdict.PASS): 0, _MET: 0, str(Verdict.NOT_PROVEN): 1, _UNMET: 1}
 _WORST = 2  # rank of a failure, and of what is no longer there
 # Values of a check that are told one by one; what follows from them is told in sum.
-_OF_CHECK = {
-    "utilisation": "utilisation",
-    "demand_kN": "demand [kN]",
-    "demand_low_kN": "demand, low end [kN]",
-    "demand_high_kN": "demand, high end [kN]",
-    "resistance_kN": "resistance [kN]",
-    "action_factor": "action factor",
-    "resistance_characteristic_kN": "characteristic resistance [kN]",
-    "resistance_factor": "resistance factor",
-    "resistance_basis": "resistance basis",
-    "resistance_type": "resistance type",
-    "clause": "clause",
-}
+_OF_CHECK = (
+    "utilisation",
+    "demand_kN",
+    "demand_low_kN",
+    "demand_high_kN",
+    "resistance_kN",
+    "action_factor",
+    "resistance_characteristic_kN",
+    "resistance_factor",
+    "resistance_basis",
+    "resistance_type",
+    "clause",
+)
 _MOST_DIGITS = 17  # tell any two numbers apart
 _Value = TypeVar("_Value")
+Named = Mapping[Message, Any]  # values by their names
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +55,7 @@ class Change:
         ``input``, ``settings`` or ``other``.
     row : str
         Id of the net row; empty for the whole study.
-    what : str
+    what : Message
         Name of the value.
     old, new : object
         The values, in the unit that ``what`` names.
@@ -56,15 +63,33 @@ class Change:
 
     area: str
     row: str = ""
-    what: str
+    what: Message
     old: Any
     new: Any
 
     def __str__(self) -> str:
         """``R1: utilisation: 0.73 -> 0.81``."""
-        place = f"{self.row}: " if self.row else ""
-        sentence = f"{place}{self.what}: {' -> '.join(_show(self.old, self.new))}"
+        return self.tell("en")
+
+    def tell(self, language: Language) -> str:
+        """The change on one line, in a language."""
+        words = Words(language)
+        old, new = (_name_value(self.area, one, words) for one in (self.old, self.new))
+        before, after = _show(old, new, words("diff.none"))
+        told = {"what": self.name(words), "old": before, "new": after}
+        if self.row:
+            sentence = words("diff.change_of_row", row=self.row, **told)
+        else:
+            sentence = words("diff.change", **told)
         return make_printable(sentence.replace("\n", " "))
+
+    def name(self, words: Words) -> str:
+        """Name of the value; inputs have those of the site workbook."""
+        is_input = self.area in ("range", "input") and self.what.key == _WITH_UNIT
+        if not is_input:
+            return words.show(self.what)
+        label, unit = (str(self.what.arguments[key]) for key in ("what", "unit"))
+        return add_unit(show_input(words, label), unit)
 
     @property
     def is_turned(self) -> bool:
@@ -84,14 +109,14 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     pairs = [(name, rows_old.get(name), rows_new.get(name)) for name in ids]
     both = [(name, one, other) for name, one, other in pairs if one and other]
     verdicts = [
-        *_compare("verdict", "", {"verdict": old.verdict}, {"verdict": new.verdict}),
+        *_compare("verdict", "", _name_verdict(old), _name_verdict(new)),
         *(change for pair in pairs for change in _compare_verdicts(*pair)),
     ]
     return [
         *sorted(verdicts, key=_rank),
         *_compare_rows("governing", both, _list_governing),
         *_compare_rows("check", both, _list_checks),
-        *_compare("project", "", asdict(old.project), asdict(new.project)),
+        *_compare("project", "", _list_project(old), _list_project(new)),
         *_compare("profile", "", _list_profile(old), _list_profile(new)),
         *_compare(
             "range", "", _list_inputs(old.range_inputs), _list_inputs(new.range_inputs)
@@ -109,9 +134,27 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
     ]
 
 
-def write_difference(changes: Sequence[Change]) -> dict[str, Any]:
-    """JSON document of the changes."""
-    return {"schema": SCHEMA, "changes": [asdict(change) for change in changes]}
+def name_area(area: str, language: Language) -> str:
+    """Heading of the changes of one area."""
+    return Words(language)(f"diff_area.{area}")
+
+
+def write_difference(
+    changes: Sequence[Change], language: Language = "en"
+) -> dict[str, Any]:
+    """JSON document of the changes; only their names follow the language."""
+    words = Words(language)
+    listed = [
+        {
+            "area": one.area,
+            "row": one.row,
+            "what": one.name(words),
+            "old": one.old,
+            "new": one.new,
+        }
+        for one in changes
+    ]
+    return {"schema": SCHEMA, "changes": listed}
 
 
 def _rank(change: Change) -> tuple[bool, bool]:
@@ -129,21 +172,21 @@ def _compare_verdicts(
         yield from _compare("verdict", name, _list_verdicts(old), _list_verdicts(new))
         return
     ends = [str(row.verdict) if row else None for row in (old, new)]
-    yield Change(area="verdict", row=name, what="net row", old=ends[0], new=ends[1])
+    yield Change(
+        area="verdict", row=name, what=say("diff.net_row"), old=ends[0], new=ends[1]
+    )
 
 
 def _compare_rows(
     area: str,
     pairs: Sequence[tuple[str, RowStudy, RowStudy]],
-    describe: Callable[[RowStudy], Mapping[str, Any]],
+    describe: Callable[[RowStudy], Named],
 ) -> Iterator[Change]:
-    for name, old, new in pairs:
-        yield from _compare(area, name, describe(old), describe(new))
+    for row, old, new in pairs:
+        yield from _compare(area, row, describe(old), describe(new))
 
 
-def _compare(
-    area: str, row: str, old: Mapping[str, Any], new: Mapping[str, Any]
-) -> Iterator[Change]:
+def _compare(area: str, row: str, old: Named, new: Named) -> Iterator[Change]:
     for what in dict.fromkeys((*old, *new)):
         before, after = old.get(what), new.get(what)
         if before != after:
@@ -159,84 +202,109 @@ def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
     differences = compare_values(old, new, is_exact=True)
     for _, found in groupby(sorted(differences, key=name_part), key=name_part):
         first, *others = found
-        more = f", and {len(others)} more" if others else ""
-        what = first.place + more
+        what = as_given(first.place)
+        if others:
+            what = say("diff.place_and_more", place=first.place, count=len(others))
         yield Change(
             area="other", row=row, what=what, old=first.stored, new=first.again
         )
 
 
-def _list_verdicts(row: RowStudy) -> dict[str, str]:
+def _name_verdict(study: Study) -> Named:
+    return {say("diff.verdict"): study.verdict}
+
+
+def _list_verdicts(row: RowStudy) -> Named:
     return {
-        "verdict": str(row.verdict),
-        **{f"check {name}": str(c.verdict) for name, c in _name_checks(row).items()},
+        say("diff.verdict"): str(row.verdict),
+        **{
+            say("diff.check", check=title): str(check.verdict)
+            for title, check in _name_checks(row).items()
+        },
         **_name_all(
-            (f"independent check {one.name}", _MET if one.is_met else _UNMET)
+            (say("diff.law", law=one.name), _MET if one.is_met else _UNMET)
             for one in row.independent
         ),
     }
 
 
-def _name_all(pairs: Iterable[tuple[str, _Value]]) -> dict[str, _Value]:
+def _name_all(pairs: Iterable[tuple[Message, _Value]]) -> dict[Message, _Value]:
     """Values by their names; a name used again gets the number of its use."""
-    named: dict[str, _Value] = {}
-    counts: Counter[str] = Counter()
-    for name, value in pairs:
-        counts[name] += 1
-        named[f"{name} ({counts[name]})" if counts[name] > 1 else name] = value
+    named: dict[Message, _Value] = {}
+    counts: Counter[Message] = Counter()
+    for what, value in pairs:
+        counts[what] += 1
+        again = say("diff.again", what=what, count=counts[what])
+        named[again if counts[what] > 1 else what] = value
     return named
 
 
-def _name_checks(row: RowStudy) -> dict[str, CheckRecord]:
-    return _name_all((check.id, check) for check in row.checks)
+def _name_checks(row: RowStudy) -> dict[Message, CheckRecord]:
+    return _name_all((as_given(check.id), check) for check in row.checks)
 
 
-def _list_governing(row: RowStudy) -> dict[str, Any]:
+def _list_governing(row: RowStudy) -> Named:
     """Governing check with its numbers, and the largest force of each member."""
-    found: dict[str, Any] = {}
+    found: dict[Message, Any] = {}
     check = find_governing(row.checks)
     if check is not None:
-        found["governing check"] = check.id
-        found["utilisation"] = check.utilisation
-        found["demand [kN]"] = check.demand_kN
-        found["resistance [kN]"] = check.resistance_kN
+        found[say("diff.governing_check")] = check.id
+        for key in ("utilisation", "demand_kN", "resistance_kN"):
+            found[say(f"diff_check.{key}")] = getattr(check, key)
         point = asdict(check.case) if check.case else {}
-        found |= {f"governing case, {key}": value for key, value in point.items()}
-    for name, one in _name_all((one.quantity, one) for one in row.extremes).items():
-        found[f"largest {name} [kN]"] = one.max_kN
-        found[f"upper bound of {name} [kN]"] = one.upper_bound_kN
+        found |= {say("diff.governing_case", key=k): v for k, v in point.items()}
+    extremes = _name_all((as_given(one.quantity), one) for one in row.extremes)
+    for quantity, one in extremes.items():
+        found[say("diff.largest", quantity=quantity)] = one.max_kN
+        found[say("diff.upper_bound", quantity=quantity)] = one.upper_bound_kN
     return found
 
 
-def _list_checks(row: RowStudy) -> dict[str, Any]:
+def _list_checks(row: RowStudy) -> Named:
     return {
-        f"{name}: {label}": getattr(check, key)
-        for name, check in _name_checks(row).items()
-        for key, label in _OF_CHECK.items()
+        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): getattr(
+            check, key
+        )
+        for title, check in _name_checks(row).items()
+        for key in _OF_CHECK
     }
 
 
-def _list_inputs(inputs: Sequence[Any]) -> dict[str, Any]:
+def _list_project(study: Study) -> Named:
+    fields = asdict(study.project).items()
+    return {say(f"diff_project.{key}"): value for key, value in fields}
+
+
+def _list_inputs(inputs: Sequence[Any]) -> Named:
     return _name_all(
-        (f"{echo.label} [{echo.unit}]" if echo.unit else echo.label, echo.value)
+        (say(_WITH_UNIT, what=echo.label, unit=echo.unit), echo.value)
         for echo in inputs
     )
 
 
-def _list_profile(study: Study) -> dict[str, Any]:
+def _list_profile(study: Study) -> Named:
     profile = study.profile
-    values = _name_all((f"{one.id} [{one.unit}]", one.value) for one in profile.values)
-    named = {"profile": profile.id, "edition": profile.edition}
-    return named | {"version": profile.version, "choice": profile.choice} | values
-
-
-def _list_settings(study: Study) -> dict[str, Any]:
-    provenance = study.provenance
+    values = _name_all(
+        (say("diff.with_unit", what=one.id, unit=one.unit), one.value)
+        for one in profile.values
+    )
     return {
-        "version": provenance.version,
-        "site file": provenance.site_file,
-        **provenance.settings,
-        **provenance.libraries,
+        say("diff.profile"): profile.id,
+        say("diff.edition"): profile.edition,
+        say("diff.version"): profile.version,
+        say("diff.choice"): profile.choice,
+        **values,
+    }
+
+
+def _list_settings(study: Study) -> Named:
+    provenance = study.provenance
+    settings = provenance.settings.items()
+    return {
+        say("diff.version"): provenance.version,
+        say("diff.site_file"): provenance.site_file,
+        **{name("setting", key): value for key, value in settings},
+        **{as_given(key): value for key, value in provenance.libraries.items()},
     }
 
 
@@ -271,16 +339,23 @@ def _keep_row_rest(row: RowStudy) -> object:
     )
 
 
-def _show(old: Any, new: Any) -> tuple[str, str]:
+def _name_value(area: str, value: Any, words: Words) -> Any:
+    """Verdicts in words; all else as it is."""
+    if area != "verdict" or value is None:
+        return value
+    return words(f"diff_value.{str(value).replace(' ', '_')}")
+
+
+def _show(old: Any, new: Any, none: str) -> tuple[str, str]:
     """Both values, with as many digits as tell them apart."""
     for digits in range(4, _MOST_DIGITS + 1):
-        shown = _round(old, digits), _round(new, digits)
+        shown = _round(old, digits, none), _round(new, digits, none)
         if shown[0] != shown[1]:
             break
     return shown
 
 
-def _round(value: Any, digits: int) -> str:
+def _round(value: Any, digits: int, none: str) -> str:
     if value is None or value == "":
-        return "none"
+        return none
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)

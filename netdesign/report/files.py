@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from netdesign.report.language import Language, load_words
 from netdesign.study.records import Study, write_document
+from netdesign.words.catalogue import Language
 
 STUDY_FILE = "study.json"
 
@@ -64,16 +64,15 @@ def render_files(
 
 def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, bytes]:
     """Wanted formats of a study; modules of the others are not imported."""
-    words = load_words(style.language)
     rendered: dict[str, bytes] = {}
     if wanted & {".html", ".pdf", ".xlsx"}:
-        from netdesign.report.translation import show_study
+        from netdesign.report.view.whole import build_view
 
-        view = show_study(study, words)
+        view = build_view(study, style.language)
     if wanted & {".html", ".pdf"}:
         from netdesign.report.page.html import render_html
 
-        page = render_html(study, words, style.detail, view)
+        page = render_html(study, style.language, style.detail, view)
         rendered[".html"] = page.encode()
     if ".pdf" in wanted:
         from netdesign.report.page.pdf import render_pdf
@@ -82,11 +81,11 @@ def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, byt
     if ".xlsx" in wanted:
         from netdesign.report.workbook.excel import render_workbook
 
-        rendered[".xlsx"] = render_workbook(study, words, view)
+        rendered[".xlsx"] = render_workbook(study, style.language, view)
     if ".csv" in wanted:
         from netdesign.report.view.case_table import render_cases
 
-        rendered[".csv"] = render_cases(study)
+        rendered[".csv"] = render_cases(study, style.language)
     if ".json" in wanted:
         rendered[".json"] = write_document(study).encode()
     return rendered

@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from netdesign.report.translation import show_study
 from netdesign.report.view.row_tables import describe_flip
-from netdesign.report.view.whole import ReportView, RowView
+from netdesign.report.view.whole import ReportView, RowView, build_view
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
     VerdictWords,
-    name_check,
+    Words,
+    show_check,
     show_text,
 )
 from netdesign.study.records import ChangeRecord, Study
+from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
 
-_LEGEND = "Design values in kN. Case: density kg/m3 / friction deg / inclination deg."
 _NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
 _PIPE = 160  # columns where the output is no terminal: nobody has to fold it
 _STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
@@ -38,13 +36,11 @@ def open_console() -> Console:
     return console
 
 
-def print_summary(
-    study: Study, console: Console, words: Callable[[str], str] = str
-) -> None:
+def print_summary(study: Study, console: Console, language: Language = "en") -> None:
     """Print one line per net row, then reasons and assumed values.
 
     Colour, width and destination are those of ``console``; texts of the site
-    are never read as markup. ``words`` puts ours into another language.
+    are never read as markup.
 
     Raises
     ------
@@ -54,54 +50,62 @@ def print_summary(
     from rich.table import Table
     from rich.text import Text
 
-    view = show_study(study, words)
+    words, view = Words(language), build_view(study, language)
     is_narrow = console.width < _NARROW
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(words("Net row"), overflow="fold", min_width=4)
-    table.add_column(words("Verdict"), no_wrap=True)
-    table.add_column(words("Governing check"), overflow="fold", min_width=13)
-    ratio = "Utilisation" if is_narrow else "Utilisation (low to high)"
+    table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
+    table.add_column(words("heading.verdict"), no_wrap=True)
+    table.add_column(words("heading.governing_check"), overflow="fold", min_width=13)
+    ratio = "heading.utilisation" if is_narrow else "show.utilisation_band"
     table.add_column(words(ratio), no_wrap=True)
-    for heading in ("Demand", "Resistance"):
+    for heading in ("heading.demand", "heading.resistance"):
         table.add_column(words(heading), justify="right", no_wrap=True)
     if not is_narrow:
-        table.add_column(words("Case"), no_wrap=True)
-    none = words("none: no check was made")
+        table.add_column(words("heading.case"), no_wrap=True)
+    none = words("heading.no_check")
     for row in view.rows:
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
     if view.rows:
         console.print(table)
-        console.print(words(_LEGEND), style="dim", soft_wrap=True)
+        console.print(words("show.legend"), style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
-    overall = Text(f"{words('Verdict')}{words(': ')}").append_text(_word(view.verdict))
+    overall = Text(words("show.overall", verdict="")).append_text(_word(view.verdict))
     console.print(overall.append(f" - {view.verdict.meaning}"), soft_wrap=True)
 
 
-def print_changes(
-    study: Study, console: Console, words: Callable[[str], str] = str
-) -> None:
+def print_changes(study: Study, console: Console, language: Language = "en") -> None:
     """Print for every failing, unproven or close check what would flip it."""
     from rich.text import Text
 
+    words = Words(language)
     for row in study.rows:
         for check in row.checks:
-            place = f"{row.id} {words(name_check(check))}"
-            place += f" ({words(VERDICTS[check.verdict].word)})"
+            place = words(
+                "show.row_and_check",
+                row=row.id,
+                check=show_check(words, check),
+                verdict=words(f"verdict.{check.verdict}"),
+            )
             for change in check.changes:
-                text = f"{place}: {_describe_change(change, words)}"
+                told = _describe_change(change, words)
+                text = words("show.label", label=place, text=told)
                 console.print(Text(show_text(text)), soft_wrap=True)
     if not any(check.changes for row in study.rows for check in row.checks):
-        console.print(words("No check fails, is unproven or is close to its limit."))
+        console.print(words("show.no_change"))
 
 
-def _describe_change(change: ChangeRecord, words: Callable[[str], str]) -> str:
-    passes = f"{words('passes with')} " if change.bound is not None else ""
-    text = f"{passes}{words(describe_flip(change))}"
-    if change.solves:
-        unit = "solve" if change.solves == 1 else "solves"
-        text += f"; {change.solves} {words(unit)}"
-    return f"{text} ({words(change.note)})" if change.note else text
+def _describe_change(change: ChangeRecord, words: Words) -> str:
+    text = describe_flip(change, words)
+    if change.bound is not None:
+        text = words("show.passes_with", change=text)
+    if change.solves == 1:
+        text = words("show.after_one_solve", change=text)
+    elif change.solves:
+        text = words("show.after_solves", change=text, count=change.solves)
+    if change.note is None:
+        return text
+    return words("show.with_note", text=text, note=words.show(change.note))
 
 
 def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:
@@ -124,14 +128,16 @@ def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:
     return [Text(row.id), _word(row.verdict), *map(Text, shown)]
 
 
-def _list_lines(view: ReportView, words: Callable[[str], str]) -> list[str]:
-    lines = [f"{row.id}: {reason}" for row in view.rows for reason in row.reasons]
-    lines = lines or [words("Reasons: none")]
-    lines += [f"{label}{words(': ')}{text}" for label, text in view.counts]
-    title = words("Assumed: confirm in your copy of the standard")
-    colon = words(": ")
-    notes = [f"{words('Note')}{colon}{note}" for note in view.notes]
-    return [*lines, f"{title}{colon}{view.assumed_line or words('none')}", *notes]
+def _list_lines(view: ReportView, words: Words) -> list[str]:
+    def name(label: str, text: str) -> str:
+        return words("show.label", label=label, text=text)
+
+    lines = [name(row.id, reason) for row in view.rows for reason in row.reasons]
+    lines = lines or [words("show.reasons_none")]
+    lines += [name(label, text) for label, text in view.counts]
+    assumed = view.assumed_line or words("show.none")
+    notes = [words("show.note", note=note) for note in view.notes]
+    return [*lines, words("show.assumed_line", values=assumed), *notes]
 
 
 def _word(verdict: VerdictWords) -> Text:

@@ -7,52 +7,75 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.study.records import CasePoint, CheckRecord
+from netdesign.words.catalogue import Language, load_texts, render
+from netdesign.words.message import Argument, Message
+from netdesign.words.names import name_check, name_member
 
 MISSING = "-"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VerdictWords:
-    """One verdict: word, sign that survives a photocopy, meaning, exit code."""
+@dataclass(frozen=True, slots=True)
+class Words:
+    """The texts of one language, as the reports ask for them: ``words(key, ...)``."""
 
-    word: str
+    language: Language = "en"
+
+    def __call__(self, key: str, /, **arguments: Argument) -> str:
+        """Text of a key with its gaps filled."""
+        return render(Message(key, arguments), self.language)
+
+    def show(self, message: Message | None) -> str:
+        """Message on one line; "-" for none."""
+        return show_text(render(message, self.language)) if message else MISSING
+
+
+ENGLISH = Words()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictSigns:
+    """What a verdict has in every language; the symbol survives a photocopy."""
+
     symbol: str
     style: str  # class of the style sheet
-    meaning: str
     exit_code: int
 
 
 VERDICTS = {
-    Verdict.PASS: VerdictWords(
-        word="PASS",
-        symbol="✓",
-        style="pass",
-        meaning="Every check is met over the whole band of its utilisation.",
-        exit_code=0,
-    ),
-    Verdict.FAIL: VerdictWords(
-        word="FAIL",
-        symbol="✗",
-        style="fail",
-        meaning="At least one check is not met, even at the low end of its band.",
-        exit_code=1,
-    ),
-    Verdict.NOT_PROVEN: VerdictWords(
-        word="NOT PROVEN",
-        symbol="?",
-        style="not-proven",
-        meaning="No check surely fails, but at least one is not shown to be met.",
-        exit_code=4,
-    ),
+    Verdict.PASS: VerdictSigns(symbol="✓", style="pass", exit_code=0),
+    Verdict.FAIL: VerdictSigns(symbol="✗", style="fail", exit_code=1),
+    Verdict.NOT_PROVEN: VerdictSigns(symbol="?", style="not-proven", exit_code=4),
 }
 
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictWords:
+    """One verdict in words: word, symbol, style, what it means."""
+
+    word: str
+    symbol: str
+    style: str
+    meaning: str
+
+
+def show_verdict(verdict: Verdict, words: Words) -> VerdictWords:
+    """Verdict in a language."""
+    signs = VERDICTS[verdict]
+    return VerdictWords(
+        word=words(f"verdict.{verdict}"),
+        symbol=signs.symbol,
+        style=signs.style,
+        meaning=words(f"meaning.{verdict}"),
+    )
+
+
 _UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "N/mm²"}
-_MODES = {"pull_out": "pull-out"}
 
 
 def show_text(text: str) -> str:
@@ -122,11 +145,11 @@ def show_with_unit(key: str, value: float | None) -> str:
     return f"{shown}{unit}" if unit == "°" else f"{shown} {unit}"
 
 
-def show_band(key: str, low: float | None, high: float | None) -> str:
+def show_band(words: Words, key: str, low: float | None, high: float | None) -> str:
     """Band of a number: ``0.842 to 0.871``."""
     if low is None or high is None:
         return MISSING
-    return f"{show_number(key, low)} to {show_number(key, high)}"
+    return words("show.band", low=show_number(key, low), high=show_number(key, high))
 
 
 def name_case(case: CasePoint | None) -> str:
@@ -148,24 +171,41 @@ def name_case_short(case: CasePoint | None) -> str:
     return " / ".join(show_given(number) for number in numbers)
 
 
-def name_member(member: str) -> str:
+def show_member(words: Words, member: str) -> str:
     """``foot_anchor`` as ``Foot anchor``."""
-    return show_text(member.replace("_", " ")).capitalize()
+    return words.show(name_member(member))
 
 
-def name_check(check: CheckRecord) -> str:
+def show_check(words: Words, check: CheckRecord) -> str:
     """Member and mode of a check: ``Foot anchor, pull-out``."""
-    mode = _MODES.get(check.mode, check.mode.replace("_", " ")).strip()
-    member = name_member(check.member)
-    return f"{member}, {show_text(mode)}" if mode else member
+    return words.show(name_check(check.member, check.mode))
 
 
-def name_heading(key: str, *, symbol: bool = False) -> str:
-    """Heading of a column: label, symbol if asked for, unit in brackets."""
+def name_heading(words: Words, key: str) -> str:
+    """Heading of a column: label, and unit in brackets."""
     quantity = QUANTITIES[key]
-    sign = f" {quantity.symbol}" if symbol and quantity.symbol else ""
-    unit = f" [{quantity.unit}]" if quantity.unit else ""
-    return f"{quantity.label}{sign}{unit}"
+    return add_unit(words.show(quantity.label), quantity.unit)
+
+
+def add_unit(label: str, unit: str) -> str:
+    """``Demand [kN]``; a label alone without a unit."""
+    return f"{label} [{unit}]" if unit else label
+
+
+def show_own(words: Words, text: str) -> str:
+    """Text of a limit profile: in the language if the profile comes with the program.
+
+    A profile is a document of its own, in its own language; those that come with the
+    program have translations, found by the whole text.
+    """
+    key = _list_own_texts().get(text)
+    return words(key) if key else show_text(text)
+
+
+@lru_cache(maxsize=1)
+def _list_own_texts() -> dict[str, str]:
+    own = ("profile_title.", "profile_text.", "profile_source.")
+    return {text: key for key, text in load_texts("en").items() if key.startswith(own)}
 
 
 def number_format(key: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
-from typing import Literal
+from typing import Literal, cast, get_args
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.edge.progress import Phase
@@ -38,12 +38,29 @@ _REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
 
 
+Method = Literal["steady", "transient"]
+
+
+def read_method(name: str) -> Method:
+    """Method of a name in a document.
+
+    Raises
+    ------
+    ValueError
+        If no method has it.
+    """
+    for method in get_args(Method):
+        if name == method:
+            return cast(Method, method)
+    raise ValueError(f"no method {name!r:.60}")
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckRun:
     """How a site is to be solved."""
 
     settings: SolverSettings
-    method: Literal["steady", "transient"] = "steady"
+    method: Method = "steady"
     creep_law: CreepLaw = BOUTILLIER_2004
     jobs: int = 1
     command: str = "netdesign check"

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import repeat
 from types import MappingProxyType
-from typing import Literal, Protocol
+from typing import Protocol
 
 from netdesign import __version__
 from netdesign.checks import Standard
@@ -41,6 +41,7 @@ from netdesign.study.records import (
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    IndependentRecord,
     MonitoringRecord,
     ProfileRecord,
     ProfileValue,
@@ -53,21 +54,11 @@ from netdesign.units import (
     kilonewton_from_newton,
     newton_from_kilonewton,
 )
+from netdesign.words.message import Message, say
+from netdesign.words.names import name, name_check, name_member
 
 # Members whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
-METHODS: dict[Literal["steady", "transient"], str] = {
-    "steady": "steady",
-    "transient": "steady; governing cases confirmed by a history from the steady net",
-}
-_HISTORY = (
-    "the history of its governing case reaches {:.1f} to {:.1f} kN, the steady state "
-    "{:.1f} to {:.1f} kN: "
-)
-_STAYS = _HISTORY + "not surely more, so the steady state is the demand"
-_EXCEEDS = _HISTORY + (
-    "the history is the demand, as snow that creeps towards the net gathers there"
-)
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
@@ -232,18 +223,8 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
     governing = _governing_result(checks, extremes)
     foot = extremes.get("foot_anchor")
     head = record_head(row, governing) if governing else []
-    unproven = [
-        f"{check.id}: {check.reason}"
-        for check in checks
-        if check.verdict != Verdict.PASS
-    ]
     independent = record_independent(governing, head) if governing else []
     held = [Verdict.NOT_PROVEN for one in independent if not one.is_met]
-    unproven += [
-        f"The independent check {one.name} is not met."
-        for one in independent
-        if not one.is_met
-    ]
     return RowStudy(
         id=row.id,
         verdict=merge_verdicts([*(check.verdict for check in checks), *held]),
@@ -256,7 +237,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         cases=cases,
         inputs=list(row.inputs),
         drawing=_draw(row, governing),
-        reasons=unproven,
+        reasons=list_reasons(checks, independent),
         anchors=record_anchors(governing, effects) if governing else [],
         head=head,
         independent=independent,
@@ -276,6 +257,27 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
     )
 
 
+def list_reasons(
+    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
+) -> list[Message]:
+    """Why a row does not pass: each check that does not, each law that is not met."""
+    unproven = [
+        say(
+            "row.check_reason",
+            check=name_check(check.member, check.mode),
+            reason=check.reason,
+        )
+        for check in checks
+        if check.verdict is not Verdict.PASS
+    ]
+    unmet = [
+        say("row.law_not_met", law=name("law", one.name))
+        for one in independent
+        if not one.is_met
+    ]
+    return [*unproven, *unmet]
+
+
 def _list_levels(
     checks: Sequence[CheckRecord], effects: RowEffects
 ) -> dict[str, list[tuple[str, float]]]:
@@ -289,36 +291,28 @@ def _list_levels(
     return levels
 
 
-def list_row_notes(row: NetRow, effects: RowEffects) -> list[str]:
+def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
     """What was taken for granted about this row."""
     notes = []
     if not math.isfinite(row.gap):
-        notes.append(
-            "no gap to the next work is given: the ends of the row are taken as free"
-        )
+        notes.append(say("row.ends_free"))
     if effects.width.position == "edge":
-        notes.append(
-            "the first and last support carry more than those between: their loaded "
-            "width governs every check of forces"
-        )
+        notes.append(say("row.edge_governs"))
     checked = {given.mode for given in row.resistances}
     if "bearing" not in checked:
-        notes.append(
-            "the ground under the base plate is not checked: no bearing resistance is "
-            "given for the post type"
-        )
+        notes.append(say("row.bearing_not_checked"))
     return notes
 
 
-def list_case_notes(cases: Sequence[CaseRecord]) -> list[str]:
+def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
     """What was done otherwise than asked in some cases."""
-    released = sum(case.reason == str(RELEASED) for case in cases)
+    released = sum(case.reason == RELEASED for case in cases)
     if not released:
         return []
-    return [f"in {released} of {len(cases)} cases {RELEASED}"]
+    return [say("row.in_cases", count=released, all=len(cases), what=RELEASED)]
 
 
-def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[str]:
+def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
     """Which of steady state and history is the demand, and why, by member."""
     notes = []
     for member in REPORTED_MEMBERS:
@@ -328,10 +322,14 @@ def _list_history_notes(extremes: Mapping[str, Extreme]) -> list[str]:
         history, steady = (
             one.member_forces[member] for one in (compared.history, compared.steady)
         )
-        forces = (history.low, history.high, steady.low, steady.high)
-        reason = _EXCEEDS if compared.exceeds(member) else _STAYS
-        sentence = reason.format(*(kilonewton_from_newton(one) for one in forces))
-        notes.append(f"{member.replace('_', ' ').capitalize()}: {sentence}")
+        reaches = {
+            "history_low": kilonewton_from_newton(history.low),
+            "history_high": kilonewton_from_newton(history.high),
+            "steady_low": kilonewton_from_newton(steady.low),
+            "steady_high": kilonewton_from_newton(steady.high),
+        }
+        key = "row.history_exceeds" if compared.exceeds(member) else "row.history_stays"
+        notes.append(say(key, member=name_member(member), **reaches))
     return notes
 
 
@@ -367,7 +365,7 @@ def _record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
     return CaseRecord(
         case=record_point(result.case),
         outcome=result.outcome,
-        reason=str(result.reason or ""),  # seam: records keep English so far
+        reason=result.reason,
         error_percent=_largest_error_percent(result),
         balance_residual=solution.balance.relative_residual if solution else None,
         is_calibrated=is_calibrated(law, row, result.case.density),
@@ -476,12 +474,12 @@ def _record_provenance(site: Site, run: CheckRun) -> Provenance:
         site_file=site.file_name,
         site_sha256=site.sha256,
         settings={
-            "method": METHODS[run.method],
-            "creep law": name_law(run.creep_law),
+            "method": run.method,
+            "creep_law": name_law(run.creep_law),
             "accuracy": repr(settings.accuracy),  # in full: the study is solved again
-            "stress tolerance": f"{settings.stress_tolerance:g}",
-            "shape tolerance": f"{settings.shape_tolerance:g}",
-            "balance tolerance": f"{settings.balance_tolerance:g}",
+            "stress_tolerance": f"{settings.stress_tolerance:g}",
+            "shape_tolerance": f"{settings.shape_tolerance:g}",
+            "balance_tolerance": f"{settings.balance_tolerance:g}",
         },
         libraries={
             "python": platform.python_version(),
@@ -495,43 +493,52 @@ def name_law(law: CreepLaw) -> str:
     return f"{law.name} ({law.source})"
 
 
-def list_notes(site: Site, law: CreepLaw) -> list[str]:
+def list_notes(site: Site, law: CreepLaw) -> list[Message]:
     """What the reader noted, and what the model does with the site's snow."""
-    notes = map(str, site.notes)  # seam: records keep English so far
-    return [*notes, *_validity_notes(site, law), *_layer_notes(site)]
+    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
 
 
-def _validity_notes(site: Site, law: CreepLaw) -> list[str]:
+def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
     """Say where the creep law is used outside the densities it was fitted to."""
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
     return [
-        f"{what} of {least:g} to {largest:g} kg/m3 reach outside the {low:.0f} to "
-        f"{high:.0f} kg/m3 for which the creep law {law.name} is given"
+        say(
+            "note.outside_calibration",
+            what=what,
+            least=least,
+            largest=largest,
+            low=low,
+            high=high,
+            law=law.name,
+        )
         for what, least, largest in _list_density_spans(site)
         if least < low or largest > high
     ]
 
 
-def _list_density_spans(site: Site) -> list[tuple[str, float, float]]:
+def _list_density_spans(site: Site) -> list[tuple[Message, float, float]]:
     """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
     span = site.ranges["density"]
     spans = []
     if not all(row.layers for row in site.rows):
-        spans.append(("snow densities", span.low, span.high))
+        spans.append((say("note.snow_densities"), span.low, span.high))
     for row in site.rows:
         if row.layers:
             least = min(layer.density for layer in row.layers_at(span.low))
             largest = max(layer.density for layer in row.layers_at(span.high))
-            spans.append((f"net row {row.id}: layer densities", least, largest))
+            spans.append((say("note.layer_densities", row=row.id), least, largest))
     return spans
 
 
-def _layer_notes(site: Site) -> list[str]:
+def _layer_notes(site: Site) -> list[Message]:
     """Say what the range of density does to layered snow."""
     return [
-        f"net row {row.id}: its {len(row.layers)} layers of mean density "
-        f"{row.mean_density:.4g} kg/m3 keep their proportions; their mean follows the "
-        "range of density"
+        say(
+            "note.layers_scaled",
+            row=row.id,
+            count=len(row.layers),
+            density=row.mean_density,
+        )
         for row in site.rows
         if row.layers
     ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from netdesign.checks import Band, CheckResult, Standard, load_standard
+from netdesign.checks.check import not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import read_end_effect
@@ -19,6 +20,7 @@ from netdesign.structure.row_position import (
 )
 from netdesign.study.records import ActionRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import Message, say
 
 GUIDELINE = "swiss-guideline-2007"
 _PUSHED = ("post", "post_base")  # carries nothing along the row
@@ -36,14 +38,14 @@ class RowEffects:
         Of the governing support.
     lateral_share : float
         Share of a pulled member's force along the row [-].
-    missing : str
-        What the profile does not say; "" if nothing.
+    missing : tuple of Message
+        What the profile does not say.
     """
 
     post_spacing: float
     width: LoadedWidth
     lateral_share: float
-    missing: str
+    missing: tuple[Message, ...]
 
     def factor(self, member: str) -> float:
         """Force on the governing support over the solved one [-]."""
@@ -95,13 +97,14 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
             gap=row.gap,
             glide_factor=find_row_glide_factor(row),
         )
-    lacks = ["end effect (end.*)"] if rule is None else []
-    lacks += [f"lateral load ({LATERAL_SHARE})"] if share is None else []
+    lacks = [say("ends.no_end_effect")] if rule is None else []
+    if share is None:
+        lacks.append(say("ends.no_lateral_load", value=LATERAL_SHARE))
     return RowEffects(
         post_spacing=spacing,
         width=find_governing_width(spacing, edge),
         lateral_share=share.value if share else 0.0,
-        missing=" and no ".join(lacks),
+        missing=tuple(lacks),
     )
 
 
@@ -113,7 +116,7 @@ def check_ends(effects: RowEffects) -> CheckResult | None:
         id="geometry.ends",
         clause="-",
         member="net",
-        mode="ends of the row",
+        mode="ends",
         verdict=Verdict.NOT_PROVEN,
-        reason=f"Not proven: the profile has no {effects.missing}.",
+        reason=not_proven(*effects.missing),
     )

@@ -21,6 +21,7 @@ from netdesign.study.effects import RowEffects
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
 from netdesign.units import degree_from_radian, radian_from_degree
+from netdesign.words.message import Message, say
 
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
 _DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
@@ -74,13 +75,13 @@ def find_spacing_change(effects: RowEffects, utilisation: float) -> ChangeRecord
     widest = min(allowed, 2.0 * (allowed - ends)) if ends else allowed
     bound = math.floor(100.0 * widest + 1e-9) / 100.0
     return ChangeRecord(
-        quantity="post spacing",
+        quantity=say("change.post_spacing"),
         unit="m",
         now=effects.post_spacing,
         bound=bound if bound > 0.0 else None,
         sense="at most",
         solves=0,
-        note="" if bound > 0.0 else "the end effect alone is too much",
+        note=None if bound > 0.0 else say("change.end_effect_too_much"),
     )
 
 
@@ -100,11 +101,11 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
         power=1.5,
     )
     if bound is not None and not _lighter_snow_passes(target, bound):
-        bound, note = None, "lighter snow of the range does not pass either"
+        bound, note = None, say("change.lighter_snow_fails")
     if bound is not None and bound < target.ranges["density"].low:
-        note = "below the range that was given"
+        note = say("change.below_range")
     return ChangeRecord(
-        quantity="snow density",
+        quantity=say("change.snow_density"),
         unit="kg/m3",
         now=target.ranges["density"].high,
         bound=bound,
@@ -131,7 +132,7 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
         power=2.0,
     )
     return ChangeRecord(
-        quantity="snow thickness",
+        quantity=say("change.snow_thickness"),
         unit="m",
         now=thickness,
         bound=bound,
@@ -158,13 +159,13 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     now = degree_from_radian(samples[place])
     if not passing or place in passing:
         return ChangeRecord(
-            quantity="friction angle",
+            quantity=say("change.friction_angle"),
             unit="deg",
             now=now,
             bound=None,
             sense="at most",
             solves=0,
-            note="at no friction angle of the range all cases pass",
+            note=say("change.no_friction_angle"),
         )
     nearest = min(passing, key=lambda k: abs(k - place))
     beside = nearest + (1 if place > nearest else -1)
@@ -175,7 +176,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     is_upper = place > nearest
     rounding = math.floor if is_upper else math.ceil
     return ChangeRecord(
-        quantity="friction angle",
+        quantity=say("change.friction_angle"),
         unit="deg",
         now=now,
         bound=round(rounding(degrees / step) * step, 6),
@@ -259,38 +260,39 @@ def _search(
     limits: tuple[float, float],
     step: float,
     power: float,
-) -> tuple[float | None, int, str]:
+) -> tuple[float | None, int, Message | None]:
     """Largest value at which every case passes, solves, and a remark."""
     before = probe.count
     active = target.governing
     value = start
     for _ in range(_MOST_ROUNDS):
         found = _find_root(target, probe, build, active, value, limits, power)
-        if isinstance(found, str):
+        if isinstance(found, Message):
             return None, probe.count - before, found
         value = round(math.floor(found / step + 1e-9) * step, 6)
         worst = _find_violator(target, probe, build, value)
         if worst is None:
-            at_end = "passes up to the end of the search" if found == limits[1] else ""
-            return value, probe.count - before, at_end
-        if isinstance(worst, str):
+            at_end = found == limits[1]
+            note = say("change.passes_to_end") if at_end else None
+            return value, probe.count - before, note
+        if isinstance(worst, Message):
             return None, probe.count - before, worst
         active = worst
-    return None, probe.count - before, "the search did not settle"
+    return None, probe.count - before, say("change.not_settled")
 
 
 def _find_violator(
     target: Target, probe: Probe, build: Build, value: float
-) -> Case | str | None:
-    """Rival case that still fails most at a value; a text if one is unsolved."""
+) -> Case | Message | None:
+    """Rival case that still fails most at a value; a reason if one is unsolved."""
     worst, largest = None, 1.0
     rivals = _list_rivals(target, build, value)
     results = probe.solve_all([(*build(value, case), probe.law) for case in rivals])
     for case, result in zip(rivals, results, strict=True):
         utilisation = target.utilisation(result)
         if utilisation is None:
-            # seam: records keep English so far
-            return f"a case has no result at {value:g}: {result.reason}"
+            reason = result.reason or result.outcome.message
+            return say("change.rival_without_result", value=value, reason=reason)
         if utilisation > largest:
             worst, largest = case, utilisation
     return worst
@@ -341,7 +343,7 @@ def _find_root(
     start: float,
     limits: tuple[float, float],
     power: float,
-) -> float | str:
+) -> float | Message:
     """Largest value at which one case passes, by secants of the logarithms.
 
     The force grows about like a power of the value; ``power`` is the first guess. A
@@ -353,9 +355,9 @@ def _find_root(
     for _ in range(_MOST_STEPS):
         utilisation = target.utilisation(probe.solve(*build(value, case)))
         if utilisation is None:
-            return f"the case has no result at {value:g}"
+            return say("change.case_without_result", value=value)
         if utilisation <= 0.0:
-            return "the member is slack"
+            return say("change.member_slack")
         if 1.0 - _NEAR <= utilisation <= 1.0:
             return value
         if utilisation <= 1.0:
@@ -365,7 +367,7 @@ def _find_root(
         else:
             fails, known_fail = value, True
             if value == limits[0]:
-                return f"not even {value:g} passes"
+                return say("change.not_even", value=value)
         if known_pass and known_fail and fails - passes < 1e-3 * fails:
             return passes
         point = (math.log(value), math.log(utilisation))
@@ -375,7 +377,7 @@ def _find_root(
         last = point
         aim = value * math.exp((math.log(1.0 - 0.5 * _NEAR) - point[1]) / power)
         value = _keep_inside(aim, passes, fails, known_pass, known_fail)
-    return "the search did not settle"
+    return say("change.not_settled")
 
 
 def _keep_inside(

@@ -40,12 +40,11 @@ from netdesign.study.probe import Probe
 from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import as_given, name
 
 # A program that fails beside the cases of a check is not trusted in them.
-_FAULT_BESIDE = (
-    "the program itself failed in a solve beside the cases of the ranges, please "
-    "report it"
-)
+_FAULT_BESIDE = say("check.fault_beside")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,11 +71,11 @@ class RowTask:
         return self.envelope.extremes
 
     @property
-    def gap(self) -> str:
-        """Why the extremes do not cover every case; "" if they do."""
+    def gap(self) -> Message | None:
+        """Why the extremes do not cover every case; None if they do."""
         if self.envelope is None:
-            return str(describe_gap(self.results) or "")
-        return str(self.envelope.gap or "")  # seam: records keep English so far
+            return describe_gap(self.results)
+        return self.envelope.gap
 
     def estimate_between(self, extreme: Extreme) -> EnvelopeGap:
         """What may hide between the cases: bounded by a search, else estimated."""
@@ -191,14 +190,17 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
     )
 
 
-def _describe_derivation(given: Resistance | None, result: CheckResult) -> str:
+def _describe_derivation(
+    given: Resistance | None, result: CheckResult
+) -> Message | None:
     if given is None or given.tests is None or result.resistance is None:
-        return given.derivation if given else ""
+        return as_given(given.derivation) if given and given.derivation else None
     tests = given.tests
-    return (
-        f"least of mean {kilonewton_from_newton(tests.mean):g} kN and least "
-        f"{kilonewton_from_newton(tests.least):g} kN of {tests.count} tests, each over "
-        "its correlation factor"
+    return say(
+        "check.from_tests",
+        mean=kilonewton_from_newton(tests.mean),
+        least=kilonewton_from_newton(tests.least),
+        count=tests.count,
     )
 
 
@@ -210,22 +212,20 @@ def _list_spreads(
     if used is None or extreme.force.value == 0.0:
         return []
     scale = used.value / extreme.force.value
-    unknown = ", ".join(axis.replace("_", " ") for axis in between.unknown)
+    unknown = tuple(name("axis", axis) for axis in between.unknown)
     spreads = [
         SpreadRecord(
-            source="numerical error",
+            source=say("spread.numerical_error"),
             low=extreme.force.low * scale,
             high=extreme.force.high * scale,
             in_verdict=True,
         ),
         SpreadRecord(
-            source="between the cases",
+            source=say("spread.between_cases"),
             low=used.value,
             high=used.value + between.size * scale,
             in_verdict=True,
-            note=f"unknown along {unknown}: two samples or a failed neighbour"
-            if unknown
-            else "",
+            note=say("spread.unknown_along", axes=unknown) if unknown else None,
         ),
     ]
     if task.probe is not None and used.value > 0.0:
@@ -240,15 +240,14 @@ def _list_creep_laws(
     results = probe.solve_all(
         [(row, extreme.governing.case, law) for law in laws.values()]
     )
-    for name, result in zip(laws, results, strict=True):
+    for law, result in zip(laws, results, strict=True):
         force = result.member_forces.get(extreme.member)
         yield SpreadRecord(
-            source=f"creep law {name}",
+            source=say("spread.creep_law", law=law),
             low=force.low * scale if force else None,
             high=force.high * scale if force else None,
             in_verdict=False,
-            # seam: records keep English so far
-            note=str(result.reason) if force is None else "in the governing case",
+            note=say("spread.in_governing_case") if force else result.reason,
         )
 
 
@@ -273,7 +272,7 @@ def _list_changes(
         return changes
     changes.append(find_spacing_change(effects, used.high))
     if gap:
-        note = "as far as the solved cases go"
+        note = say("change.as_far_as_solved")
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
@@ -300,17 +299,18 @@ def _list_resistance_changes(
     task: RowTask, given: Resistance, result: CheckResult
 ) -> list[ChangeRecord]:
     """Characteristic resistance that is needed, and the type that has it."""
-    factor, note = result.resistance_factor, ""
+    factor: float | None = result.resistance_factor
+    note: Message | None = None
     if factor is None:  # nothing is given, and so no basis: suppose a test
         found = task.standard.find_resistance_factor(given.mode, "tested")
         factor = found.value_si if found else None
-        note = "on the basis of tests on the site"
+        note = say("change.on_basis_of_tests")
     if factor is None or result.demand is None:
         return []
     needed = result.demand.high * factor
     shown = math.ceil(kilonewton_from_newton(needed) * 10.0 - 1e-9) / 10.0
     change = ChangeRecord(
-        quantity="characteristic resistance",
+        quantity=say("change.characteristic_resistance"),
         unit="kN",
         now=_kilonewton(result.resistance),
         bound=shown,

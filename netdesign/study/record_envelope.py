@@ -260,7 +260,7 @@ def _show_confirmation(one: Confirmation) -> ConfirmationRecord:
         difference_percent=None if difference is None else 100.0 * difference,
         elements=confirmed.elements if confirmed else None,
         screened_elements=screened.elements if screened else 0,
-        reason=str(one.confirmed.reason or ""),  # seam: records keep English so far
+        reason=one.confirmed.reason,
     )
 
 

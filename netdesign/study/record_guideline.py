@@ -15,17 +15,13 @@ from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.members import record_point
 from netdesign.study.records import GuidelineCase, GuidelineRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import say
 
+# Why the two differ, by the kind of ground.
 _SENTENCES = {
-    "free": "On a freely gliding ground the net carries the whole snowpack over the "
-    "upslope length, while the guideline's pressure ends with its back-pressure zone "
-    "(here with its largest glide factor) and knows no length.",
-    "sliding": "Both take the same glide factor, but the guideline's creep factor is a "
-    "linear law calibrated on rigid walls and reduced for nets, while the coupled "
-    "solve takes the measured power law, the net's own shape and the friction on it.",
-    "no-slip": "Without slip the guideline's creep factor, a linear law calibrated on "
-    "rigid walls and reduced for nets, stands against the measured power law on the "
-    "sagging net; no-slip is taken as N = 1, below the least class of the guideline.",
+    "free": "guideline.on_free_ground",
+    "sliding": "guideline.on_sliding_ground",
+    "no-slip": "guideline.without_slip",
 }
 
 
@@ -81,7 +77,7 @@ def compare_case(
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
         cases=[_record_case(one, load, foot) for one in cases],
-        sentence=_SENTENCES[row.ground.kind],
+        sentence=say(_SENTENCES[row.ground.kind]),
     )
 
 
@@ -102,7 +98,7 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
         post_kN=_kilonewton(forces.get("post")),
         load_difference_percent=_compare(load, snow.resultant[0] if snow else None),
         foot_difference_percent=_compare(foot, own_foot),
-        reason=str(case.reason or ""),  # seam: records keep English so far
+        reason=case.reason,
     )
 
 

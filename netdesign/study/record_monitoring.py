@@ -108,7 +108,7 @@ def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
         model_times_d=modelled.times_d,
         model_kN=modelled.forces_kN,
         model_start=_START,
-        model_reason=str(modelled.reason or ""),  # seam: records keep English so far
+        model_reason=modelled.reason,
     )
 
 
@@ -116,19 +116,22 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
     if task.job is None:
         return _Modelled(times_d=[], forces_kN=[], reason=task.refusal)
     scene, asked = task.job.scene, task.job.settings
+    reason: Message | None
     if task.layout is None or isinstance(asked, StaggeredSettings):
-        reason = say("measured.needs_support")
+        reason = say("monitoring.needs_support")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
-        reason = say("measured.single_reading")
+        reason = say("monitoring.single_reading")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     clock = build_clock(series, scene)
     settings = TransientSettings(
         accuracy=asked.accuracy, start=_START, horizon=series.times[-1]
     )
     solution = solve_transient(scene, settings, clock=clock)
-    if isinstance(solution, FailedSolution) or solution.history is None:
-        reason = getattr(solution, "reason", say("measured.no_history"))
+    if isinstance(solution, FailedSolution):
+        return _Modelled(times_d=[], forces_kN=[], reason=solution.reason)
+    if solution.history is None:
+        reason = say("monitoring.no_history")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     return _read_member(task.layout, solution, solution.history.moments, series.member)
 

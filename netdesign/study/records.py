@@ -12,7 +12,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_bounded
@@ -20,9 +20,37 @@ from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
 from netdesign.errors import ContentError, StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.words.message import say
+from netdesign.words.catalogue import render
+from netdesign.words.message import Message, say
 
-SCHEMA: Literal["netdesign.study/1"] = "netdesign.study/1"
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
+_OLD_SCHEMA = "netdesign.study/1"
+_HOW_FAR = 200  # signs from the start, among which a document names its schema
+
+
+class _HasText:
+    """A message with a text of this key whose gaps its arguments fill."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        """What pydantic asks for: read a message as usual, then render it."""
+        from pydantic_core.core_schema import no_info_after_validator_function
+
+        return no_info_after_validator_function(_require_text, handler(source))
+
+
+def _require_text(message: Message) -> Message:
+    try:
+        render(message, "en")
+    except (LookupError, ValueError, RecursionError) as error:
+        key = f"{message.key!r:.60}"
+        raise ValueError(f"{key} is no text with these arguments: {error}") from None
+    return message
+
+
+Text = Annotated[Message, _HasText()]  # in no language yet; never one without a text
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +68,7 @@ class CaseRecord:
 
     case: CasePoint
     outcome: Outcome
-    reason: str  # "" when converged
+    reason: Text | None  # None when converged
     foot_anchor_kN: float | None
     uphill_guy_kN: float | None
     downhill_guy_kN: float | None
@@ -124,7 +152,7 @@ class ConfirmationRecord:
     difference_percent: float | None
     elements: int | None
     screened_elements: int
-    reason: str  # why there is no confirmation; "" if there is one
+    reason: Text | None  # why there is no confirmation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,24 +223,24 @@ class ActionRecord:
 class SpreadRecord:
     """One part of the interval of a utilisation."""
 
-    source: str  # "numerical error", "between the cases", "creep law zwinger-2007"
+    source: Text  # "numerical error", "between the cases", "creep law zwinger-2007"
     low: float | None  # None where there is no number; ``note`` says why
     high: float | None
     in_verdict: bool
-    note: str = ""
+    note: Text | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChangeRecord:
     """The smallest change of one quantity that flips a check, or where it flips."""
 
-    quantity: str  # "characteristic resistance", "post spacing", "density", ...
+    quantity: Text  # "characteristic resistance", "post spacing", "density", ...
     unit: str
     now: float | None
     bound: float | None  # None where no value in reach flips the check
     sense: str  # "at least" or "at most"
     solves: int  # coupled solves that it took; 0 for an exact proportion
-    note: str = ""
+    note: Text | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,7 +262,7 @@ class CheckRecord:
     utilisation: float | None
     verdict: Verdict
     case: CasePoint | None
-    reason: str  # one sentence, always there
+    reason: Text  # one sentence, always there
     action_kN: float | None = None  # characteristic action
     action_factor: float | None = None
     resistance_characteristic_kN: float | None = None
@@ -242,7 +270,7 @@ class CheckRecord:
     resistance_basis: str = ""  # "tested", "computed", "declared"
     resistance_type: str = ""  # id of the anchor, rope or post type
     resistance_cell: str = ""  # "Anchors!B4"
-    resistance_derivation: str = ""  # how it follows from dimensions or tests
+    resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     action: ActionRecord | None = None
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
@@ -292,7 +320,7 @@ class MonitoringRecord:
     model_times_d: list[float]
     model_kN: list[float]
     model_start: str
-    model_reason: str
+    model_reason: Text | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -321,7 +349,7 @@ class HeadForce:
 class GuidelineCase:
     """One load case of the guideline on this row; characteristic, inside a row."""
 
-    name: str
+    name: str  # "same_snow", "load_case_1", "load_case_2"
     density_kg_m3: float
     height_vertical_m: float
     creep_factor: float | None
@@ -333,7 +361,7 @@ class GuidelineCase:
     post_kN: float | None
     load_difference_percent: float | None  # of the coupled solve against this
     foot_difference_percent: float | None
-    reason: str = ""
+    reason: Text | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -346,7 +374,7 @@ class GuidelineRecord:
     solved_load_kN_per_m: float  # along the slope on the net
     solved_foot_anchor_kN: float
     cases: list[GuidelineCase]
-    sentence: str  # why the two differ
+    sentence: Text  # why the two differ
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -370,12 +398,12 @@ class RowStudy:
     cases: list[CaseRecord]
     inputs: list[InputEcho]
     drawing: Drawing | None  # None when no case converged
-    reasons: list[str]  # why the row is not proven, or what failed; may be empty
+    reasons: list[Text]  # why the row is not proven, or what failed; may be empty
     monitoring: list[MonitoringRecord] = field(default_factory=list)
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     guideline: GuidelineRecord | None = None
-    notes: list[str] = field(default_factory=list)
+    notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
 
@@ -415,7 +443,7 @@ class Provenance:
     started: str  # ISO 8601, UTC
     site_file: str
     site_sha256: str
-    settings: dict[str, str]
+    settings: dict[str, str]  # by key: "method", "creep_law", "accuracy", ...
     libraries: dict[str, str]
 
 
@@ -430,13 +458,13 @@ class Study:
         "allow_inf_nan": False,
     }
 
-    schema: Literal["netdesign.study/1"]
+    schema: Literal["netdesign.study/2"]
     verdict: Verdict
     project: Project
     profile: ProfileRecord
     rows: list[RowStudy]
     range_inputs: list[InputEcho]
-    notes: list[str]
+    notes: list[Text]
     provenance: Provenance
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
 
@@ -472,6 +500,8 @@ def read_document(text: str) -> Study:
     """
     from pydantic import ValidationError
 
+    if _OLD_SCHEMA in text[:_HOW_FAR]:
+        raise StudyError(say("study.old_schema", old=_OLD_SCHEMA, own=SCHEMA))
     try:
         study: Study = read_json(Study, text)
         _require_sense(study)

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.errors import StudyError
-from netdesign.study.cases import CheckRun
-from netdesign.study.check_site import METHODS, name_law
+from netdesign.study.cases import CheckRun, read_method
+from netdesign.study.check_site import name_law
 from netdesign.study.records import Study
 from netdesign.study.values import Difference, compare_values, list_values
 from netdesign.words.message import say
@@ -32,22 +32,21 @@ def build_run(study: Study, jobs: int) -> CheckRun:
         If the settings cannot be had again: another creep law, other tolerances.
     """
     given, made = study.provenance.settings, study.provenance
-    methods = {text: name for name, text in METHODS.items()}
     try:
         run = CheckRun(
             settings=SolverSettings(accuracy=float(given["accuracy"])),
-            method=methods[given["method"]],
+            method=read_method(given["method"]),
             jobs=jobs,
             command=made.command,
             started=made.started,
         )
     except (KeyError, ValueError) as error:
         raise StudyError(say("study.settings", cause=str(error))) from None
-    if given.get("creep law") != name_law(run.creep_law):
+    if given.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
             say(
                 "study.other_law",
-                given=f"{given.get('creep law')!r:.120}",
+                given=f"{given.get('creep_law')!r:.120}",
                 own=repr(name_law(run.creep_law)),
             )
         )

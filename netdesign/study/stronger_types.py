@@ -10,6 +10,8 @@ from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 _CONSTRUCTION, _GRADE, _TERMINATION = "6x36-IWRC", 1770e6, "clips"
 _DIAMETERS_MM = (8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 32, 36, 40)
@@ -38,8 +40,10 @@ def find_type_change(
     if given.type_id in enough:
         return None
     if enough:
-        name = min(enough, key=lambda key: (enough[key], key))
-        return _record(f"type {name} of the workbook", enough[name][1], given)
+        weakest = min(enough, key=lambda key: (enough[key], key))
+        return _record(
+            say("change.type_of_workbook", type=weakest), enough[weakest][1], given
+        )
     factor = standard.find_resistance_factor(given.mode, "declared")
     if given.mode != "rope" or factor is None:
         return None
@@ -57,17 +61,21 @@ def _find_rope(needed: float, given: Resistance) -> ChangeRecord | None:
             termination=loss.value,
         )
         if value >= needed:
-            name = (
-                f"rope {diameter} mm {_CONSTRUCTION}, {_GRADE / 1e6:.0f} MPa, "
-                f"{_TERMINATION} ({loss.status})"
+            rope = say(
+                "change.rope",
+                diameter=diameter,
+                construction=_CONSTRUCTION,
+                grade=_GRADE / 1e6,
+                termination=name("termination", _TERMINATION),
+                status=name("status", loss.status),
             )
-            return _record(name, value, given)
+            return _record(rope, value, given)
     return None
 
 
-def _record(name: str, value: float, given: Resistance) -> ChangeRecord:
+def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
     return ChangeRecord(
-        quantity=name,
+        quantity=quantity,
         unit="kN",
         now=kilonewton_from_newton(given.value) if given.value is not None else None,
         bound=math.floor(kilonewton_from_newton(value) * 10.0) / 10.0,

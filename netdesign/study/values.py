@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, is_dataclass
 from enum import Enum
 from typing import Any
@@ -65,6 +65,8 @@ def compare_values(
 def _flatten(value: Any, place: str) -> Iterator[tuple[str, Any]]:
     if is_dataclass(value):
         value = list_fields(value)
+    if isinstance(value, Mapping):
+        value = dict(value)
     if not isinstance(value, dict | list | tuple):
         yield place, str(value) if isinstance(value, Enum) else value
         return

@@ -10,6 +10,7 @@ Every language has every key with the same gaps; a test says so.
 
 from __future__ import annotations
 
+import re
 import string
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -24,6 +25,8 @@ Language = Literal["en", "fr", "de"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 _CLAUSE = "clause"
+_GAP = re.compile(r"(\{[^{}]*\})")
+_BEFORE_SIGN = re.compile(r" (?=[:;?!%»])|(?<=«) ")  # French sets these apart
 
 
 def render(message: Message | str, language: Language) -> str:
@@ -67,8 +70,16 @@ def load_texts(language: Language) -> Mapping[str, str]:
         for key, text in _list_texts(tomllib.loads(file.read_text(encoding="utf-8"))):
             if key in texts:
                 raise ValueError(f"two texts have the key {key} in {language}")
-            texts[key] = text
+            texts[key] = _keep_together(text) if language == "fr" else text
     return MappingProxyType(texts)
+
+
+def _keep_together(text: str) -> str:
+    """Text in which no line begins with a colon or a question mark."""
+    return "".join(
+        _BEFORE_SIGN.sub("\u00a0", part) if place % 2 == 0 else part
+        for place, part in enumerate(_GAP.split(text))
+    )
 
 
 def _list_texts(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:

@@ -172,7 +172,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     spacing = next(
         c
         for c in checks["foot_anchor.pull_out"].changes
-        if c.quantity == "post spacing"
+        if c.quantity.key == "change.post_spacing"
     )
     assert spacing.bound is None
 

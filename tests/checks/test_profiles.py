@@ -1,11 +1,13 @@
 """The shipped profiles side by side, and what a swapped value changes."""
 
+import json
 import shutil
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import pytest
 
 from netdesign.checks import list_standards, load_standard
+from netdesign.edge.json_text import write_json
 from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
 from netdesign.outcome import Verdict
@@ -98,7 +100,7 @@ def test_swapped_limit_changes_verdict_and_hash_and_nothing_else(folder, tmp_pat
     after = study_row(tmp_path, mine, **ROW)
     assert (before.verdict, after.verdict) == (Verdict.PASS, Verdict.FAIL)
     assert before.profile.sha256 != after.profile.sha256
-    was, now = asdict(before), asdict(after)
+    was, now = (json.loads(write_json(one)) for one in (before, after))
     for study in (was, now):
         study["profile"].pop("sha256")
         for value in study["profile"]["values"]:
@@ -117,7 +119,9 @@ def test_profile_without_end_effect_proves_nothing(folder, tmp_path):
     (mine / "model.toml").unlink()
     checks = judge_row(tmp_path, mine, **ROW)
     assert checks["geometry.ends"].verdict is Verdict.NOT_PROVEN
-    assert "no end effect (end.*) and no lateral load" in checks["geometry.ends"].reason
+    reason = str(checks["geometry.ends"].reason)
+    assert "no end effect (end.*)" in reason
+    assert "no lateral load" in reason
 
 
 def test_profile_without_correlation_does_not_prove_by_tests(folder, tmp_path):
@@ -132,7 +136,7 @@ def test_profile_without_correlation_does_not_prove_by_tests(folder, tmp_path):
     checks = judge_row(tmp_path, mine, **(ROW | {"anchor": anchor}))
     check = checks["foot_anchor.pull_out"]
     assert check.verdict is Verdict.NOT_PROVEN
-    assert "no correlation factors for 3 tests" in check.reason
+    assert "no correlation factors for 3 tests" in str(check.reason)
 
 
 def test_national_choice_takes_the_place_of_its_factors(folder):

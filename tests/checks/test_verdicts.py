@@ -21,6 +21,7 @@ from netdesign.checks import (
     load_standard,
 )
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.words.names import as_given
 from tests.checks.entries import a_resistance, a_value
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
@@ -53,9 +54,12 @@ def use(force: float, on_action: float, strength: float, factor: float) -> Fract
     return parts[0] * parts[1] * parts[2] / parts[3]
 
 
-def verdict_of(action, on_action, strength, factor, gap=""):
+def verdict_of(action, on_action, strength, factor, gap=None):
     standard = profile(on_action, factor)
-    return check_member(action, a_resistance(strength), standard, gap=gap).verdict
+    given = a_resistance(strength)
+    return check_member(
+        action, given, standard, gap=as_given(gap) if gap else None
+    ).verdict
 
 
 @given(bands(), FACTORS, FORCES, FACTORS, GAPS)
@@ -109,7 +113,7 @@ def test_an_unknown_basis_is_not_proven(action, strength, basis):
         ),
     )
     given_resistance = a_resistance(strength, mode="pull_out", basis=basis)
-    assert check_member(action, given_resistance, on_tested, gap="").verdict is OPEN
+    assert check_member(action, given_resistance, on_tested, gap=None).verdict is OPEN
 
 
 @given(st.one_of(st.none(), FORCES), st.one_of(st.none(), FACTORS), GAPS)

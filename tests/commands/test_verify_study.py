@@ -111,7 +111,7 @@ def last_digits(study):
             lambda s: s["project"].update(author="\x1b[31mA. N. Other"),
             "project.author: stored '",
         ),
-        (lambda s: s["notes"].clear(), "notes.0: stored None, again "),
+        (lambda s: s["notes"].clear(), "notes.0.key: stored None, again "),
     ],
 )
 def test_a_changed_study_ends_with_1_and_the_place(verify, change, place):
@@ -182,7 +182,7 @@ def test_without_its_site_file_nothing_is_verified(verify, tmp_path):
 
 def test_settings_that_cannot_be_had_again_are_refused(verify):
     def change(study):
-        study["provenance"]["settings"]["creep law"] = "my own"
+        study["provenance"]["settings"]["creep_law"] = "my own"
 
     ended = verify(change)
     assert ended.code == REFUSED

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from netdesign.edge.streams import _SPELLED, _Lasting, guard_streams
-from netdesign.report.language import load_words
+from netdesign.words.catalogue import LANGUAGES, load_texts
 from tests.test_cli import QUICK, run, write_site
 
 CODE_PAGES = ("cp437", "cp850", "ascii", "latin-1", "cp1252", "cp932")
@@ -113,7 +113,7 @@ def test_no_code_page_ends_a_check(sites, tmp_path, encoding, language):
     )  # fmt: skip
     assert result.returncode == 4, result.stderr
     shown = result.stdout.decode(encoding)
-    assert load_words(language)("NOT PROVEN").replace("É", "")[:4] in shown
+    assert load_texts(language)["verdict.not_proven"].replace("É", "")[:4] in shown
     assert (tmp_path / "o" / "study.json").exists()
 
 
@@ -150,10 +150,7 @@ class _Replaced:
 @pytest.mark.parametrize("encoding", CODE_PAGES)
 def test_every_sign_of_every_language_can_be_shown(monkeypatch, encoding):
     texts = "".join(
-        text
-        for language in ("fr", "de")
-        for pair in load_words(language).texts.items()
-        for text in pair
+        text for language in LANGUAGES for text in load_texts(language).values()
     )
     signs = "".join(sorted({*texts, *_SPELLED}))
     shown = _Replaced(monkeypatch, encoding).show(signs).decode(encoding)

@@ -31,11 +31,17 @@ from netdesign.study.records import (
     SpreadRecord,
     Study,
 )
+from netdesign.words.message import say
 
 FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 ACTION_FACTOR, RESISTANCE_FACTOR = 1.5, 1.35
 ERROR = 0.004  # of every force
+
+
+def as_given(text):
+    """Somebody's own words as a message."""
+    return say("text.as_given", text=text)
 
 
 def build_study(*, samples: int = 3, rows: int = 3) -> Study:
@@ -66,7 +72,10 @@ def build_study(*, samples: int = 3, rows: int = 3) -> Study:
             _echo("Density, high", "kg/m3", "450", 450.0, "Ranges!C2"),
             _echo("Friction angle, low", "°", "", 15.0, "default"),
         ],
-        notes=[f"Sheet Nets: column {SCRIPT} was not understood.", MENTION],
+        notes=[
+            as_given(f"Sheet Nets: column {SCRIPT} was not understood."),
+            as_given(MENTION),
+        ],
         provenance=Provenance(
             version="0.1.0",
             command="netdesign check combe.xlsx --standard nf-p-95-304",
@@ -161,11 +170,11 @@ def build_row(
             _echo("Slack", "%", "", 2.0, "default"),
         ],
         drawing=build_drawing(extremes[0]),
-        reasons=reasons,
+        reasons=[as_given(reason) for reason in reasons],
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
-        notes=[f"no gap is given {SCRIPT}"],
+        notes=[as_given(f"no gap is given {SCRIPT}")],
     )
 
 
@@ -238,17 +247,17 @@ def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
         solved_foot_anchor_kN=extreme.max_kN,
         cases=[
             GuidelineCase(
-                name="same snow", density_kg_m3=450.0, height_vertical_m=5.22, **numbers
+                name="same_snow", density_kg_m3=450.0, height_vertical_m=5.22, **numbers
             ),
             GuidelineCase(
-                name="load case 2",
+                name="load_case_2",
                 density_kg_m3=400.0,
                 height_vertical_m=4.02,
                 **dict.fromkeys(numbers),
-                reason=f"the support fails {SCRIPT}",
+                reason=as_given(f"the support fails {SCRIPT}"),
             ),
         ],
-        sentence=f"They differ because {SCRIPT}.",
+        sentence=as_given(f"They differ because {SCRIPT}."),
     )
 
 
@@ -271,7 +280,7 @@ def build_case(point: CasePoint, scale: float) -> CaseRecord:
     return CaseRecord(
         case=point,
         outcome=Outcome.CONVERGED,
-        reason="",
+        reason=None,
         **{f"{member}_kN": force(member, point, scale) for member in MEMBERS},
         error_percent=100 * ERROR * point.density_kg_m3 / 450,
         balance_residual=3.1e-10 * point.friction_deg,
@@ -283,7 +292,7 @@ def build_failed_case(point: CasePoint) -> CaseRecord:
     return CaseRecord(
         case=point,
         outcome=Outcome.MAX_ITERATIONS,
-        reason="60 iterations, residual 2e-3.",
+        reason=as_given("60 iterations, residual 2e-3."),
         **{f"{member}_kN": None for member in MEMBERS},
         error_percent=None,
         balance_residual=None,
@@ -336,7 +345,7 @@ def build_check(
         utilisation=None if resistance is None else demand / resistance,
         verdict=verdict,
         case=extreme.case,
-        reason=reason,
+        reason=as_given(reason),
         action_kN=extreme.max_kN,
         action_factor=ACTION_FACTOR,
         resistance_characteristic_kN=characteristic,
@@ -344,7 +353,9 @@ def build_check(
         resistance_basis="" if resistance is None else "tested",
         resistance_type="GEWI 28" if member != "post" else "HEA 160",
         resistance_cell="Anchors!E7",
-        resistance_derivation=f"π · 90 mm {SCRIPT}" if mode == "pull_out" else "",
+        resistance_derivation=as_given(f"π · 90 mm {SCRIPT}")
+        if mode == "pull_out"
+        else None,
         action=ActionRecord(
             solved_kN=extreme.max_kN / 1.1,
             post_spacing_m=4.0,
@@ -355,18 +366,23 @@ def build_check(
             lateral_factor=1.0,
         ),
         spreads=[
-            SpreadRecord(source="numerical error", low=0.9, high=0.95, in_verdict=True),
             SpreadRecord(
-                source="creep law zwinger-2007",
+                source=say("spread.numerical_error"),
+                low=0.9,
+                high=0.95,
+                in_verdict=True,
+            ),
+            SpreadRecord(
+                source=say("spread.creep_law", law="zwinger-2007"),
                 low=None,
                 high=None,
                 in_verdict=False,
-                note=f"refused {SCRIPT}",
+                note=as_given(f"refused {SCRIPT}"),
             ),
         ],
         changes=[
             ChangeRecord(
-                quantity=f"type {FORMULA}",
+                quantity=say("change.type_of_workbook", type=FORMULA),
                 unit="kN",
                 now=characteristic,
                 bound=900.0,
@@ -374,13 +390,13 @@ def build_check(
                 solves=0,
             ),
             ChangeRecord(
-                quantity="snow density",
+                quantity=say("change.snow_density"),
                 unit="kg/m3",
                 now=450.0,
                 bound=None,
                 sense="at most",
                 solves=7,
-                note="not even 150 passes",
+                note=as_given("not even 150 passes"),
             ),
         ],
     )
@@ -400,7 +416,7 @@ def build_geometry_check() -> CheckRecord:
         utilisation=None,
         verdict=Verdict.PASS,
         case=None,
-        reason="25° to 35° lies within 25° to 35°.",
+        reason=as_given("25° to 35° lies within 25° to 35°."),
     )
 
 
@@ -418,7 +434,7 @@ def build_slack_check(case: CasePoint) -> CheckRecord:
         utilisation=0.0,
         verdict=Verdict.PASS,
         case=case,
-        reason="The member is slack in every case and needs no resistance.",
+        reason=as_given("The member is slack in every case and needs no resistance."),
         action_kN=0.0,
         action_factor=ACTION_FACTOR,
     )

@@ -5,7 +5,6 @@ import subprocess
 
 import pytest
 
-from netdesign.report.language import load_words
 from netdesign.report.page.html import list_sections, render_html
 from netdesign.report.view.whole import build_view
 from tests.programs import require_program
@@ -42,7 +41,7 @@ def run(browser, folder, *arguments):
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_page_opens_without_complaint(browser, tmp_path, language):
     study = build_study()
-    page = render_html(study, load_words(language))
+    page = render_html(study, language)
     (tmp_path / "report.html").write_text(page, encoding="utf-8")
     tree = run(browser, tmp_path, "--dump-dom")
     for name in list_sections(build_view(study)):

@@ -5,7 +5,12 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.difference import compare_studies, write_difference
+from netdesign.report.difference import (
+    compare_studies,
+    name_area,
+    write_difference,
+)
+from netdesign.report.words import ENGLISH
 from netdesign.study.records import read_document, write_document
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
@@ -14,7 +19,7 @@ UNTOLD = (("provenance", "started"), ("provenance", "command"), ("digest",))
 
 
 def changes_of(old, new):
-    return {(one.area, one.row, one.what): (one.old, one.new) for one in
+    return {(one.area, one.row, one.name(ENGLISH)): (one.old, one.new) for one in
             compare_studies(old, new)}  # fmt: skip
 
 
@@ -108,10 +113,14 @@ def test_a_check_that_does_not_govern_turns_first_and_by_name():
     new = replace(new, project=replace(new.project, revision="C"))
     first, *others = compare_studies(old, new)
     name = old.rows[1].checks[place].id
-    assert (first.what, first.old, first.new) == (f"check {name}", "pass", "fail")
+    assert (first.name(ENGLISH), first.old, first.new) == (
+        f"check {name}",
+        "pass",
+        "fail",
+    )
     assert first.is_turned
     assert not any(change.is_turned for change in others)
-    told = [change.what for change in others]
+    told = [change.name(ENGLISH) for change in others]
     assert f"{name}: resistance [kN]" in told
     assert f"{name}: utilisation" in told
 
@@ -142,7 +151,7 @@ def test_what_is_gone_counts_as_turned_and_what_comes_and_passes_does_not(gone):
 def test_reordered_rows_are_told():
     old = build_study()
     (change,) = compare_studies(old, replace(old, rows=old.rows[::-1]))
-    assert (change.area, change.what) == ("other", "rows.order")
+    assert (change.area, str(change.what)) == ("other", "rows.order")
 
 
 def test_values_are_told_apart_however_close():
@@ -176,3 +185,21 @@ def test_every_value_of_a_study_is_compared():
         assert bool(changes) is (name not in UNTOLD), path
         is_verdict = name[-1] in ("verdict", "is_met")
         assert any(c.is_turned for c in changes) >= is_verdict, path
+
+
+@pytest.mark.parametrize(
+    ("language", "verdict", "area"),
+    [("en", "verdict: fail -> none", "verdict"), ("fr", "aucune valeur", "verdict"),
+     ("de", "kein Wert", "Ergebnis")],
+)  # fmt: skip
+def test_changes_are_told_in_the_language_asked_for(language, verdict, area):
+    old, new = build_study(rows=3), build_study(rows=2)
+    changed = replace(new, project=replace(new.project, revision="C"))
+    changes = compare_studies(old, changed)
+    told = [change.tell(language) for change in changes]
+    assert all(told)
+    assert any(verdict.rpartition(": ")[2].split(" -> ")[-1] in line for line in told)
+    assert name_area("verdict", language) == area
+    document = write_difference(changes, language)
+    assert len(document["changes"]) == len(changes)
+    assert [one["new"] for one in document["changes"]] == [one.new for one in changes]

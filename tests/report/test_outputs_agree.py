@@ -7,11 +7,10 @@ import re
 import pytest
 from rich.console import Console
 
-from netdesign.report.language import load_words
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_summary
 from netdesign.report.view.whole import build_view
-from netdesign.report.words import VERDICTS, show_number
+from netdesign.report.words import ENGLISH, show_number
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.study.records import write_document
 from tests.report.build_study import build_study
@@ -83,12 +82,12 @@ def test_verdicts_agree(page, book):
     summary = read_rows(book["Summary"], "No.")
     shown = [cells for cells in page.tables["summary"][0][1:] if len(cells) > 2]
     for index, row in enumerate(STUDY.rows):
-        word = VERDICTS[row.verdict].word
+        word = ENGLISH(f"verdict.{row.verdict}")
         assert shown[index][1].endswith(f" {word}")
         assert summary[index]["Verdict"] == word
         assert word in lines[1 + index]
         assert shown[index][3] in lines[1 + index]
-    overall = VERDICTS[STUDY.verdict].word
+    overall = ENGLISH(f"verdict.{STUDY.verdict}")
     assert book["Summary"]["C3"].value == overall
     assert lines[-1].startswith(f"Verdict: {overall}")
     assert f"{overall}" in "".join(page.text)
@@ -144,7 +143,7 @@ def test_all_cases_of_the_document_stand_in_the_workbook(book):
 
 @pytest.mark.parametrize("language", ["fr", "de"])
 def test_languages_show_the_same_numbers_and_keys(page, language):
-    other = PageReader(render_html(STUDY, load_words(language)))
+    other = PageReader(render_html(STUDY, language))
     assert other.ids == page.ids
     for section, tables in page.tables.items():
         for table, theirs in zip(tables, other.tables[section], strict=True):

@@ -3,7 +3,6 @@ import re
 
 from rich.console import Console
 
-from netdesign.report.language import load_words
 from netdesign.report.terminal import open_console, print_summary
 from netdesign.report.view.whole import build_view
 from tests.report.build_study import SCRIPT, build_study
@@ -32,7 +31,7 @@ def test_one_line_for_each_net_row_then_reasons_and_assumed_values():
 def test_summary_in_french_has_the_same_numbers():
     stream = io.StringIO()
     console = Console(file=stream, width=200)
-    print_summary(build_study(), console, load_words("fr"))
+    print_summary(build_study(), console, "fr")
     lines = stream.getvalue().splitlines()
     assert lines[-1].startswith("Verdict\u00a0: NON SATISFAIT - ")
     english = printed(build_study()).splitlines()

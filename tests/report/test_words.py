@@ -6,14 +6,19 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report import words
+from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_check, build_extreme, build_row
 
 
 def test_every_verdict_has_its_own_word_sign_and_exit_code():
-    shown = list(words.VERDICTS.values())
     assert set(words.VERDICTS) == set(Verdict)
-    for read in ("word", "symbol", "style", "meaning", "exit_code"):
-        assert len({getattr(verdict, read) for verdict in shown}) == len(shown)
+    codes = {signs.exit_code for signs in words.VERDICTS.values()}
+    assert len(codes) == len(Verdict)
+    for language in LANGUAGES:
+        told = words.Words(language)
+        shown = [words.show_verdict(verdict, told) for verdict in Verdict]
+        for read in ("word", "symbol", "style", "meaning"):
+            assert len({getattr(one, read) for one in shown}) == len(Verdict)
 
 
 def test_exit_codes_are_those_of_the_interface():
@@ -53,7 +58,7 @@ def test_number_format_writes_as_many_decimals_as_the_text(key):
 def test_names_of_checks_and_cases():
     row = build_row("A", 2, scale=0.6)
     check = build_check("foot_anchor", "pull_out", row.extremes[0], 480.0)
-    assert words.name_check(check) == "Foot anchor, pull-out"
+    assert words.show_check(words.ENGLISH, check) == "Foot anchor, pull-out"
     worst = build_extreme("post", row.cases).case
     assert words.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
     assert words.name_case_short(worst) == "450 / 15 / 35"

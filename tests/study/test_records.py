@@ -23,6 +23,7 @@ from netdesign.study.records import (
     read_document,
     write_document,
 )
+from netdesign.words.message import say
 
 POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)
 CHECK = CheckRecord(
@@ -37,7 +38,7 @@ CHECK = CheckRecord(
     utilisation=2.0 / 3.0,
     verdict=Verdict.PASS,
     case=POINT,
-    reason="The demand stays within the resistance.",
+    reason=say("text.as_given", text="The demand stays within the resistance."),
 )
 GEOMETRY = CheckRecord(
     id="geometry.inclination",
@@ -51,7 +52,7 @@ GEOMETRY = CheckRecord(
     utilisation=None,
     verdict=Verdict.NOT_PROVEN,
     case=None,
-    reason="Not all inside.",
+    reason=say("text.as_given", text="Not all inside."),
 )
 DRAWING = Drawing(
     case=POINT,
@@ -84,7 +85,7 @@ ROW = RowStudy(
         CaseRecord(
             case=POINT,
             outcome=Outcome.MAX_ITERATIONS,
-            reason="60 rounds",
+            reason=say("text.as_given", text="60 rounds"),
             foot_anchor_kN=None,
             uphill_guy_kN=None,
             downhill_guy_kN=None,
@@ -98,10 +99,10 @@ ROW = RowStudy(
         InputEcho(label="ground", unit="", text="", value="free", cell="default"),
     ],
     drawing=DRAWING,
-    reasons=["geometry.inclination: Not all inside."],
+    reasons=[say("text.as_given", text="Not all inside.")],
 )
 STUDY = Study(
-    schema="netdesign.study/1",
+    schema="netdesign.study/2",
     verdict=Verdict.NOT_PROVEN,
     project=Project(name="Combe"),
     profile=ProfileRecord(
@@ -144,7 +145,7 @@ def document():
 def refuse(document):
     """Message with which the document is refused."""
     text = document if isinstance(document, str) else json.dumps(document)
-    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/1") as e:
+    with pytest.raises(StudyError, match=r"a study of schema netdesign\.study/2") as e:
         read_document(text)
     return str(e.value)
 
@@ -186,7 +187,7 @@ def test_numbers_are_written_in_full(document):
 def test_keys_stand_in_the_order_of_the_fields(document):
     assert list(document) == [field.name for field in fields(Study)]
     assert list(document["rows"][0]) == [field.name for field in fields(RowStudy)]
-    assert document["schema"] == "netdesign.study/1"
+    assert document["schema"] == "netdesign.study/2"
     assert document["verdict"] == "not_proven"
 
 
@@ -229,7 +230,25 @@ def test_every_fault_is_named(document):
         assert f"\n{place}" in message
 
 
-@pytest.mark.parametrize("word", ["netdesign.study/2", "netdesign.solution/1", ""])
+def test_a_study_of_an_earlier_schema_is_refused_with_what_to_do(document):
+    document["schema"] = "netdesign.study/1"
+    with pytest.raises(StudyError, match="run 'netdesign check' on its site again"):
+        read_document(json.dumps(document))
+
+
+def test_a_message_without_its_text_or_arguments_is_refused(document):
+    reason = document["rows"][0]["checks"][0]["reason"]
+    for key, arguments in (
+        ("no.such_text", {}),
+        ("text.as_given", {}),
+        ("row.in_cases", {"count": 1, "all": 2, "what": {"key": "no.such_text"}}),
+        ("geometry.gap_within", {"gap": "wide", "most": 2.0}),
+    ):
+        reason.update(key=key, arguments=arguments)
+        assert "rows.0.checks.0.reason" in refuse(document)
+
+
+@pytest.mark.parametrize("word", ["netdesign.study/3", "netdesign.solution/1", ""])
 def test_another_schema_is_refused(document, word):
     document["schema"] = word
     assert "schema: " in refuse(document)

@@ -66,7 +66,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def changes(found):
-    return {change.quantity: change for change in check(found).changes}
+    return {str(change.quantity): change for change in check(found).changes}
 
 
 def test_weak_anchor_fails_and_every_change_is_solved(found, changes):
@@ -139,18 +139,18 @@ def test_anchors_pull_out_of_the_ground_and_the_base_presses(found):
 def test_guideline_stands_beside_the_solve(found):
     record = found.guideline
     names = [case.name for case in record.cases]
-    assert names == ["same snow", "load case 1", "load case 2"]
+    assert names == ["same_snow", "load_case_1", "load_case_2"]
     same = record.cases[0]
     assert same.density_kg_m3 == record.case.density_kg_m3 == 400.0
     assert same.glide_factor == 1.0
     ratio = record.solved_load_kN_per_m / same.load_kN_per_m
     assert same.load_difference_percent == pytest.approx(100 * (ratio - 1), rel=1e-12)
     assert 0.7 < ratio < 1.7  # two models of the same snow, see physics of the pressure
-    assert "Without slip" in record.sentence
+    assert "Without slip" in str(record.sentence)
 
 
 def test_interval_names_every_other_creep_law(found):
-    spreads = {spread.source: spread for spread in check(found).spreads}
+    spreads = {str(spread.source): spread for spread in check(found).spreads}
     assert set(spreads) == {
         "numerical error",
         "between the cases",
@@ -161,11 +161,11 @@ def test_interval_names_every_other_creep_law(found):
     assert judged == ["numerical error", "between the cases"]
     refused = spreads["creep law gagliardini-1997"]
     assert refused.low is None
-    assert "use another set or denser snow" in refused.note
+    assert "use another set or denser snow" in str(refused.note)
 
 
 def test_without_a_probe_nothing_more_is_solved():
     plain = check(study())
-    quantities = {change.quantity for change in plain.changes}
+    quantities = {str(change.quantity) for change in plain.changes}
     assert "snow density" not in quantities
     assert "characteristic resistance" in quantities

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import netdesign
+from netdesign.edge.resources import find_resource
 from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import say
 
@@ -18,6 +19,12 @@ FAMILIES: tuple[str, ...] = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
     *("outcome.", "ended.", "envelope_member.", "os_error.", "shape."),
     *("finding.error", "finding.note", "case_count."),
+    *("member.", "mode.", "basis.", "status.", "axis."),
+    *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
+    *("method.", "method_used.", "setting.", "start.", "end.", "input_end."),
+    *("profile_title.", "profile_text.", "profile_source.", "solved_method."),
+    *("solved_caption.", "solved.foot", "solved.head", "diff_value."),
+    *("diff_check.", "diff_project.", "diff_area."),
 )
 
 
@@ -37,11 +44,16 @@ def test_every_text_has_the_same_gaps(language):
 
 
 def list_calls():
-    """Every ``say("key", name=...)`` of the program: place, key, names."""
+    """Every ``say("key", name=...)`` of the program: place, key, names.
+
+    The reports ask ``words("key", name=...)``, or ``book.words(...)``.
+    """
     for path in sorted(PACKAGE.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-            if is_call and node.func.id == "say" and node.args:
+            if not isinstance(node, ast.Call) or len(node.args) != 1:
+                continue
+            called = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            if called in ("say", "words"):
                 (key,) = node.args
                 if isinstance(key, ast.Constant):
                     names = {one.arg for one in node.keywords}
@@ -58,9 +70,25 @@ def test_every_message_has_a_text_and_all_its_arguments():
     assert wrong == []
 
 
+def test_every_text_that_a_template_asks_for_is_there_with_its_gaps():
+    wrong = [
+        (path.name, key)
+        for path in find_resource("templates").rglob("*.html")
+        for key, given in re.findall(
+            r't\("([^"]+)"((?:, \w+=[^,()]+)*)\)', path.read_text(encoding="utf-8")
+        )
+        if set(re.findall(r", (\w+)=", given))
+        != list_gaps(TEXTS["en"].get(key, "{no such text}"))
+    ]
+    assert wrong == []
+
+
 def test_no_text_is_idle():
-    source = "\n".join(p.read_text(encoding="utf-8") for p in PACKAGE.rglob("*.py"))
+    files = [*PACKAGE.rglob("*.py"), *find_resource("templates").rglob("*.html")]
+    source = "\n".join(path.read_text(encoding="utf-8") for path in files)
     named = set(re.findall(r'"([a-z0-9_]+(?:\.[a-z0-9_]+)+)"', source))
+    # the reports list headings of tables and sheets without their family
+    named |= {f"heading.{name}" for name in re.findall(r'"([a-z0-9_]+)"', source)}
     idle = {
         key for key in TEXTS["en"] if key not in named and not key.startswith(FAMILIES)
     }

@@ -85,7 +85,7 @@ def draw_panels(
     across: int = 1,
     panel_in: float = 1.75,
     is_log: bool = True,
-    time_label: str = "time since the start",
+    time_label: str,
 ) -> str:
     """SVG of charts against time in days, side by side or one below the other.
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from netdesign.outcome import Outcome
-from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.tables import list_loaded
-from netdesign.report.words import show_given, show_number
+from netdesign.report.words import (
+    ENGLISH,
+    Words,
+    name_heading,
+    show_given,
+    show_number,
+)
 from netdesign.study.records import CaseRecord, ExtremeRecord, RowStudy
 
 _MOST_PANELS, _MOST_LINES = 4, 5  # across; more are thinned out
@@ -26,7 +31,7 @@ _LINES = (
 )
 
 
-def draw_envelope(row: RowStudy) -> str:
+def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
     """SVG of all forces of a row; "" if no case of it gives a force."""
     members = list_loaded(row)
     if not members:
@@ -43,12 +48,12 @@ def draw_envelope(row: RowStudy) -> str:
         _MOST_LINES,
     )
     sketch = Sketch()
-    _draw_legend(sketch, frictions, has_failed=_has_failed(row.cases))
+    _draw_legend(sketch, frictions, words, has_failed=_has_failed(row.cases))
     for place, member in enumerate(members):
         top = _LEGEND + place * (_HEAD + _PANEL) + _HEAD
         for column, inclination in enumerate(panels):
             frame = _place_panel(row, member, (column, len(panels)), top)
-            panel = _Panel(sketch, frame, row, member)
+            panel = _Panel(sketch, frame, row, member, words)
             panel.draw(inclination, frictions, is_first=column == 0)
             if place == 0:
                 text = f"θ = {show_given(inclination)}°"
@@ -56,7 +61,7 @@ def draw_envelope(row: RowStudy) -> str:
             if place == len(members) - 1:
                 panel.label_densities()
     height = _LEGEND + len(members) * (_HEAD + _PANEL) + _FOOT
-    return sketch.write(height, "Member forces over the ranges")
+    return sketch.write(height, words("drawing.envelope"))
 
 
 def _thin(values: Iterable[float], keep: Sequence[float], most: int) -> list[float]:
@@ -107,10 +112,10 @@ class _Panel:
     """One member at one inclination."""
 
     def __init__(
-        self, sketch: Sketch, frame: Frame, row: RowStudy, member: str
+        self, sketch: Sketch, frame: Frame, row: RowStudy, member: str, words: Words
     ) -> None:
         self._sketch, self._frame, self._row = sketch, frame, row
-        self._member = member
+        self._member, self._words = member, words
 
     def draw(
         self, inclination: float, frictions: Sequence[float], *, is_first: bool
@@ -143,8 +148,7 @@ class _Panel:
             [(frame.left, bottom), (right, bottom)], stroke=GREY, width=0.5
         )
         if is_first:
-            quantity = QUANTITIES[f"{self._member}_kN"]
-            text = f"{quantity.label} [{quantity.unit}]"
+            text = name_heading(self._words, f"{self._member}_kN")
             self._sketch.words((2.0, frame.top - 5.0), text, bold=True)
 
     def label_densities(self) -> None:
@@ -153,8 +157,7 @@ class _Panel:
         for value in list_ticks(frame.x_low, frame.x_high, 5):
             at = (frame.x(value), base + 2.0 + TEXT_PT)
             self._sketch.words(at, f"{value:g}", anchor="middle")
-        density = QUANTITIES["density_kg_m3"]
-        text = f"{density.label} [{density.unit}]"
+        text = name_heading(self._words, "density_kg_m3")
         middle = (frame.left + frame.width / 2, base + 5.0 + 2.2 * TEXT_PT)
         self._sketch.words(middle, text, anchor="middle")
 
@@ -215,7 +218,7 @@ def draw_marker(sketch: Sketch, at: Point, marker: str, stroke: str) -> None:
 
 
 def _draw_legend(
-    sketch: Sketch, frictions: Sequence[float], *, has_failed: bool
+    sketch: Sketch, frictions: Sequence[float], words: Words, *, has_failed: bool
 ) -> None:
     left, y = _LEFT, 7.0
     for friction, (shade, dash, marker) in zip(frictions, _LINES, strict=False):
@@ -224,7 +227,7 @@ def _draw_legend(
         sketch.words((left + 24.0, y + 2.6), f"φ = {show_given(friction)}°")
         left += 66.0
     sketch.ring(left + 4.0, y, ACCENT)
-    sketch.words((left + 12.0, y + 2.6), "governing case")
+    sketch.words((left + 12.0, y + 2.6), words("drawing.governing_case"))
     if has_failed:
         sketch.words((left + 84.0, y + 2.6), "×", fill=ACCENT, bold=True)
-        sketch.words((left + 94.0, y + 2.6), "no result")
+        sketch.words((left + 94.0, y + 2.6), words("drawing.no_result"))

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import (
     SHADES,
@@ -18,8 +17,9 @@ from netdesign.report.drawing.plain_svg import (
     list_ticks,
     shade,
 )
-from netdesign.report.words import name_heading, show_given
+from netdesign.report.words import ENGLISH, Words, name_heading, show_given
 from netdesign.study.records import BoundRecord, EnvelopeRecord, LineRecord, MapRecord
+from netdesign.words.names import name
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
 _HEAD, _PANEL, _FOOT = 26.0, 84.0, 26.0  # heights of a row of panels [pt]
@@ -32,7 +32,7 @@ def split_members(record: EnvelopeRecord) -> list[EnvelopeRecord]:
     return [replace(record, bounds=[bound]) for bound in _list_loaded(record)]
 
 
-def draw_maps(record: EnvelopeRecord) -> str:
+def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     """SVG of force over density and friction, a column for each inclination.
 
     Returns "" where density or friction does not range. The ring marks the governing
@@ -44,7 +44,7 @@ def draw_maps(record: EnvelopeRecord) -> str:
     chart = Chart()
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         nearest = min(
             range(len(bound.maps)),
             key=lambda k: abs(
@@ -59,15 +59,15 @@ def draw_maps(record: EnvelopeRecord) -> str:
         pairs = list(zip(frames, bound.maps, strict=True))
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
-            _name_map(chart, frame, one)
+            _name_map(chart, frame, one, words)
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, _title("Forces over density and friction", record))
+    return chart.write(height, _title("drawing.maps", record, words))
 
 
-def draw_lines(record: EnvelopeRecord) -> str:
+def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     """SVG of force along each quantity through the governing case, with its bound."""
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
@@ -75,7 +75,7 @@ def draw_lines(record: EnvelopeRecord) -> str:
     chart = Chart()
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         low, high = bounds_of([*(one.force_kN for one in bound.lines)])
         high = max(high, bound.upper_bound_kN)
         margin = 0.06 * (high - low) or 0.01 * high
@@ -87,23 +87,23 @@ def draw_lines(record: EnvelopeRecord) -> str:
                 y_low=low - margin,
                 y_high=high + margin,
             )
-            _paint_line(chart, frame, one, bound)
+            _paint_line(chart, frame, one, bound, words)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    title = _title("Forces along each quantity, with the bound", record)
+    title = _title("drawing.lines", record, words)
     return chart.write(height, title)
 
 
-def draw_drivers(record: EnvelopeRecord) -> str:
+def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     """SVG of what drives each force: tornado about the governing case."""
     bounds = [bound for bound in _list_loaded(record) if bound.drivers]
     if not bounds:
         return ""
     chart, top = Chart(), 0.0
     for bound in bounds:
-        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record), bold=True)
+        chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         top += 14.0
-        top += _paint_tornado(chart, bound, top)
-    return chart.write(top, _title("What drives each force", record))
+        top += _paint_tornado(chart, bound, top, words)
+    return chart.write(top, _title("drawing.drivers", record, words))
 
 
 def _list_cells(
@@ -128,7 +128,7 @@ def _list_cells(
     return cells
 
 
-def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     """Axes of a map and their names."""
     chart.text(
         frame.left + frame.width,
@@ -136,9 +136,9 @@ def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
         f"θ = {show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
-    chart.text(frame.left, frame.top - 5.5, _label("friction_deg"))
+    chart.text(frame.left, frame.top - 5.5, name_heading(words, "friction_deg"))
     chart.axes(frame)
-    _name_axis(chart, frame, "density_kg_m3")
+    _name_axis(chart, frame, name_heading(words, "density_kg_m3"))
 
 
 def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
@@ -158,7 +158,7 @@ def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
 
 
 def _paint_line(
-    chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord
+    chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord, words: Words
 ) -> None:
     def trace(forces: Sequence[float]) -> list[tuple[float, float]]:
         return drop_straight(
@@ -180,10 +180,10 @@ def _paint_line(
     )
     chart.axes(frame)
     chart.ring(frame.x(bound.case[one.key]), frame.y(bound.max_kN), ACCENT)
-    _name_axis(chart, frame, one.key)
+    _name_axis(chart, frame, name_heading(words, one.key))
 
 
-def _paint_tornado(chart: Chart, bound: BoundRecord, top: float) -> float:
+def _paint_tornado(chart: Chart, bound: BoundRecord, top: float, words: Words) -> float:
     """Bars of one force; their height on the page."""
     drivers = sorted(bound.drivers, key=lambda one: one.least_kN - one.most_kN)
     low = min(one.least_kN for one in drivers)
@@ -204,11 +204,11 @@ def _paint_tornado(chart: Chart, bound: BoundRecord, top: float) -> float:
         left, right = frame.x(one.least_kN), frame.x(one.most_kN)
         chart.rectangle(left, y + 2.0, right - left, bar - 4.0, PALE)
         base = y + bar / 2 + TEXT_PT / 3
-        chart.text(frame.left - 6.0, base, _label(one.key), anchor="end")
+        chart.text(frame.left - 6.0, base, name_heading(words, one.key), anchor="end")
         chart.text(
             frame.left + frame.width + 8.0,
             base,
-            f"S {one.first_order:.2f}, total {one.total:.2f}",
+            words("drawing.sobol", first=one.first_order, total=one.total),
         )
     mark = frame.x(bound.max_kN)
     chart.line([(mark, top), (mark, top + frame.height)], stroke=ACCENT, width=0.8)
@@ -236,9 +236,9 @@ def _panel(column: int, columns: int, top: float) -> dict[str, float]:
     }
 
 
-def _name_axis(chart: Chart, frame: Frame, key: str) -> None:
+def _name_axis(chart: Chart, frame: Frame, label: str) -> None:
     base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
-    chart.text(frame.left + frame.width / 2, base, _label(key), anchor="middle")
+    chart.text(frame.left + frame.width / 2, base, label, anchor="middle")
 
 
 def _edges(values: Sequence[float]) -> list[float]:
@@ -252,17 +252,16 @@ def _list_loaded(record: EnvelopeRecord) -> list[BoundRecord]:
     return [bound for bound in record.bounds if bound.max_kN > _SMALLEST * largest]
 
 
-def _name(bound: BoundRecord, record: EnvelopeRecord) -> str:
+def _name(bound: BoundRecord, record: EnvelopeRecord, words: Words) -> str:
     if record.is_per_metre:
-        return f"Tension of the net, {bound.quantity} [kN/m]"
-    return f"{QUANTITIES[f'{bound.quantity}_kN'].label} [kN]"
+        end = words.show(name("end", bound.quantity))
+        return words("drawing.net_tension", end=end)
+    return name_heading(words, f"{bound.quantity}_kN")
 
 
-def _title(what: str, record: EnvelopeRecord) -> str:
+def _title(what: str, record: EnvelopeRecord, words: Words) -> str:
     """Name of a drawing for those who cannot see it, with its member if it is one."""
-    alone = len(record.bounds) == 1
-    return f"{_name(record.bounds[0], record)}: {what}" if alone else what
-
-
-def _label(key: str) -> str:
-    return name_heading(key)
+    if len(record.bounds) > 1:
+        return words(what)
+    member = _name(record.bounds[0], record, words)
+    return words("drawing.of_member", member=member, what=words(what))

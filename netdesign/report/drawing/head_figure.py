@@ -9,14 +9,14 @@ from itertools import accumulate, pairwise
 from netdesign.report.drawing.figures import ACCENT, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.words import name_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
 from netdesign.study.records import HeadForce
 
 _TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
 _GAP = 6.0  # from a force to its name [pt]
 
 
-def draw_head(forces: Sequence[HeadForce]) -> str:
+def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
     """SVG of the polygon of at least two forces, each starting where one ends."""
     corners, height = _place_corners(forces)
     count = len(forces)
@@ -30,9 +30,10 @@ def draw_head(forces: Sequence[HeadForce]) -> str:
         sketch.arrow(start, end, stroke=colour, width=1.2)
         at, anchor = _place_name(start, end, middle)
         size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
-        text = f"{name_member(force.member)} {size}"
+        member = show_member(words, force.member)
+        text = words("show.force_of", member=member, force=size)
         sketch.words(at, text, anchor=anchor, fill=colour)
-    return sketch.write(height, "Force polygon of the post head")
+    return sketch.write(height, words("drawing.polygon"))
 
 
 def _place_corners(forces: Sequence[HeadForce]) -> tuple[list[Point], float]:

@@ -5,46 +5,52 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.report.drawing.charts import Line, Panel, draw_panels
-from netdesign.report.words import name_member
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
+from netdesign.words.message import Message
+from netdesign.words.names import name
 
 
-def draw_monitoring(records: Sequence[MonitoringRecord], name: str) -> str:
+def draw_monitoring(
+    records: Sequence[MonitoringRecord], place: str, words: Words = ENGLISH
+) -> str:
     """SVG of all measured series of a net row; "" without any."""
-    panels = [panel for record in records for panel in _list_panels(record)]
+    panels = [panel for record in records for panel in _list_panels(record, words)]
     if not panels:
         return ""
     return draw_panels(
         panels,
-        name,
-        "Measured tension and air temperature beside the model",
+        place,
+        words("drawing.monitoring"),
         is_log=False,
         panel_in=1.5,
-        time_label="days since the first reading",
+        time_label=words("drawing.days"),
     )
 
 
-def describe_monitoring(records: Sequence[MonitoringRecord]) -> str:
+def describe_monitoring(
+    records: Sequence[MonitoringRecord], words: Words = ENGLISH
+) -> str:
     """What the drawing must not be taken for."""
-    starts = {record.model_start for record in records}
-    note = (
-        "The model's history starts at the first reading from a "
-        f"{' or '.join(sorted(starts))} net with the middle of the ranges, not with "
-        "the winter before it; its clock runs with the air temperature, at most 0 °C. "
-        "In snow of one temperature warmth only makes time run faster: a daily swing "
-        "of the tension is not in the model. Drawn for comparison, it decides nothing."
-    )
-    reasons = sorted({one.model_reason for one in records if one.model_reason})
-    return f"{note} Without a history: {'; '.join(reasons)}." if reasons else note
+    starts = sorted({record.model_start for record in records})
+    named = tuple(name("start", start) for start in starts)
+    note = words("drawing.monitoring_note", starts=named)
+    reasons: dict[Message, None] = {}
+    for record in records:
+        if record.model_reason is not None:
+            reasons.setdefault(record.model_reason)
+    if not reasons:
+        return note
+    return words("drawing.without_history", note=note, reasons=tuple(reasons))
 
 
-def _list_panels(record: MonitoringRecord) -> list[Panel]:
-    member = name_member(record.member)
+def _list_panels(record: MonitoringRecord, words: Words) -> list[Panel]:
+    member = show_member(words, record.member)
     lines = []
     if record.model_times_d:
         lines.append(
             Line(
-                label="model",
+                label=words("drawing.model"),
                 x=record.model_times_d,
                 y=record.model_kN,
                 is_accent=True,
@@ -53,15 +59,21 @@ def _list_panels(record: MonitoringRecord) -> list[Panel]:
     measured = _pick(record.times_d, record.tensions_kN)
     if measured[0]:
         lines.append(
-            Line(label="measured", x=measured[0], y=measured[1], has_dots=True)
+            Line(
+                label=words("drawing.measured"),
+                x=measured[0],
+                y=measured[1],
+                has_dots=True,
+            )
         )
     panels = []
     if lines:
-        panels.append(Panel(title=f"{member}, tension [kN]", lines=lines))
+        title = words("drawing.tension", member=member)
+        panels.append(Panel(title=title, lines=lines))
     air = _pick(record.times_d, record.air_temperatures_C)
     if air[0]:
-        line = Line(label="air", x=air[0], y=air[1], style=1)
-        panels.append(Panel(title="Air temperature [°C]", lines=[line]))
+        line = Line(label=words("drawing.air"), x=air[0], y=air[1], style=1)
+        panels.append(Panel(title=words("drawing.air_temperature"), lines=[line]))
     return panels
 
 

@@ -21,6 +21,7 @@ from netdesign.report.drawing.figures import (
     use_style,
     write_svg,
 )
+from netdesign.report.words import ENGLISH, Words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -124,7 +125,7 @@ def find_face(solution: Solution | WallSolution) -> Face:
     )
 
 
-def draw_node_forces(face: Face, name: str) -> str:
+def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
     """SVG: the snow's forces on the nodes to scale, beside pressure and shear."""
     from matplotlib.figure import Figure
 
@@ -132,12 +133,12 @@ def draw_node_forces(face: Face, name: str) -> str:
         figure = Figure(figsize=(WIDTH_IN, 2.9))
         left = figure.add_axes((0.01, 0.02, 0.44, 0.88))
         right = figure.add_axes((0.55, 0.14, 0.44, 0.76))
-        _draw_arrows(left, face)
-        _draw_tractions(right, face)
-        return write_svg(figure, name, "Forces of the snow along the net")
+        _draw_arrows(left, face, words)
+        _draw_tractions(right, face, words)
+        return write_svg(figure, name, words("net_drawing.forces"))
 
 
-def draw_stick_slip(face: Face, name: str) -> str:
+def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
     """SVG: shear over its friction limit along the height, slipping nodes hollow.
 
     Empty text where there is no limit: the snow adheres, or there is no friction.
@@ -155,31 +156,31 @@ def draw_stick_slip(face: Face, name: str) -> str:
     with use_style(name):
         figure = Figure(figsize=(WIDTH_IN, 1.9))
         axes = figure.add_axes((0.08, 0.2, 0.6, 0.66))
-        dress(axes, "Shear over its friction limit |τ| / (p tan φ)")
+        dress(axes, words("net_drawing.over_limit"))
         axes.axhline(1.0, color=GREY, linewidth=0.6, linestyle=(0, (1, 2)))
         axes.plot(heights, used, color=GREY, linewidth=0.6, zorder=2)
-        for mask, colour, word in (
-            (~slides, INK, "sticks"),
-            (slides, "white", "slips"),
+        for mask, fill, rim, key in (
+            (~slides, INK, INK, "net_drawing.sticks"),
+            (slides, "white", ACCENT, "net_drawing.slips"),
         ):
             axes.plot(
                 heights[mask],
                 used[mask],
                 "o",
-                color=colour,
-                mec=ACCENT if word == "slips" else INK,
+                color=fill,
+                mec=rim,
                 mew=1.0,
                 ms=4.2,
-                label=f"{word}: {int(mask.sum())} of {mask.size} nodes",
+                label=words(key, count=int(mask.sum()), all=int(mask.size)),
                 zorder=3,
                 clip_on=False,
             )
         axes.set_ylim(0.0, 1.12)
-        axes.set_xlabel("height above the ground, normal to the slope [m]")
+        axes.set_xlabel(words("net_drawing.height_normal"))
         figure.legend(
             loc="center left", bbox_to_anchor=(0.7, 0.55), frameon=False, numpoints=1
         )
-        return write_svg(figure, name, "Where the snow sticks and slips on the net")
+        return write_svg(figure, name, words("net_drawing.stick_slip"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -193,7 +194,9 @@ class MeshPicture:
     face: Floats  # net or wall, shape (2, k) [m]
 
 
-def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
+def draw_meshes(
+    pictures: Sequence[MeshPicture], name: str, words: Words = ENGLISH
+) -> str:
     """SVG of deformed meshes below each other, to one scale of length and density."""
     from matplotlib.figure import Figure
 
@@ -219,8 +222,8 @@ def draw_meshes(pictures: Sequence[MeshPicture], name: str) -> str:
             edge = right - wide * 1.03
             axes.set_xlim(edge, edge + WIDTH_IN / scale)
             axes.set_ylim(-0.05 * tall, 1.02 * tall)
-        _draw_scale(figure, (low, high), height)
-        return write_svg(figure, name, "Snow mesh coloured by density")
+        _draw_scale(figure, (low, high), height, words)
+        return write_svg(figure, name, words("net_drawing.mesh"))
 
 
 def _find_ends(picture: MeshPicture) -> tuple[float, float]:
@@ -247,10 +250,10 @@ def picture_mesh(solution: Solution | WallSolution, title: str) -> MeshPicture:
     )
 
 
-def _draw_arrows(axes: Axes, face: Face) -> None:
+def _draw_arrows(axes: Axes, face: Face, words: Words) -> None:
     axes.set_axis_off()
     axes.set_aspect("equal")
-    dress(axes, "Forces of the snow on the nodes")
+    dress(axes, words("net_drawing.on_nodes"))
     x, y = face.points
     unit = float(y[-1])
     largest = float(np.hypot(*face.forces).max()) or 1.0
@@ -279,24 +282,24 @@ def _draw_arrows(axes: Axes, face: Face) -> None:
     axes.text(
         left,
         0.97 * unit,
-        f"longest arrow\n{largest / 1e3:.1f} kN/m",
+        words("net_drawing.longest", force=largest / 1e3),
         va="top",
         color=ACCENT,
     )
 
 
-def _draw_tractions(axes: Axes, face: Face) -> None:
-    dress(axes, "Pressure and shear [kN/m²]")
+def _draw_tractions(axes: Axes, face: Face, words: Words) -> None:
+    dress(axes, words("net_drawing.tractions"))
     pressure, shear = (part[face.inner] / 1e3 for part in face.tractions)
     heights = face.points[1, face.inner]
     axes.axhline(0.0, color=GREY, linewidth=0.5)
     for values, shade, dashes, word in (
-        (pressure, INK, "-", "pressure"),
-        (shear, "#555b63", (0, (4, 1.5)), "shear, upwards positive"),
+        (pressure, INK, "-", words("net_drawing.pressure")),
+        (shear, "#555b63", (0, (4, 1.5)), words("net_drawing.shear")),
     ):
         axes.plot(heights, values, color=shade, linestyle=dashes, lw=1.1, label=word)
         axes.plot(heights, values, "o", color=shade, ms=2.0)
-    axes.set_xlabel("height above the ground [m]")
+    axes.set_xlabel(words("net_drawing.height"))
     axes.margins(y=0.1)
     axes.legend(frameon=False, fontsize=TEXT_PT, loc="best", handlelength=2.4)
 
@@ -322,11 +325,13 @@ def _draw_mesh(axes: Axes, picture: MeshPicture, limits: tuple[float, float]) ->
         axes.plot(*picture.face[:, place], "o", color=ACCENT, ms=3, zorder=5)
 
 
-def _draw_scale(figure: Figure, limits: tuple[float, float], height: float) -> None:
+def _draw_scale(
+    figure: Figure, limits: tuple[float, float], height: float, words: Words
+) -> None:
     """Density scale made of rectangles: a drawing without an embedded picture."""
     low, high = limits
     if high - low < _ONE_DENSITY:
-        figure.text(0.015, 0.12 / height, f"density {low:.0f} kg/m³ throughout")
+        figure.text(0.015, 0.12 / height, words("net_drawing.one_density", density=low))
         return
     axes = figure.add_axes((0.015, 0.27 / height, 0.3, 0.09 / height))
     for step in range(_STEPS):
@@ -337,7 +342,7 @@ def _draw_scale(figure: Figure, limits: tuple[float, float], height: float) -> N
     middle = (low + high) / 2
     axes.set_xticks([0, 0.5, 1], [f"{value:.0f}" for value in (low, middle, high)])
     axes.spines[:].set_visible(False)
-    figure.text(0.335, 0.27 / height, "density [kg/m³]", va="bottom")
+    figure.text(0.335, 0.27 / height, words("net_drawing.density"), va="bottom")
 
 
 def _widen(limits: tuple[float, float]) -> tuple[float, float]:

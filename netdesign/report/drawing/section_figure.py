@@ -25,7 +25,7 @@ from netdesign.report.drawing.section_labels import (
     place_labels,
 )
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import name_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
 from netdesign.study.records import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
@@ -33,7 +33,7 @@ _SLACK = 1e-3  # of the largest force; below it there is no arrow
 _CHORDS = 6  # straight pieces that are drawn between two nodes of the net
 
 
-def draw_section(drawing: Drawing, name: str) -> str:
+def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     """SVG of the section in the case of ``drawing``; ``name`` keeps its ids apart."""
     paper = fit_paper(Frame(slope=math.radians(drawing.slope_deg), drawing=drawing))
     sketch = Sketch()
@@ -41,13 +41,13 @@ def draw_section(drawing: Drawing, name: str) -> str:
     _draw_ground(sketch, paper)
     _draw_support(sketch, paper)
     _draw_net(sketch, paper)
-    labels = [_draw_arrow(sketch, paper, arrow) for arrow in drawing.arrows]
+    labels = [_draw_arrow(sketch, paper, arrow, words) for arrow in drawing.arrows]
     sketch.dot(paper.at(drawing.head_m), 1.9, fill="#fff")
     draw_dimensions(sketch, paper)
     place_labels(sketch, labels)
     draw_scale_bar(sketch, paper)
-    draw_legend(sketch)
-    return sketch.write(paper.height, "Section of the net row with anchor forces")
+    draw_legend(sketch, words)
+    return sketch.write(paper.height, words("drawing.section"))
 
 
 def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
@@ -102,22 +102,22 @@ def _draw_net(sketch: Sketch, paper: Paper) -> None:
             start = i
 
 
-def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow) -> Label:
+def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow, words: Words) -> Label:
     """Draw force and anchor; a force into the ground ends there, others pull up."""
     frame = paper.frame
     size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
     largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
     start = (arrow.x_m, arrow.y_m)
-    words = name_member(arrow.member), show_with_unit("max_kN", size)
+    named = show_member(words, arrow.member), show_with_unit("max_kN", size)
     if size <= _SLACK * largest:
-        return _draw_anchor(sketch, paper, start, _aim(frame, start), words)
+        return _draw_anchor(sketch, paper, start, _aim(frame, start), named)
     along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
     length = frame.unit * max(LONGEST_ARROW * size / largest, _SHORTEST_ARROW)
     tip = move(start, along, length)
     into_ground = along[1] < 0
-    label = Label(*words, paper.at(tip))
+    label = Label(*named, paper.at(tip))
     if not into_ground:
-        label = _draw_anchor(sketch, paper, start, along, words)
+        label = _draw_anchor(sketch, paper, start, along, named)
     sketch.arrow(paper.at(start), paper.at(tip))
     return label
 
@@ -130,10 +130,10 @@ def _aim(frame: Frame, start: Point) -> Point:
 
 
 def _draw_anchor(
-    sketch: Sketch, paper: Paper, start: Point, along: Point, words: tuple[str, str]
+    sketch: Sketch, paper: Paper, start: Point, along: Point, named: tuple[str, str]
 ) -> Label:
     """Rod in the ground, against the pull; its label hangs at its end."""
     rod = move(start, along, -ROD * paper.frame.unit)
     sketch.line(paper.all_at([start, rod]), stroke=INK, width=1.8)
     sketch.dot(paper.at(start), 1.8)
-    return Label(*words, paper.at(rod))
+    return Label(*named, paper.at(rod))

@@ -10,14 +10,14 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.section_frame import LABEL, Paper, Point
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import show_with_unit
+from netdesign.report.words import Words, show_with_unit
 
 SLIP_DASH = "2.2 1.5"  # of the net where the snow slips on it
 _LINE = 11.0  # from one line of a label to the next [pt]
 _LEGEND = (
-    ("net, snow sticks", INK, 1.8, ""),
-    ("net, snow slips", INK, 1.8, SLIP_DASH),
-    ("force on the ground", ACCENT, 1.5, ""),
+    ("drawing.net_sticks", INK, 1.8, ""),
+    ("drawing.net_slips", INK, 1.8, SLIP_DASH),
+    ("drawing.force_on_ground", ACCENT, 1.5, ""),
 )
 
 
@@ -55,14 +55,14 @@ def draw_scale_bar(sketch: Sketch, paper: Paper) -> None:
     sketch.words(middle, f"{length:g} m", anchor="middle")
 
 
-def draw_legend(sketch: Sketch) -> None:
+def draw_legend(sketch: Sketch, words: Words) -> None:
     """Explain the lines; the words end at them, however wide their font is."""
     right = WIDTH - 11.0
-    for place, (text, stroke, width, dash) in enumerate(_LEGEND):
+    for place, (key, stroke, width, dash) in enumerate(_LEGEND):
         y = 12.0 + 13.0 * place
         ends = [(right - 19.0, y), (right, y)]
         sketch.line(ends, stroke=stroke, width=width, dash=dash)
-        sketch.words((right - 25.0, y + 2.6), text, anchor="end")
+        sketch.words((right - 25.0, y + 2.6), words(key), anchor="end")
 
 
 def draw_dimensions(sketch: Sketch, paper: Paper) -> None:

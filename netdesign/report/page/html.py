@@ -19,12 +19,12 @@ from netdesign.report.drawing.monitoring_figure import (
     draw_monitoring,
 )
 from netdesign.report.drawing.section_figure import draw_section
-from netdesign.report.language import Words, load_words
 from netdesign.report.page.render import build_environment, load_style
-from netdesign.report.translation import Translate, show_study, translate_drawing
 from netdesign.report.view.gate import require_sections
-from netdesign.report.view.whole import ReportView
+from netdesign.report.view.whole import ReportView, build_view
+from netdesign.report.words import Words
 from netdesign.study.records import RowStudy, Study
+from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -60,7 +60,7 @@ _ROW_SECTIONS = (
 
 def render_html(
     study: Study,
-    words: Words | None = None,
+    language: Language = "en",
     detail: Detail = "full",
     view: ReportView | None = None,
 ) -> str:
@@ -70,8 +70,8 @@ def render_html(
     ----------
     study : Study
         What is shown.
-    words : Words, optional
-        Language; English if not given.
+    language : str
+        ``en``, ``fr`` or ``de``.
     detail : str
         ``summary`` leaves out what only a reviewer of a net row needs.
     view : ReportView, optional
@@ -84,16 +84,16 @@ def render_html(
     """
     from markupsafe import Markup
 
-    words = words or load_words("en")
-    environment = build_environment(words)
+    words = Words(language)
+    environment = build_environment(language)
     environment.filters["subscripts"] = _write_subscripts
     environment.filters["unbroken"] = _keep_units
-    view = view or show_study(study, words)
+    view = view or build_view(study, language)
     is_full = detail == "full"
     page = environment.get_template("report.html").render(
         view=view,
         is_full=is_full,
-        language=words.language,
+        language=language,
         css=load_style("report.css"),
         running_title=Markup(_quote_css(view.running_title)),
         figures=[
@@ -113,7 +113,7 @@ def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
 
 
 def _draw_row(
-    row: RowStudy, anchor: str, words: Translate, *, is_full: bool
+    row: RowStudy, anchor: str, words: Words, *, is_full: bool
 ) -> dict[str, Markup]:
     """Drawings of a net row by name; "" where there is nothing to draw."""
     from markupsafe import Markup, escape
@@ -121,19 +121,19 @@ def _draw_row(
     record = row.envelope if is_full else None
     members = split_members(record) if record else []
     drawn = {
-        "section": draw_section(row.drawing, anchor) if row.drawing else "",
-        "envelope": draw_envelope(row) if is_full and not record else "",
-        "maps": "".join(map(draw_maps, members)),
-        "lines": "".join(map(draw_lines, members)),
-        "drivers": "".join(map(draw_drivers, members)),
-        "head": draw_head(row.head) if is_full and len(row.head) > 1 else "",
-        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r") if is_full else "",
+        "section": draw_section(row.drawing, anchor, words) if row.drawing else "",
+        "envelope": draw_envelope(row, words) if is_full and not record else "",
+        "maps": "".join(draw_maps(one, words) for one in members),
+        "lines": "".join(draw_lines(one, words) for one in members),
+        "drivers": "".join(draw_drivers(one, words) for one in members),
+        "head": draw_head(row.head, words) if is_full and len(row.head) > 1 else "",
+        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r", words)
+        if is_full
+        else "",
     }
-    figures = {
-        name: Markup(translate_drawing(svg, words)) for name, svg in drawn.items()
-    }
+    figures = {name: Markup(svg) for name, svg in drawn.items()}
     measured = bool(drawn["monitoring"])
-    note = escape(words(describe_monitoring(row.monitoring)) if measured else "")
+    note = escape(describe_monitoring(row.monitoring, words) if measured else "")
     return {**figures, "monitoring_note": note}
 
 

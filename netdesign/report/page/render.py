@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from netdesign.edge.resources import find_resource
+from netdesign.report.words import Words
+from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
     import jinja2
@@ -14,20 +15,17 @@ if TYPE_CHECKING:
 
 
 @lru_cache(maxsize=8)
-def build_environment(words: Callable[[str], str] = str) -> jinja2.Environment:
+def build_environment(language: Language = "en") -> jinja2.Environment:
     """Templates in which all text is escaped and a missing value is an error.
 
     Kept with what they compile to: a check against several profiles has several pages.
 
     Parameters
     ----------
-    words : callable
-        Puts a text of ours into another language; templates call it ``t``.
+    language : str
+        Of the texts; templates ask for one by its key: ``t("heading.checks")``.
     """
     import jinja2
-
-    def translate(text: str, **gaps: object) -> str:
-        return words(text).format(**gaps) if gaps else words(text)
 
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(find_resource("templates")),
@@ -36,7 +34,7 @@ def build_environment(words: Callable[[str], str] = str) -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals["t"] = translate
+    environment.globals["t"] = Words(language)
     return environment
 
 

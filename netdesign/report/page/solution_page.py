@@ -10,6 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from netdesign.coupling.moments import (
+    LEAST_STRAIN,
+    NODE_DRIFT,
+    PULL_DRIFT,
+    REST_SHARE,
+    REST_WAY,
+)
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
 from netdesign.report.drawing.charts import Line, Mark, Panel, draw_panels
 from netdesign.report.drawing.net_figures import (
@@ -27,26 +34,22 @@ from netdesign.report.view.table import (
     name_columns,
     number_cell,
     number_column,
+    quantity_column,
     text_cell,
 )
-from netdesign.report.words import show_given, show_number, show_text, show_with_unit
+from netdesign.report.words import (
+    Words,
+    show_given,
+    show_number,
+    show_text,
+    show_with_unit,
+)
+from netdesign.words.catalogue import Language
 
 Solved = Solution | WallSolution | FailedSolution
 PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history.csv"
 
-_CAPTIONS = {
-    "history": "Pull on the net's ends against time. The scale of time is logarithmic: "
-    "a plateau is a slow drift, and looks level here.",
-    "node_forces": "What the snow does, from the foot upwards. Left to scale; right "
-    "per square metre, without the end nodes, where pressure has no bound.",
-    "stick_slip": "Where the shear reaches p tan φ the snow slips.",
-    "mesh": "Snow mesh with its density; in red what holds it.",
-}
-_METHODS = {
-    "steady": "steady state",
-    "transient": "history, implicit",
-    "staggered": "history, the source paper's staggered exchange",
-}
+_DRAWINGS = ("history", "node_forces", "stick_slip", "mesh")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +73,7 @@ class Headline:
 
 def list_solution_files(method: str, *, is_wall: bool) -> list[str]:
     """Names of all files that a solution of this kind may become."""
-    drawings = [f"{name}.svg" for name in _CAPTIONS]
+    drawings = [f"{name}.svg" for name in _DRAWINGS]
     names = [SOLUTION_FILE, PAGE_FILE, *drawings]
     if method == "steady" or is_wall:
         names.remove("history.svg")
@@ -79,7 +82,10 @@ def list_solution_files(method: str, *, is_wall: bool) -> list[str]:
 
 
 def render_solution(
-    solution: Solved, document: dict[str, Any], scene_file: str
+    solution: Solved,
+    document: dict[str, Any],
+    scene_file: str,
+    language: Language = "en",
 ) -> dict[str, bytes]:
     """Contents of all files of one solution, by name.
 
@@ -91,11 +97,14 @@ def render_solution(
         As ``solution_file.write_solution_document`` gives it.
     scene_file : str
         Name of the scene's file, for the page's title.
+    language : str
+        Of page and drawings; the tables of numbers keep their keys.
     """
-    drawings = [] if isinstance(solution, FailedSolution) else _draw(solution)
+    words = Words(language)
+    drawings = [] if isinstance(solution, FailedSolution) else _draw(solution, words)
     files = {
         SOLUTION_FILE: json.dumps(document, indent=1, allow_nan=False).encode(),
-        PAGE_FILE: _render_page(document, drawings, scene_file).encode(),
+        PAGE_FILE: _render_page(document, drawings, scene_file, words).encode(),
         **{f"{drawn.name}.svg": drawn.svg.encode() for drawn in drawings},
     }
     if document.get("history"):
@@ -120,22 +129,24 @@ def write_history(moments: Sequence[dict[str, Any]]) -> bytes:
     return write_csv([*plain, *nodes], rows)
 
 
-def _draw(solution: Solution | WallSolution) -> list[Drawn]:
+def _draw(solution: Solution | WallSolution, words: Words) -> list[Drawn]:
     face = find_face(solution)
     svgs = {
-        "history": _draw_history(solution) if isinstance(solution, Solution) else "",
-        "node_forces": draw_node_forces(face, "forces"),
-        "stick_slip": draw_stick_slip(face, "stick"),
-        "mesh": draw_meshes([picture_mesh(solution, "")], "mesh"),
+        "history": _draw_history(solution, words)
+        if isinstance(solution, Solution)
+        else "",
+        "node_forces": draw_node_forces(face, "forces", words),
+        "stick_slip": draw_stick_slip(face, "stick", words),
+        "mesh": draw_meshes([picture_mesh(solution, "")], "mesh", words),
     }
     return [
-        Drawn(name=name, caption=_CAPTIONS[name], svg=svg)
+        Drawn(name=name, caption=words(f"solved_caption.{name}"), svg=svg)
         for name, svg in svgs.items()
         if svg
     ]
 
 
-def _draw_history(solution: Solution) -> str:
+def _draw_history(solution: Solution, words: Words) -> str:
     history = solution.history
     if history is None:
         return ""
@@ -145,15 +156,31 @@ def _draw_history(solution: Solution) -> str:
         "head": [_size(moment.head) for moment in history.moments],
     }
     begin = history.plateau.time
-    marks = [] if begin is None else [Mark(x=begin / 86_400.0, label="plateau from")]
+    marks = (
+        []
+        if begin is None
+        else [Mark(x=begin / 86_400.0, label=words("solved.plateau_from"))]
+    )
     lines = [
-        Line(label=end, x=times, y=sizes, style=place, is_accent=end == "foot")
+        Line(
+            label=words(f"solved.{end}"),
+            x=times,
+            y=sizes,
+            style=place,
+            is_accent=end == "foot",
+        )
         for place, (end, sizes) in enumerate(pulls.items())
     ]
     panel = Panel(
-        title="Pull on foot and head [kN/m]", lines=lines, marks=marks, from_zero=True
+        title=words("solved.pull_title"), lines=lines, marks=marks, from_zero=True
     )
-    return draw_panels([panel], "history", "Force history", panel_in=2.3)
+    return draw_panels(
+        [panel],
+        "history",
+        words("solved.force_history"),
+        panel_in=2.3,
+        time_label=words("solved.time"),
+    )
 
 
 def _size(vector: Any) -> float:
@@ -162,68 +189,84 @@ def _size(vector: Any) -> float:
 
 
 def _render_page(
-    document: dict[str, Any], drawings: Sequence[Drawn], scene_file: str
+    document: dict[str, Any], drawings: Sequence[Drawn], scene_file: str, words: Words
 ) -> str:
     proven = document["outcome"] == "converged"
     plateau = document.get("plateau")
     without_plateau = plateau is not None and not plateau["reached"]
-    template = build_environment().get_template("solution.html")
+    template = build_environment(words.language).get_template("solution.html")
     return template.render(
+        language=words.language,
         css=load_style("report.css", "study.css"),
         title=show_text(scene_file),
-        method=_METHODS[document["method"]] if proven else "",
-        headline=_list_headlines(document) if proven else [],
+        method=words(f"solved_method.{document['method']}") if proven else "",
+        headline=_list_headlines(document, words) if proven else [],
         without_plateau=without_plateau,
-        outcome=document["outcome"].replace("_", " "),
+        outcome=words(f"ended.{document['outcome']}").replace("_", " "),
         reason=show_text(document.get("reason", "")),
-        flags=[
-            show_text(flag)
-            for flag in document.get("flags", ())
-            if not flag.startswith("no plateau")  # the page opens with it
-        ],
-        criterion=plateau["criterion"] if plateau else "",
+        flags=[show_text(flag) for flag in document.get("flags", ())],
+        criterion=_describe_criterion(words) if plateau else "",
         figures=[
             {"caption": drawn.caption, "svg": mark_safe(drawn.svg), "name": drawn.name}
             for drawn in drawings
         ],
-        tables=[_tabulate_nodes(document), _tabulate_quality(document)]
+        tables=[_tabulate_nodes(document, words), _tabulate_quality(document, words)]
         if proven
         else [],
     )
 
 
-def _list_headlines(document: dict[str, Any]) -> list[Headline]:
+def _describe_criterion(words: Words) -> str:
+    """What counts as a plateau."""
+    return words(
+        "solved.criterion",
+        strain=LEAST_STRAIN,
+        pull=PULL_DRIFT,
+        node=NODE_DRIFT,
+        rest=REST_SHARE,
+        way=REST_WAY,
+    )
+
+
+def _list_headlines(document: dict[str, Any], words: Words) -> list[Headline]:
     if document["wall"]:
-        wall = document["wall"]
-        error = show_number("error_kN_per_m", wall["error_kN_per_m"])
-        return [
-            _headline("Force along the slope", wall["force_x_kN_per_m"], f"± {error}"),
-            _headline("Force normal to it", wall["force_y_kN_per_m"], f"± {error}"),
-            _headline(
-                "Moment about the foot", wall["moment_about_foot_kN"], "", unit="kN"
-            ),
-        ]
+        return _list_wall_headlines(document["wall"], words)
     plateau = document.get("plateau")
-    shown = []
-    for end in ("foot", "head"):
-        pull = document["anchor_forces"][end]
-        note = f"± {show_number('error_kN_per_m', pull['error_kN_per_m'])}"
-        if plateau and plateau["reached"]:
-            at_rest = plateau[f"{end}_kN_per_m"]
-            note = (
-                f"{note}; {show_number('foot_size_kN_per_m', at_rest)} on the plateau"
-            )
-        label = f"Pull on the {end}" + (
-            ", largest while the snow is the scene's" if plateau else ""
-        )
-        shown.append(_headline(label, pull["size_kN_per_m"], note))
+    shown = [_show_pull(document, end, words) for end in ("foot", "head")]
     sag = Headline(
-        label="Sag of the net",
+        label=words("solved.sag"),
         value=show_number("sag_m", document["sag_m"]),
         unit="m",
-        note="normal to its chord" + ("; at the end" if plateau else ""),
+        note=words(
+            "solved.normal_to_chord_end" if plateau else "solved.normal_to_chord"
+        ),
     )
     return [*shown, sag]
+
+
+def _list_wall_headlines(wall: dict[str, Any], words: Words) -> list[Headline]:
+    error = show_number("error_kN_per_m", wall["error_kN_per_m"])
+    note = words("solved.error", error=error)
+    moment = wall["moment_about_foot_kN"]
+    return [
+        _headline(words("solved.force_along"), wall["force_x_kN_per_m"], note),
+        _headline(words("solved.force_normal"), wall["force_y_kN_per_m"], note),
+        _headline(words("solved.moment"), moment, "", unit="kN"),
+    ]
+
+
+def _show_pull(document: dict[str, Any], end: str, words: Words) -> Headline:
+    """Pull on one end: its largest, and on the plateau of a history."""
+    pull, plateau = document["anchor_forces"][end], document.get("plateau")
+    error = show_number("error_kN_per_m", pull["error_kN_per_m"])
+    note = words("solved.error", error=error)
+    label = words("solved.pull_on_foot" if end == "foot" else "solved.pull_on_head")
+    if plateau:
+        label = words("solved.largest_of_scene", pull=label)
+    if plateau and plateau["reached"]:
+        size = show_number("foot_size_kN_per_m", plateau[f"{end}_kN_per_m"])
+        note = words("solved.on_plateau", note=note, size=size)
+    return _headline(label, pull["size_kN_per_m"], note)
 
 
 def _headline(label: str, value: float, note: str, unit: str = "kN/m") -> Headline:
@@ -231,14 +274,14 @@ def _headline(label: str, value: float, note: str, unit: str = "kN/m") -> Headli
     return Headline(label=label, value=shown, unit=unit, note=note)
 
 
-def _tabulate_nodes(document: dict[str, Any]) -> Table:
+def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
     columns: tuple[Column, ...] = (
-        Column(heading="Node", is_number=True),
+        Column(heading=words("solved.node"), is_number=True),
         number_column("sag_m", "x [m]"),
         number_column("sag_m", "y [m]"),
-        number_column("force_x_kN_per_m"),
-        number_column("force_y_kN_per_m"),
-        Column(heading="Snow"),
+        quantity_column(words, "force_x_kN_per_m"),
+        quantity_column(words, "force_y_kN_per_m"),
+        Column(heading=words("solved.snow")),
     )
     rows = tuple(
         (
@@ -247,44 +290,44 @@ def _tabulate_nodes(document: dict[str, Any]) -> Table:
             number_cell("sag_m", node["y_m"]),
             number_cell("force_x_kN_per_m", node["force_x_kN_per_m"]),
             number_cell("force_y_kN_per_m", node["force_y_kN_per_m"]),
-            text_cell("slips" if node["sliding"] else "sticks"),
+            text_cell(words("solved.slips" if node["sliding"] else "solved.sticks")),
         )
         for place, node in enumerate(document["nodes"])
     )
     return Table(
-        caption="Nodes from the foot upwards, and what the snow does to them",
+        caption=words("solved.nodes_caption"),
         columns=columns,
         rows=rows,
     )
 
 
-def _tabulate_quality(document: dict[str, Any]) -> Table:
+def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
     balance, cost = document["balance"], document["cost"]
     pairs = {
-        "Weight along the slope": show_with_unit(
+        "solved.weight": show_with_unit(
             "foot_size_kN_per_m", balance["weight_along_slope_kN_per_m"]
         ),
-        "Force missing from the balance, over the weight": show_number(
-            "balance_residual", balance["relative_residual"]
-        ),
-        "Share of the ground's normal force that is tension": show_number(
+        "solved.missing": show_number("balance_residual", balance["relative_residual"]),
+        "solved.ground_tension": show_number(
             "utilisation", balance["ground_tension_share"]
         ),
-        "Share of the normal force that is suction": show_number(
-            "utilisation", balance["suction_share"]
-        ),
-        "Triangles, finest mesh": show_given(cost["elements"]),
-        "Linear solves": show_given(cost["linear_solves"]),
-        "Creep law": document["provenance"]["creep_law"],
-        "Settings": ", ".join(
+        "solved.suction": show_number("utilisation", balance["suction_share"]),
+        "solved.triangles": show_given(cost["elements"]),
+        "solved.linear_solves": show_given(cost["linear_solves"]),
+        "solved.creep_law": document["provenance"]["creep_law"],
+        "solved.settings": ", ".join(
             f"{key.replace('_', ' ')} {value}"
             for key, value in document["provenance"]["settings"].items()
         ),
-        "Program": f"netdesign {document['provenance']['version']}",
+        "solved.program": f"netdesign {document['provenance']['version']}",
     }
-    rows = tuple((text_cell(key), text_cell(value)) for key, value in pairs.items())
+    rows = tuple(
+        (text_cell(words(key)), text_cell(value)) for key, value in pairs.items()
+    )
     return Table(
-        caption="Balance, cost, provenance",
-        columns=name_columns(("Quantity", "Value"), numbers=()),
+        caption=words("solved.quality_caption"),
+        columns=name_columns(
+            (words("solved.quantity"), words("solved.value")), numbers=()
+        ),
         rows=rows,
     )

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
+from netdesign.edge.json_text import list_fields
 from netdesign.study.records import Study
+from netdesign.words.catalogue import Language, render
 
 if TYPE_CHECKING:
     import pandas
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
-def build_case_table(study: Study) -> pandas.DataFrame:
+def build_case_table(study: Study, language: Language = "en") -> pandas.DataFrame:
     """All cases of all net rows, one a line; units are part of the column names.
 
     Missing forces of failed cases stay missing; outcome and reason say why.
@@ -24,15 +25,16 @@ def build_case_table(study: Study) -> pandas.DataFrame:
     lines = []
     for row in study.rows:
         for record in row.cases:
-            fields = asdict(record)
-            point = fields.pop("case")
+            fields = list_fields(record)
+            point = list_fields(fields.pop("case"))
+            fields["reason"] = render(record.reason, language) if record.reason else ""
             lines.append({"net_row": row.id, **point, **fields})
     return pandas.DataFrame(lines)
 
 
-def render_cases(study: Study) -> bytes:
+def render_cases(study: Study, language: Language = "en") -> bytes:
     """CSV text of the table, UTF-8; texts never read as formulas."""
-    table = build_case_table(study)
+    table = build_case_table(study, language)
     for name in ("net_row", "outcome", "reason"):
         if name in table:
             table[name] = table[name].map(_disarm)

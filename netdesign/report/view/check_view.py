@@ -9,17 +9,19 @@ from netdesign.outcome import Verdict
 from netdesign.report.view.row_tables import describe_widths
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
     VerdictWords,
+    Words,
     name_case,
     name_case_short,
-    name_check,
     show_band,
+    show_check,
     show_number,
     show_text,
+    show_verdict,
     show_with_unit,
 )
 from netdesign.study.records import CheckRecord
+from netdesign.words.names import name
 
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # worst first
 _BAR_UNIT = 100.0  # length of a ratio bar at utilisation 1
@@ -43,7 +45,7 @@ class CheckView:
     title: str
     clause: str
     resistance_type: str
-    resistance_basis: str  # a word of ours
+    resistance_basis: str
     resistance_cell: str
     demand: str
     resistance: str
@@ -119,24 +121,26 @@ def find_utilisation_band(check: CheckRecord) -> tuple[float | None, float | Non
     return check.demand_low_kN / resistance, check.demand_high_kN / resistance
 
 
-def view_check(check: CheckRecord) -> CheckView:
+def view_check(check: CheckRecord, words: Words) -> CheckView:
     """Put one check into words."""
     low, high = find_utilisation_band(check)
     return CheckView(
-        title=name_check(check),
+        title=show_check(words, check),
         clause=show_text(check.clause),
         resistance_type=check.resistance_type,
-        resistance_basis=check.resistance_basis,
+        resistance_basis=words.show(name("basis", check.resistance_basis))
+        if check.resistance_basis
+        else "",
         resistance_cell=check.resistance_cell,
         demand=show_number("demand_kN", check.demand_kN),
         resistance=show_number("resistance_kN", check.resistance_kN),
         utilisation=show_number("utilisation", check.utilisation),
-        band=show_band("utilisation", low, high),
+        band=show_band(words, "utilisation", low, high),
         bar=_build_bar(low, check.utilisation, high),
-        verdict=VERDICTS[check.verdict],
+        verdict=show_verdict(check.verdict, words),
         case=name_case(check.case),
         case_short=name_case_short(check.case),
-        reason=show_text(check.reason),
+        reason=words.show(check.reason),
     )
 
 
@@ -151,20 +155,24 @@ def _build_bar(
     return Bar(low=lengths[0], value=lengths[1], high=lengths[2], is_over=value > 1)
 
 
-def work_out(check: CheckRecord) -> Worked:
+def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check that has a demand and a resistance."""
     low, high = find_utilisation_band(check)
     demand = show_with_unit("demand_kN", check.demand_kN)
     resistance = show_with_unit("resistance_kN", check.resistance_kN)
     needed = show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
-        title=f"{name_check(check)}: {name_case(check.case)}",
+        title=words(
+            "show.row_at_case",
+            check=show_check(words, check),
+            case=name_case(check.case),
+        ),
         steps=(
             *(
                 Step(symbols=symbols, numbers=numbers, result=result)
                 for symbols, numbers, result in describe_widths(check)
             ),
-            *_derive_resistance(check),
+            *_derive_resistance(check, words),
             Step(
                 symbols="E_d = γ_E · E_k",
                 numbers=f"{show_number('action_factor', check.action_factor)} · "
@@ -185,16 +193,20 @@ def work_out(check: CheckRecord) -> Worked:
             Step(
                 symbols="μ = E_d / R_d",
                 numbers=_divide(demand, resistance),
-                result=f"{show_number('utilisation', check.utilisation)} "
-                f"({show_band('utilisation', low, high)})",
+                result=words(
+                    "show.with_band",
+                    value=show_number("utilisation", check.utilisation),
+                    band=show_band(words, "utilisation", low, high),
+                ),
             ),
         ),
-        needed=f"{VERDICTS[check.verdict].word}. A pass needs R_d of at least "
-        f"{needed}, the high end of the demand. Numbers are rounded for print only.",
+        needed=words(
+            "show.needed", verdict=words(f"verdict.{check.verdict}"), force=needed
+        ),
     )
 
 
-def _derive_resistance(check: CheckRecord) -> tuple[Step, ...]:
+def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
     """How the characteristic resistance follows from dimensions or tests."""
     if not check.resistance_derivation:
         return ()
@@ -202,7 +214,7 @@ def _derive_resistance(check: CheckRecord) -> tuple[Step, ...]:
     return (
         Step(
             symbols="R_k",
-            numbers=show_text(check.resistance_derivation),
+            numbers=words.show(check.resistance_derivation),
             result=show_with_unit("resistance_characteristic_kN", given),
         ),
     )

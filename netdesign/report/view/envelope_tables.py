@@ -8,66 +8,84 @@ from netdesign.report.view.table import (
     name_columns,
     number_cell,
     number_column,
+    quantity_column,
     text_cell,
     text_column,
-    word_cell,
 )
-from netdesign.report.words import MISSING, name_heading, name_member, show_number
+from netdesign.report.words import (
+    MISSING,
+    Words,
+    add_unit,
+    name_heading,
+    show_member,
+    show_number,
+)
 from netdesign.study.records import BoundRecord, EnvelopeRecord, RowStudy
+from netdesign.words.names import name
 
-_GRID = "none: the cases are a grid, which says nothing about what lies between them"
 
-
-def describe_search(row: RowStudy) -> str:
+def describe_search(row: RowStudy, words: Words) -> str:
     """How the largest forces were found, what their bound rests on; "" of a grid."""
     record = row.envelope
     if record is None:
         return ""
-    closed = "closed" if record.is_closed else "NOT closed"
-    skipped = (
-        f"; {record.skipped} of them known without a solve, since the snow stuck on "
-        f"the net with less friction already (tested {record.skips_tested} times)"
-        if record.skipped
-        else ""
-    )
-    return (
-        f"Searched with {record.cases} cases{skipped}. The gap asked for, "
-        f"{record.gap_asked_percent:g} % of each force, is {closed}. The bounds rest "
-        f"on a model of the forces between the cases, widened to {record.certainty:g} "
-        "of its held-out standard errors; a feature narrower than "
-        f"{record.resolved_share:g} of a range may hide."
+    closed = words("show.closed") if record.is_closed else words("show.not_closed")
+    numbers = {
+        "cases": record.cases,
+        "gap": record.gap_asked_percent,
+        "certainty": record.certainty,
+        "share": record.resolved_share,
+    }
+    if not record.skipped:
+        return words("show.searched", closed=closed, **numbers)
+    skipped, tests = record.skipped, record.skips_tested
+    return words(
+        "show.searched_skipped", closed=closed, skipped=skipped, tests=tests, **numbers
     )
 
 
-def build_bounds(row: RowStudy) -> Table:
+def build_bounds(row: RowStudy, words: Words) -> Table:
     """Largest force, what may hide above it, and its confirmation."""
+    gap = add_unit(words("heading.gap"), "%")
+    difference = add_unit(words("heading.difference"), "%")
+    above = add_unit(words("heading.nowhere_above"), "kN")
+    again = add_unit(words("heading.solved_again"), "kN")
     return Table(
-        caption="Largest characteristic forces, with what may hide between the cases "
-        "and the governing case solved again",
+        caption=words("caption.bounds"),
         columns=(
-            text_column("Member"),
-            number_column("max_kN"),
-            number_column("max_kN", "Nowhere above [kN]"),
-            *name_columns(("Gap [%]",), numbers=("Gap [%]",)),
-            number_column("max_kN", "Solved again [kN]"),
-            *name_columns(("Difference [%]",), numbers=("Difference [%]",)),
-            text_column("Solved again by"),
-            text_column("Case"),
+            text_column(words("heading.member")),
+            quantity_column(words, "max_kN"),
+            number_column("max_kN", above),
+            *name_columns((gap,), numbers=(gap,)),
+            number_column("max_kN", again),
+            *name_columns((difference,), numbers=(difference,)),
+            text_column(words("heading.solved_again_by")),
+            text_column(words("heading.case")),
         ),
-        rows=tuple(_bound_row(bound) for bound in _list_bounds(row.envelope)),
-        empty=_GRID if row.envelope is None else "none: no case of this row converged",
+        rows=tuple(_bound_row(bound, words) for bound in _list_bounds(row.envelope)),
+        empty=_name_empty(row, words),
     )
 
 
-def _bound_row(bound: BoundRecord) -> tuple[Cell, ...]:
+def _name_empty(row: RowStudy, words: Words) -> str:
+    if row.envelope is None:
+        return words("heading.grid_without_bound")
+    return words("heading.no_case_converged")
+
+
+def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
     again = bound.confirmation
     gap = bound.upper_bound_kN / bound.max_kN - 1.0 if bound.max_kN > 0.0 else 0.0
     by = MISSING
     if again is not None:
-        by = again.reason or f"{again.method}, {again.elements} triangles"
+        by = words.show(again.reason)
+        if again.reason is None:
+            method = words.show(name("method", again.method))
+            count = again.elements or 0
+            by = words("show.solved_again_by", method=method, count=count)
     difference = again.difference_percent if again else None
     return (
-        word_cell(name_member(bound.quantity)),
+        text_cell(show_member(words, bound.quantity)),
         number_cell("max_kN", bound.max_kN),
         number_cell("max_kN", bound.upper_bound_kN),
         Cell(text=f"{100.0 * gap:.2f}", number=100.0 * gap),
@@ -76,30 +94,30 @@ def _bound_row(bound: BoundRecord) -> tuple[Cell, ...]:
             text=MISSING if difference is None else f"{difference:+.2f}",
             number=difference,
         ),
-        word_cell(by),
+        text_cell(by),
         text_cell(_name_case(bound.case)),
     )
 
 
-def build_drivers(row: RowStudy) -> Table:
+def build_drivers(row: RowStudy, words: Words) -> Table:
     """What drives each force: tornado about the governing case, Sobol indices."""
-    numbers = ("First order", "Total", "Unexplained")
+    keys = ("first_order", "total", "unexplained")
+    numbers = [words(f"heading.{key}") for key in keys]
+    low, high = words("heading.at_low_end"), words("heading.at_high_end")
     return Table(
-        caption="What drives each force: values at the ends of each range with the "
-        "others as in the governing case; Sobol indices for independent quantities, "
-        "uniform in their ranges (assumed), with the share that the model misses",
+        caption=words("caption.driver_table"),
         columns=(
-            text_column("Member"),
-            text_column("Quantity"),
-            number_column("max_kN", "At low end [kN]"),
-            number_column("max_kN", "At high end [kN]"),
+            text_column(words("heading.member")),
+            text_column(words("heading.quantity")),
+            number_column("max_kN", add_unit(low, "kN")),
+            number_column("max_kN", add_unit(high, "kN")),
             *name_columns(numbers, numbers=numbers),
-            text_column("A check flips at"),
+            text_column(words("heading.check_flips_at")),
         ),
         rows=tuple(
             (
-                word_cell(name_member(bound.quantity)),
-                word_cell(name_heading(one.key)),
+                text_cell(show_member(words, bound.quantity)),
+                text_cell(name_heading(words, one.key)),
                 number_cell("max_kN", one.at_low_kN),
                 number_cell("max_kN", one.at_high_kN),
                 Cell(text=f"{one.first_order:.3f}", number=one.first_order),
@@ -111,7 +129,7 @@ def build_drivers(row: RowStudy) -> Table:
             if bound.max_kN > 0.0
             for one in bound.drivers
         ),
-        empty=_GRID if row.envelope is None else "none: no case of this row converged",
+        empty=_name_empty(row, words),
     )
 
 

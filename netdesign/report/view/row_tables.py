@@ -9,31 +9,32 @@ from netdesign.report.view.table import (
     name_columns,
     number_cell,
     number_column,
+    quantity_column,
     share_cell,
+    text_cell,
     text_column,
-    word_cell,
 )
 from netdesign.report.words import (
     MISSING,
-    VERDICTS,
+    Words,
+    add_unit,
     name_case,
-    name_check,
-    name_member,
     show_band,
+    show_check,
+    show_member,
     show_quantity,
     show_with_unit,
 )
-from netdesign.study.records import ChangeRecord, CheckRecord, RowStudy, SpreadRecord
+from netdesign.study.records import (
+    AnchorRecord,
+    ChangeRecord,
+    CheckRecord,
+    GuidelineCase,
+    RowStudy,
+    SpreadRecord,
+)
+from netdesign.words.names import name
 
-_LAWS = {
-    "global_balance": "Force missing from the global balance, over the weight",
-    "end_direction": "Sine of the angle between an end's pull and the net there",
-    "friction_excess": "Shear on the net beyond the friction limit, over the weight",
-    "capstan_ratio": "Largest over smallest tension of the net; the limit is what "
-    "friction can hold around its curve",
-    "tension_share": "Smallest over largest tension of the net, which does not push",
-    "head_balance": "Sum of the forces on the post head, over the largest",
-}
 _FORCES = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN", "direction_deg")
 _GUIDELINE = (
     "height_vertical_m",
@@ -49,68 +50,68 @@ _GUIDELINE = (
 )
 
 
-def build_anchors(row: RowStudy) -> Table:
+def build_anchors(row: RowStudy, words: Words) -> Table:
     """Force on the ground at every anchor in the drawn case, with its direction."""
     return Table(
-        caption="Characteristic force on the ground, each support inside the row, in "
-        "the drawn case; direction from downslope (0°) over out of the ground (90°) to "
-        "upslope (180°), negative into the ground",
+        caption=words("caption.anchors"),
         columns=(
-            text_column("Anchor"),
-            text_column("Member"),
-            *(number_column(key) for key in _FORCES),
+            text_column(words("heading.anchor")),
+            text_column(words("heading.member")),
+            *(quantity_column(words, key) for key in _FORCES),
         ),
         rows=tuple(
             (
-                word_cell(name_member(anchor.anchor)),
-                word_cell(
-                    name_member(anchor.member)
-                    if anchor.size_kN
-                    else f"{name_member(anchor.member)}, slack"
-                ),
+                text_cell(show_member(words, anchor.anchor)),
+                text_cell(_name_bringer(anchor, words)),
                 *(number_cell(key, getattr(anchor, key)) for key in _FORCES),
             )
             for anchor in row.anchors
         ),
-        empty="none: no case of this row converged",
+        empty=words("heading.no_case_converged"),
     )
 
 
-def build_head(row: RowStudy) -> Table:
+def _name_bringer(anchor: AnchorRecord, words: Words) -> str:
+    """Member that brings a force, and whether it is slack."""
+    member = show_member(words, anchor.member)
+    return member if anchor.size_kN else words("show.slack", member=member)
+
+
+def build_head(row: RowStudy, words: Words) -> Table:
     """Forces on the post head in the drawn case, which sum up to zero."""
     return Table(
-        caption="Forces on the post head in the drawn case: they close",
+        caption=words("caption.head"),
         columns=(
-            text_column("From"),
-            number_column("force_x_kN"),
-            number_column("force_y_kN"),
+            text_column(words("heading.from")),
+            quantity_column(words, "force_x_kN"),
+            quantity_column(words, "force_y_kN"),
         ),
         rows=tuple(
             (
-                word_cell(name_member(force.member)),
+                text_cell(show_member(words, force.member)),
                 number_cell("force_x_kN", force.x_kN),
                 number_cell("force_y_kN", force.y_kN),
             )
             for force in row.head
         ),
-        empty="none: no case of this row converged",
+        empty=words("heading.no_case_converged"),
     )
 
 
-def build_guideline(row: RowStudy) -> Table:
+def build_guideline(row: RowStudy, words: Words) -> Table:
     """Guideline's load and forces beside those of the coupled solve."""
     record = row.guideline
     columns = (
-        text_column("Load case"),
-        number_column("density_kg_m3"),
-        *(number_column(key) for key in _GUIDELINE),
+        text_column(words("heading.load_case")),
+        quantity_column(words, "density_kg_m3"),
+        *(quantity_column(words, key) for key in _GUIDELINE),
     )
-    caption = "Independent check by the guideline, characteristic, inside the row"
-    empty = "none: no case of this row converged"
+    caption = words("caption.guideline")
+    empty = words("heading.no_case_converged")
     if record is None:
         return Table(caption=caption, columns=columns, rows=(), empty=empty)
     solved = (
-        word_cell(f"Coupled solve: {name_case(record.case)}"),
+        text_cell(words("show.coupled_solve", case=name_case(record.case))),
         given_cell(record.case.density_kg_m3),
         *(
             number_cell(
@@ -125,7 +126,7 @@ def build_guideline(row: RowStudy) -> Table:
     )
     cases = tuple(
         (
-            word_cell(f"{case.name}: {case.reason}" if case.reason else case.name),
+            text_cell(_name_load_case(case, words)),
             number_cell("density_kg_m3", case.density_kg_m3),
             *(number_cell(key, getattr(case, key)) for key in _GUIDELINE),
         )
@@ -134,37 +135,55 @@ def build_guideline(row: RowStudy) -> Table:
     return Table(caption=caption, columns=columns, rows=(solved, *cases), empty=empty)
 
 
-def build_spreads(check: CheckRecord | None) -> Table:
+def _name_load_case(case: GuidelineCase, words: Words) -> str:
+    named = words.show(name("load_case", case.name))
+    if case.reason is None:
+        return named
+    return words("show.explained", what=named, reason=words.show(case.reason))
+
+
+def build_spreads(check: CheckRecord | None, words: Words) -> Table:
     """Uncertainty budget of one check: its parts as utilisation, kN and per cent."""
     spreads = check.spreads if check else []
-    title = f": {name_check(check)}" if check else ""
+    caption = words("caption.spreads")
+    if check:
+        caption = words("caption.spreads_of", check=show_check(words, check))
+
+    def head(key: str, unit: str = "") -> str:
+        return add_unit(words(f"heading.{key}"), unit)
+
+    ratio = head("utilisation")
     return Table(
-        caption=f"Where the interval of the utilisation comes from{title}",
+        caption=caption,
         columns=(
-            *name_columns(("Part", "Utilisation"), numbers=("Utilisation",)),
-            number_column("demand_kN", "Demand, low [kN]"),
-            number_column("demand_kN", "Demand, high [kN]"),
-            number_column("change_percent", "Below [%]"),
-            number_column("change_percent", "Above [%]"),
-            *name_columns(("In the verdict", "Remark"), numbers=()),
+            *name_columns((head("part"), ratio), numbers=(ratio,)),
+            number_column("demand_kN", head("demand_low", "kN")),
+            number_column("demand_kN", head("demand_high", "kN")),
+            number_column("change_percent", head("below", "%")),
+            number_column("change_percent", head("above", "%")),
+            *name_columns((head("in_the_verdict"), head("remark")), numbers=()),
         ),
-        rows=tuple(_spread_row(check, spread) for spread in spreads) if check else (),
-        empty="none: no check of this row has a utilisation",
+        rows=tuple(_spread_row(check, spread, words) for spread in spreads)
+        if check
+        else (),
+        empty=words("heading.no_utilisation"),
     )
 
 
-def _spread_row(check: CheckRecord, spread: SpreadRecord) -> tuple[Cell, ...]:
+def _spread_row(
+    check: CheckRecord, spread: SpreadRecord, words: Words
+) -> tuple[Cell, ...]:
     ends = (spread.low, spread.high)
     used, resistance = check.utilisation, check.resistance_kN
     demands = [_scale(end, resistance) for end in ends]
     changes = [_compare(end, used) for end in ends]
     return (
-        word_cell(spread.source),
-        word_cell(show_band("utilisation", *ends)),
+        text_cell(words.show(spread.source)),
+        text_cell(show_band(words, "utilisation", *ends)),
         *(number_cell("demand_kN", demand) for demand in demands),
         *(number_cell("change_percent", change) for change in changes),
-        word_cell("yes" if spread.in_verdict else "no, for comparison"),
-        word_cell(spread.note),
+        text_cell(words("show.yes" if spread.in_verdict else "show.for_comparison")),
+        text_cell(words.show(spread.note)),
     )
 
 
@@ -176,66 +195,76 @@ def _compare(value: float | None, base: float | None) -> float | None:
     return 100.0 * (value / base - 1.0) if value is not None and base else None
 
 
-def build_independent(row: RowStudy) -> Table:
+def build_independent(row: RowStudy, words: Words) -> Table:
     """Laws that the drawn case must obey whatever the mesh."""
-    headings = ("Check", "Value", "Limit", "Met")
+    headings = [words(f"heading.{key}") for key in ("check", "value", "limit", "met")]
     return Table(
-        caption="Independent of the mesh, in the drawn case",
-        columns=name_columns(headings, numbers=("Value", "Limit")),
+        caption=words("caption.independent"),
+        columns=name_columns(headings, numbers=headings[1:3]),
         rows=tuple(
             (
-                word_cell(_LAWS.get(one.name, one.name)),
+                text_cell(words.show(name("law", one.name))),
                 share_cell(one.value),
                 share_cell(one.limit),
-                word_cell("yes" if one.is_met else "NO"),
+                text_cell(words("show.yes" if one.is_met else "show.no")),
             )
             for one in row.independent
         ),
-        empty="none: the study holds none for this row",
+        empty=words("heading.no_laws"),
     )
 
 
-def build_changes(row: RowStudy) -> Table:
+def build_changes(row: RowStudy, words: Words) -> Table:
     """What would make failing or unproven checks pass, and close ones fail."""
-    headings = ("Check", "Verdict", "Passes with", "Now", "Solves", "Remark")
+    keys = ("check", "verdict", "passes_with", "now", "solves", "remark")
+    headings = [words(f"heading.{key}") for key in keys]
     return Table(
-        caption="What would flip the checks: each change alone, all else as it is",
-        columns=name_columns(headings, numbers=("Now", "Solves")),
+        caption=words("caption.changes"),
+        columns=name_columns(headings, numbers=headings[3:5]),
         rows=tuple(
             (
-                word_cell(name_check(check)),
-                word_cell(VERDICTS[check.verdict].word),
-                word_cell(describe_change(change)),
+                text_cell(show_check(words, check)),
+                text_cell(words(f"verdict.{check.verdict}")),
+                text_cell(describe_change(change, words)),
                 Cell(text=_show(change.now, change.unit), number=None),
                 given_cell(change.solves),
-                word_cell(change.note),
+                text_cell(words.show(change.note)),
             )
             for check in row.checks
             for change in check.changes
         ),
-        empty="none: no check of this row fails, is unproven or is close to its limit",
+        empty=words("heading.no_change_needed"),
     )
 
 
-def list_flips(check: CheckRecord | None) -> tuple[str, ...]:
+def list_flips(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
     """Changes that flip one check, in short; none where no change alone does."""
     changes = check.changes if check else []
-    return tuple(describe_flip(c) for c in changes if c.bound is not None)
+    return tuple(describe_flip(c, words) for c in changes if c.bound is not None)
 
 
-def describe_flip(change: ChangeRecord) -> str:
+def describe_flip(change: ChangeRecord, words: Words) -> str:
     """One change and today's value: ``post spacing at most 1.42 m, now 4 m``."""
-    text = describe_change(change)
+    text = describe_change(change, words)
     if change.now is None:
         return text
-    return f"{text}, now {_show(change.now, change.unit)}"
+    return words("show.change_now", change=text, now=_show(change.now, change.unit))
 
 
-def describe_change(change: ChangeRecord) -> str:
+_SENSES = {
+    "at least": "show.change_at_least",
+    "at most": "show.change_at_most",
+    "has": "show.change_has",
+}
+
+
+def describe_change(change: ChangeRecord, words: Words) -> str:
     """One change in words: ``snow density at most 219 kg/m3``."""
+    quantity = words.show(change.quantity)
     if change.bound is None:
-        return f"{change.quantity}: none"
-    return f"{change.quantity} {change.sense} {_show(change.bound, change.unit)}"
+        return words("show.change_none", quantity=quantity)
+    bound = _show(change.bound, change.unit)
+    return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 
 def _show(value: float | None, unit: str) -> str:

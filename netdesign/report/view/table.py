@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.report.words import (
+    MISSING,
+    Words,
     name_heading,
     show_given,
     show_number,
@@ -20,7 +22,6 @@ class Cell:
 
     text: str
     number: float | None = None
-    is_words: bool = False  # a text of ours: the reports translate it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +40,7 @@ class Table:
     caption: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
-    empty: str = "none"
+    empty: str = MISSING
 
 
 def text_column(heading: str) -> Column:
@@ -47,9 +48,14 @@ def text_column(heading: str) -> Column:
     return Column(heading=heading)
 
 
-def number_column(key: str, heading: str = "") -> Column:
-    """Column of the quantity ``key``, under its own name unless another is given."""
-    return Column(heading=heading or name_heading(key), quantity=key, is_number=True)
+def number_column(key: str, heading: str) -> Column:
+    """Column of the quantity ``key``."""
+    return Column(heading=heading, quantity=key, is_number=True)
+
+
+def quantity_column(words: Words, key: str) -> Column:
+    """Column of the quantity ``key`` under its own name."""
+    return number_column(key, name_heading(words, key))
 
 
 def name_columns(
@@ -62,11 +68,6 @@ def name_columns(
 def text_cell(text: str) -> Cell:
     """Text on one line, never empty."""
     return Cell(text=show_text(text))
-
-
-def word_cell(text: str) -> Cell:
-    """Words of this program; what somebody typed is a ``text_cell``."""
-    return Cell(text=show_text(text), is_words=True)
 
 
 def number_cell(key: str, value: float | None) -> Cell:

@@ -9,37 +9,44 @@ from collections.abc import Callable, Sequence
 
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
+from netdesign.report.view.input_names import show_input
 from netdesign.report.view.table import (
     Cell,
+    Column,
     Table,
     given_cell,
     name_columns,
     number_cell,
     number_column,
+    quantity_column,
     text_cell,
     text_column,
-    word_cell,
 )
 from netdesign.report.words import (
     VERDICTS,
+    Words,
+    add_unit,
     name_case,
-    name_member,
     show_band,
+    show_member,
+    show_own,
     show_unit,
+    show_verdict,
 )
 from netdesign.site.model import InputEcho
 from netdesign.study.records import CasePoint, CaseRecord, RowStudy, Study
+from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
-_COUNTS = ("Cases", "Without result")
 DEFAULT = "default"  # cell of an input that nobody typed
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
+CASE_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
 
-CASE_COLUMNS = tuple(
-    number_column(key) for key in ("density_kg_m3", "friction_deg", "inclination_deg")
-)
+def list_case_columns(words: Words) -> tuple[Column, ...]:
+    """Columns of the three quantities of a case."""
+    return tuple(quantity_column(words, key) for key in CASE_QUANTITIES)
 
 
 def _case(case: CasePoint) -> tuple[Cell, ...]:
@@ -50,23 +57,22 @@ def _case(case: CasePoint) -> tuple[Cell, ...]:
     )
 
 
-def build_extremes(row: RowStudy) -> Table:
+def build_extremes(row: RowStudy, words: Words) -> Table:
     """Largest force of each member, with what the others carry in that case."""
     return Table(
-        caption="Largest characteristic force of each member, with the forces of the "
-        "other members in the same case",
+        caption=words("caption.extremes"),
         columns=(
-            text_column("Member"),
-            number_column("max_kN"),
-            text_column("Band [kN]"),
-            *CASE_COLUMNS,
-            *(number_column(f"{member}_kN") for member in MEMBERS),
+            text_column(words("heading.member")),
+            quantity_column(words, "max_kN"),
+            text_column(add_unit(words("heading.band"), "kN")),
+            *list_case_columns(words),
+            *(quantity_column(words, f"{member}_kN") for member in MEMBERS),
         ),
         rows=tuple(
             (
-                word_cell(name_member(extreme.quantity)),
+                text_cell(show_member(words, extreme.quantity)),
                 number_cell("max_kN", extreme.max_kN),
-                word_cell(show_band("max_kN", extreme.low_kN, extreme.high_kN)),
+                text_cell(show_band(words, "max_kN", extreme.low_kN, extreme.high_kN)),
                 *_case(extreme.case),
                 *(
                     number_cell(f"{member}_kN", extreme.coincident_kN.get(member))
@@ -77,7 +83,7 @@ def build_extremes(row: RowStudy) -> Table:
             )
             for extreme in row.extremes
         ),
-        empty="none: no case of this row converged",
+        empty=words("heading.no_case_converged"),
     )
 
 
@@ -95,104 +101,131 @@ def list_loaded(row: RowStudy) -> list[str]:
     ]
 
 
-def build_failed(row: RowStudy) -> Table:
+def build_failed(row: RowStudy, words: Words) -> Table:
     """Cases without a result, by name."""
     return Table(
-        caption="Cases that gave no numbers; no largest force includes them",
-        columns=(text_column("Case"), text_column("Outcome"), text_column("Reason")),
+        caption=words("caption.failed"),
+        columns=name_columns(
+            [words(f"heading.{one}") for one in ("case", "outcome", "reason")],
+            numbers=(),
+        ),
         rows=tuple(
-            (Cell(text=name_case(case.case)), word_cell(case.outcome), _explain(case))
+            (
+                Cell(text=name_case(case.case)),
+                text_cell(words(f"ended.{case.outcome}")),
+                _explain(case, words),
+            )
             for case in list_failed(row)
         ),
-        empty="none: every case converged" if row.cases else "none: no case was run",
+        empty=words("heading.every_case_converged")
+        if row.cases
+        else words("heading.no_case_run"),
     )
 
 
-def _explain(case: CaseRecord) -> Cell:
+def _explain(case: CaseRecord, words: Words) -> Cell:
     if case.outcome is Outcome.CONVERGED:
-        return word_cell(case.reason)
-    return word_cell(f"{case.outcome.sentence} {case.reason}")
+        return text_cell(words.show(case.reason))
+    sentence = words.show(case.outcome.message)
+    if case.reason is None:
+        return text_cell(sentence)
+    reason = words.show(case.reason)
+    return text_cell(
+        words("show.sentence_and_reason", sentence=sentence, reason=reason)
+    )
 
 
-def build_cases(row: RowStudy) -> Table:
+def build_cases(row: RowStudy, words: Words) -> Table:
     """Every case of a row with its forces or the reason why there are none."""
     keys = [f"{member}_kN" for member in MEMBERS]
     keys += ["error_percent", "balance_residual"]
     return Table(
-        caption="Cases, characteristic forces per anchor",
+        caption=words("caption.cases"),
         columns=(
-            *CASE_COLUMNS,
-            *(number_column(key) for key in keys),
-            text_column("Outcome"),
-            text_column("Reason"),
+            *list_case_columns(words),
+            *(quantity_column(words, key) for key in keys),
+            text_column(words("heading.outcome")),
+            text_column(words("heading.reason")),
         ),
         rows=tuple(
             (
                 *_case(case.case),
                 *(number_cell(key, getattr(case, key)) for key in keys),
-                word_cell(case.outcome),
-                _explain(case),
+                text_cell(words(f"ended.{case.outcome}")),
+                _explain(case, words),
             )
             for case in row.cases
         ),
+        empty=words("show.none"),
     )
 
 
-def build_inputs(inputs: Sequence[InputEcho], caption: str) -> Table:
+def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Table:
     """List inputs as typed and as understood, each with its cell."""
-    headings = ("Input", "Typed", "Understood as", "Unit", "Cell")
+    keys = ("input", "typed", "understood_as", "unit", "cell")
+    headings = [words(f"heading.{key}") for key in keys]
     return Table(
         caption=caption,
-        columns=name_columns(headings, numbers=("Understood as",)),
+        columns=name_columns(headings, numbers=(words("heading.understood_as"),)),
         rows=tuple(
             (
-                word_cell(echo.label),
+                text_cell(show_input(words, echo.label)),
                 text_cell(echo.text),
                 given_cell(echo.value),
                 text_cell(show_unit(echo.unit)),
-                word_cell(echo.cell) if echo.cell == DEFAULT else text_cell(echo.cell),
+                text_cell(
+                    words("status.default") if echo.cell == DEFAULT else echo.cell
+                ),
             )
             for echo in inputs
         ),
+        empty=words("show.none"),
     )
 
 
-def build_profile(study: Study, status: str = "") -> Table:
+def build_profile(study: Study, words: Words, status: str = "") -> Table:
     """Values of the limit profile; only those of one ``status`` if it is given."""
-    headings = ("Clause", "Value of", "Value", "Unit", "Status", "Source")
+    keys = ("clause", "value_of", "value", "unit", "status", "source")
+    headings = [words(f"heading.{key}") for key in keys]
+    caption = words("caption.every_value")
+    if status:
+        named = words.show(name("status", status))
+        caption = words("caption.values_of_status", status=named)
     return Table(
-        caption=f"Values with the status {status!r}" if status else "Every value used",
-        columns=name_columns(headings, numbers=("Value",)),
+        caption=caption,
+        columns=name_columns(headings, numbers=(words("heading.value"),)),
         rows=tuple(
             (
                 text_cell(value.clause),
-                word_cell(value.text),
+                text_cell(show_own(words, value.text)),
                 given_cell(value.value),
                 text_cell(show_unit(value.unit)),
-                word_cell(value.status),
-                word_cell(value.source),
+                text_cell(words.show(name("status", value.status))),
+                text_cell(show_own(words, value.source)),
             )
             for value in study.profile.values
             if status in ("", value.status)
         ),
+        empty=words("show.none"),
     )
 
 
-def build_quality(study: Study) -> Table:
+def build_quality(study: Study, words: Words) -> Table:
     """Worst numerical quality of each row."""
+    counts = (words("heading.cases"), words("heading.without_result"))
+    error = add_unit(words("heading.largest_error"), "%")
     return Table(
-        caption="Quality of the solutions, worst case of each net row",
+        caption=words("caption.quality"),
         columns=(
-            text_column("Net row"),
-            *name_columns(_COUNTS, numbers=_COUNTS),
-            number_column(
-                "balance_residual", "Largest balance residual, of the weight"
-            ),
-            text_column("In case"),
-            number_column("error_percent", "Largest error estimate [%]"),
-            text_column("In case"),
+            text_column(words("heading.net_row")),
+            *name_columns(counts, numbers=counts),
+            number_column("balance_residual", words("heading.largest_residual")),
+            text_column(words("heading.in_case")),
+            number_column("error_percent", error),
+            text_column(words("heading.in_case")),
         ),
         rows=tuple(_quality_row(row) for row in study.rows),
+        empty=words("show.none"),
     )
 
 
@@ -221,54 +254,72 @@ def _worst(
     return max(known, key=lambda pair: pair[0], default=(None, None))
 
 
-def build_outcomes(study: Study) -> Table:
+def build_outcomes(study: Study, words: Words) -> Table:
     """Count cases by outcome; outcomes that did not occur are left out."""
+    headings = [words(f"heading.{key}") for key in ("outcome", "cases", "meaning")]
     counts = Counter(case.outcome for row in study.rows for case in row.cases)
     return Table(
-        caption="Cases by outcome",
-        columns=name_columns(("Outcome", "Cases", "Meaning"), numbers=("Cases",)),
+        caption=words("caption.outcomes"),
+        columns=name_columns(headings, numbers=headings[1:2]),
         rows=tuple(
             (
-                word_cell(outcome),
+                text_cell(words(f"ended.{outcome}")),
                 given_cell(counts[outcome]),
-                word_cell(outcome.sentence),
+                text_cell(words.show(outcome.message)),
             )
             for outcome in Outcome
             if counts[outcome]
         ),
-        empty="none: no case was run",
+        empty=words("heading.no_case_run"),
     )
 
 
-def build_provenance(study: Study) -> Table:
+def build_provenance(study: Study, words: Words) -> Table:
     """All that is needed to repeat the study."""
     made = study.provenance
-    verdict = VERDICTS[study.verdict]
     pairs = {
-        "Command": made.command,
-        "Command for this document again": "netdesign report study.json",
-        "Results, SHA-256": hash_results(study),
-        "Program": f"netdesign {made.version}",
-        "Started": made.started,
-        "Site file": made.site_file,
-        "Site file, SHA-256": made.site_sha256,
-        "Limit profile": f"{study.profile.id}, {study.profile.edition}",
-        "Limit profile, version": study.profile.version,
-        "Limit profile, choice": study.profile.choice,
-        "Limit profile, SHA-256": study.profile.sha256,
-        "Schema": study.schema,
+        "command": made.command,
+        "command_again": "netdesign report study.json",
+        "results_hash": hash_results(study),
+        "program": f"netdesign {made.version}",
+        "started": made.started,
+        "site_file": made.site_file,
+        "site_hash": made.site_sha256,
+        "limit_profile": f"{study.profile.id}, {study.profile.edition}",
+        "profile_version": study.profile.version,
+        "profile_choice": study.profile.choice,
+        "profile_hash": study.profile.sha256,
+        "schema": study.schema,
     }
-    pairs |= {f"Setting: {name}": text for name, text in made.settings.items()}
-    pairs["Libraries"] = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
-    code = word_cell(f"{verdict.exit_code} ({verdict.word})")
-    return Table(
-        caption="Origin of every number of this report",
-        columns=(text_column("Item"), text_column("Value")),
-        rows=(
-            *((word_cell(name), text_cell(text)) for name, text in pairs.items()),
-            (word_cell("Exit code"), code),
-        ),
+    named = {words(f"heading.{key}"): text for key, text in pairs.items()}
+    for label, text in list_settings(study, words):
+        named[words("show.setting", setting=label)] = text
+    libraries = ", ".join(f"{k} {v}" for k, v in made.libraries.items())
+    named[words("heading.libraries")] = libraries
+    verdict = show_verdict(study.verdict, words)
+    code = VERDICTS[study.verdict].exit_code
+    named[words("heading.exit_code")] = words(
+        "show.exit_code", code=code, verdict=verdict.word
     )
+    return Table(
+        caption=words("caption.provenance"),
+        columns=(
+            text_column(words("heading.item")),
+            text_column(words("heading.value")),
+        ),
+        rows=tuple((text_cell(one), text_cell(text)) for one, text in named.items()),
+    )
+
+
+def list_settings(study: Study, words: Words) -> list[tuple[str, str]]:
+    """Settings of a run by their names; the method in words."""
+    return [
+        (
+            words.show(name("setting", key)),
+            words.show(name("method_used", text)) if key == "method" else text,
+        )
+        for key, text in study.provenance.settings.items()
+    ]
 
 
 def hash_results(study: Study) -> str:
@@ -282,13 +333,14 @@ def hash_results(study: Study) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def stack_tables(caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
+def stack_tables(
+    caption: str, parts: Sequence[tuple[str, Table]], words: Words
+) -> Table:
     """One table out of several of one shape, told apart by their net row."""
     first = parts[0][1]
     return Table(
         caption=caption,
-        columns=(text_column("Net row"), *first.columns),
-        rows=tuple(
-            (text_cell(name), *row) for name, part in parts for row in part.rows
-        ),
+        columns=(text_column(words("heading.net_row")), *first.columns),
+        rows=tuple((text_cell(one), *row) for one, part in parts for row in part.rows),
+        empty=first.empty,
     )

@@ -26,22 +26,19 @@ from netdesign.report.view.check_view import (
 from netdesign.report.view.gate import require_consistent
 from netdesign.report.view.table import Table
 from netdesign.report.words import (
-    VERDICTS,
     VerdictWords,
+    Words,
     name_case,
-    name_check,
-    name_member,
+    show_member,
+    show_own,
     show_quantity,
     show_text,
+    show_verdict,
 )
 from netdesign.study.records import ProfileRecord, RowStudy, Study, compute_digest
+from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"
-EXPLANATION = (
-    "It solves every case again and compares every value with the study; that ends "
-    "with exit code 0 only where nothing differs. Another SHA-256 than this one: the "
-    "study is not that of this report, or was altered."
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,8 +102,8 @@ class ReportView:
     provenance: Table
 
 
-def build_view(study: Study) -> ReportView:
-    """Everything that the outputs print about ``study``.
+def build_view(study: Study, language: Language = "en") -> ReportView:
+    """Everything that the outputs print about ``study``, in a language.
 
     Raises
     ------
@@ -114,11 +111,13 @@ def build_view(study: Study) -> ReportView:
         If the study contradicts its own numbers.
     """
     require_consistent(study)
-    project = study.project
-    assumed = tables.build_profile(study, tables.ASSUMED)
-    rows = tuple(_view_row(row, number) for number, row in enumerate(study.rows, 1))
+    words, project = Words(language), study.project
+    assumed = tables.build_profile(study, words, tables.ASSUMED)
+    rows = tuple(
+        _view_row(row, number, words) for number, row in enumerate(study.rows, 1)
+    )
     return ReportView(
-        identification=_identify(study),
+        identification=_identify(study, words),
         prepared=_name_person(project.author),
         checked=_name_person(project.checker),
         revision=show_text(project.revision),
@@ -128,23 +127,25 @@ def build_view(study: Study) -> ReportView:
             for text in (project.number, project.name, project.revision)
             if text
         ),
-        verdict=VERDICTS[study.verdict],
-        verification=_tell_verification(study),
+        verdict=show_verdict(study.verdict, words),
+        verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
-        counts=_count_all(study),
+        counts=_count_all(study, words),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
-        scope=basis_tables.SCOPE,
-        assumptions=basis_tables.build_assumptions(study),
-        checklist=basis_tables.build_checklist(study),
+        scope=basis_tables.list_scope(words),
+        assumptions=basis_tables.build_assumptions(study, words),
+        checklist=basis_tables.build_checklist(study, words),
         rows=rows,
-        ranges=tables.build_inputs(study.range_inputs, "Ranges of the envelope"),
-        profile_title=show_text(f"{study.profile.title}, {study.profile.edition}"),
-        profile=tables.build_profile(study),
-        notes=tuple(show_text(note) for note in study.notes),
-        quality=tables.build_quality(study),
-        outcomes=tables.build_outcomes(study),
-        provenance=tables.build_provenance(study),
+        ranges=tables.build_inputs(
+            study.range_inputs, words("heading.ranges_of_envelope"), words
+        ),
+        profile_title=_name_profile(study, words),
+        profile=tables.build_profile(study, words),
+        notes=tuple(words.show(note) for note in study.notes),
+        quality=tables.build_quality(study, words),
+        outcomes=tables.build_outcomes(study, words),
+        provenance=tables.build_provenance(study, words),
     )
 
 
@@ -161,52 +162,48 @@ def _find_governing_row(study: Study, views: Sequence[RowView]) -> RowView | Non
     return None if best is None else views[best]
 
 
-def _view_row(row: RowStudy, number: int) -> RowView:
+def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
     governing, highest = find_governing(row.checks), find_highest(row.checks)
     shown = governing if governing and governing.utilisation is not None else highest
     return RowView(
         anchor=f"row-{number}",
         id=show_text(row.id),
-        verdict=VERDICTS[row.verdict],
-        counts=_count_verdicts(check.verdict for check in row.checks),
-        governing=view_check(governing) if governing else None,
-        highest=view_check(highest) if highest and highest != governing else None,
-        reasons=_name_reasons(row),
-        checks=tuple(view_check(check) for check in row.checks),
-        worked=work_out(shown) if shown else None,
+        verdict=show_verdict(row.verdict, words),
+        counts=_count_verdicts((check.verdict for check in row.checks), words),
+        governing=view_check(governing, words) if governing else None,
+        highest=view_check(highest, words)
+        if highest and highest != governing
+        else None,
+        reasons=tuple(words.show(reason) for reason in row.reasons),
+        checks=tuple(view_check(check, words) for check in row.checks),
+        worked=work_out(shown, words) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
-        unloaded=_name_unloaded(row),
-        extremes=tables.build_extremes(row),
-        searched=envelope_tables.describe_search(row),
-        bounds=envelope_tables.build_bounds(row),
-        drivers=envelope_tables.build_drivers(row),
-        failed=tables.build_failed(row),
-        inputs=tables.build_inputs(row.inputs, "Inputs, with the cell of each"),
-        anchors=row_tables.build_anchors(row),
-        head=row_tables.build_head(row),
-        spreads=row_tables.build_spreads(shown),
-        changes=row_tables.build_changes(row),
-        flips=row_tables.list_flips(governing),
-        independent=row_tables.build_independent(row),
-        guideline=row_tables.build_guideline(row),
-        guideline_sentence=row.guideline.sentence if row.guideline else "",
-        notes=tuple(show_text(note) for note in row.notes),
+        unloaded=_name_unloaded(row, words),
+        extremes=tables.build_extremes(row, words),
+        searched=envelope_tables.describe_search(row, words),
+        bounds=envelope_tables.build_bounds(row, words),
+        drivers=envelope_tables.build_drivers(row, words),
+        failed=tables.build_failed(row, words),
+        inputs=tables.build_inputs(
+            row.inputs, words("heading.inputs_with_cells"), words
+        ),
+        anchors=row_tables.build_anchors(row, words),
+        head=row_tables.build_head(row, words),
+        spreads=row_tables.build_spreads(shown, words),
+        changes=row_tables.build_changes(row, words),
+        flips=row_tables.list_flips(governing, words),
+        independent=row_tables.build_independent(row, words),
+        guideline=row_tables.build_guideline(row, words),
+        guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
+        notes=tuple(words.show(note) for note in row.notes),
     )
 
 
-def _name_reasons(row: RowStudy) -> tuple[str, ...]:
-    """Reasons of a row, each under the name of its check instead of its key."""
-    names = {f"{check.member}.{check.mode}": name_check(check) for check in row.checks}
-    parts = [reason.partition(": ") for reason in row.reasons]
-    return tuple(
-        show_text(f"{names.get(head, head)}{mark}{rest}") for head, mark, rest in parts
-    )
-
-
-def _name_unloaded(row: RowStudy) -> str:
+def _name_unloaded(row: RowStudy, words: Words) -> str:
     loaded = tables.list_loaded(row)
-    names = [name_member(member) for member in tables.MEMBERS if member not in loaded]
-    return f"Without force in every case: {', '.join(names)}." if names else ""
+    missing = [member for member in tables.MEMBERS if member not in loaded]
+    names = ", ".join(show_member(words, member) for member in missing)
+    return words("show.unloaded", members=names) if names else ""
 
 
 def _name_person(name: str) -> str:
@@ -214,51 +211,70 @@ def _name_person(name: str) -> str:
     return show_text(name) if name.strip() else ""
 
 
-def _identify(study: Study) -> tuple[tuple[str, str], ...]:
+def _identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
     project = study.project
     pairs = (
-        ("Project", project.name),
-        ("Number", project.number),
-        ("Revision", project.revision),
-        ("Limit profile", f"{study.profile.title}, {study.profile.edition}"),
-        ("Site file", study.provenance.site_file),
-        ("Date", study.provenance.started[:10]),
+        ("project", project.name),
+        ("number", project.number),
+        ("revision", project.revision),
+        ("limit_profile", _name_profile(study, words)),
+        ("site_file", study.provenance.site_file),
+        ("date", study.provenance.started[:10]),
     )
-    return tuple((label, show_text(text)) for label, text in pairs)
+    return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
 
 
-def _tell_verification(study: Study) -> tuple[tuple[str, str], ...]:
+def _name_profile(study: Study, words: Words) -> str:
+    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
+
+
+def _tell_verification(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
     """Command that shows whether a report is true, and what ties it to its study."""
     site = study.provenance.site_file
     is_built_in = " --example" in study.provenance.command  # verify has it too
     named = f" --site {shlex.quote(site)}" if site and not is_built_in else ""
     return (
-        ("To verify this report", show_text(f"{VERIFY} --study study.json{named}")),
-        ("What that does", EXPLANATION),
-        ("SHA-256 of its study", compute_digest(study)),
+        (
+            words("heading.verify_report"),
+            show_text(f"{VERIFY} --study study.json{named}"),
+        ),
+        (words("heading.what_that_does"), words("heading.verify_explained")),
+        (words("heading.study_hash"), compute_digest(study)),
     )
 
 
-def _count_verdicts(verdicts: Iterable[Verdict]) -> str:
+def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
     counts = Counter(verdicts)
-    words = [
-        f"{counts[verdict]} {VERDICTS[verdict].word}"
+    shown = [
+        words(
+            "show.count_verdict",
+            count=counts[verdict],
+            verdict=words(f"verdict.{verdict}"),
+        )
         for verdict in SEVERITY
         if counts[verdict]
     ]
-    return ", ".join(words) or "none"
+    return ", ".join(shown) or words("show.none")
 
 
-def _count_all(study: Study) -> tuple[tuple[str, str], ...]:
+def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
     cases = sum(len(row.cases) for row in study.rows)
     failed = sum(len(tables.list_failed(row)) for row in study.rows)
     return (
-        ("Net rows", _count_verdicts(row.verdict for row in study.rows)),
         (
-            "Checks",
-            _count_verdicts(c.verdict for row in study.rows for c in row.checks),
+            words("heading.net_rows"),
+            _count_verdicts((row.verdict for row in study.rows), words),
         ),
-        ("Cases", f"{cases - failed} solved, {failed} without a result"),
+        (
+            words("heading.checks"),
+            _count_verdicts(
+                (c.verdict for row in study.rows for c in row.checks), words
+            ),
+        ),
+        (
+            words("heading.cases"),
+            words("show.cases_solved", solved=cases - failed, failed=failed),
+        ),
     )
 
 

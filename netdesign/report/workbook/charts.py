@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE
+from netdesign.report.words import name_heading
 from netdesign.report.workbook.writer import Book
 
 _FONT = {"name": "Arial", "size": 9, "color": INK}
@@ -20,11 +21,11 @@ def add_utilisation_chart(
 ) -> None:
     """Largest utilisation of each net row beside the limit, on the summary."""
     first, last = rows
-    name = book.name("Summary")
+    name = book.name("summary")
     chart = book.workbook.add_chart({"type": "column"})
     chart.add_series(
         {
-            "name": book.words("Largest utilisation"),
+            "name": book.words("heading.largest_utilisation"),
             "categories": [name, first, 1, last, 1],
             "values": [name, first, 6, last, 6],
             "fill": {"color": _BARS},
@@ -34,14 +35,14 @@ def add_utilisation_chart(
     limit = book.workbook.add_chart({"type": "line"})
     limit.add_series(
         {
-            "name": book.words("Limit"),
+            "name": book.words("heading.limit"),
             "categories": [name, first, 1, last, 1],
             "values": [name, first, 8, last, 8],
             "line": {"color": ACCENT, "width": 1.5},
         }
     )
     chart.combine(limit)
-    _finish(book, chart, ("Largest utilisation of each net row", "", ""))
+    _finish(chart, (book.words("heading.largest_of_rows"), "", ""))
     chart.set_size({"width": 620, "height": 260})
     sheet.insert_chart(*place, chart, {"object_position": 1})
 
@@ -54,19 +55,19 @@ def add_force_chart(
     ``columns`` are those of net row, member and force.
     """
     first, last = rows
-    name = book.name("Envelope")
+    name = book.name("envelope")
     row, member, force = columns
     chart = book.workbook.add_chart({"type": "column"})
     chart.add_series(
         {
-            "name": book.words("Maximum"),
+            "name": book.words("heading.maximum"),
             "categories": [name, first, row, last, member],
             "values": [name, first, force, last, force],
             "fill": {"color": _BARS},
             "gap": 40,
         }
     )
-    _finish(book, chart, ("Largest characteristic force per support", "", "kN"))
+    _finish(chart, (book.words("heading.largest_per_support"), "", "kN"))
     chart.set_legend({"none": True})
     chart.set_size({"width": 980, "height": 320})
     _insert_below(sheet, last, chart)
@@ -79,7 +80,7 @@ def add_case_chart(
 
     ``spans`` are first and last line of each net row; its id is in the first column.
     """
-    name = book.name("Cases")
+    name = book.name("cases")
     chart = book.workbook.add_chart({"type": "scatter"})
     for place, (first, last) in enumerate(spans[:_MOST_LINES]):
         shade = _SHADES[place % len(_SHADES)]
@@ -97,8 +98,9 @@ def add_case_chart(
                 },
             }
         )
-    titles = ("Force on the foot anchor in every case", "Density [kg/m³]", "kN")
-    _finish(book, chart, titles)
+    density = name_heading(book.words, "density_kg_m3")
+    titles = (book.words("heading.foot_in_cases"), density, "kN")
+    _finish(chart, titles)
     chart.set_size({"width": 820, "height": 360})
     _insert_below(sheet, bottom, chart)
 
@@ -109,12 +111,12 @@ def _insert_below(sheet: Any, bottom: int, chart: Any) -> None:
     sheet.insert_chart(bottom + 2, 0, chart, {"object_position": 1})
 
 
-def _finish(book: Book, chart: Any, titles: tuple[str, str, str]) -> None:
+def _finish(chart: Any, titles: tuple[str, str, str]) -> None:
     """Quiet frame; title, then names of the axes."""
     title, across, up = titles
     chart.set_title(
         {
-            "name": book.words(title),
+            "name": title,
             "name_font": {**_FONT, "size": 10, "bold": True},
             "overlay": False,
         }
@@ -122,7 +124,7 @@ def _finish(book: Book, chart: Any, titles: tuple[str, str, str]) -> None:
     for axis, name in ((chart.set_x_axis, across), (chart.set_y_axis, up)):
         axis(
             {
-                "name": book.words(name) if name else "",
+                "name": name,
                 "name_font": {**_FONT, "bold": False},
                 "num_font": _FONT,
                 "line": {"color": GREY},

@@ -11,7 +11,6 @@ from typing import Any
 
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
-from netdesign.report.translation import translate_view
 from netdesign.report.view.check_formulas import (
     ROUNDING,
     compute_rank,
@@ -29,10 +28,13 @@ from netdesign.report.view.check_view import (
     find_utilisation_band,
 )
 from netdesign.report.view.table import Cell, Column
-from netdesign.report.view.tables import CASE_COLUMNS
+from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
     MISSING,
+    Words,
+    add_unit,
+    name_heading,
     number_format,
     show_number,
     show_text,
@@ -41,25 +43,27 @@ from netdesign.report.workbook.writer import A3, Book, count_lines
 from netdesign.study.records import CheckRecord, Study
 
 HEAD_ROW = 3  # zero-based; the first check is one below
-_NOTES = (
-    "Demand E_d = γ_E · E_k, design resistance R_d = R_k / γ_R, utilisation "
-    "μ = E_d / R_d; kN per anchor; low and high are the ends of the numerical band.",
-    "PASS: μ high is at most 1. FAIL: μ low exceeds 1. Otherwise NOT PROVEN. "
-    '"Set by the study": the verdict has another reason than the ratio, see Reason.',
-)
+_NOTES = ("caption.check_formulas", "caption.check_verdicts")
 # Stands in the place of a sentence of the study that no longer holds.
-CHANGED = "Changed after the study: the formulas of this workbook alone decide."
-_WANTED = {True: "A number above zero.", False: "A number of at least zero."}
+CHANGED = "caption.changed"
+_WANTED = {True: "caption.above_zero", False: "caption.at_least_zero"}
 
 
 @dataclass(frozen=True, slots=True)
 class _Field:
-    """Column of the sheet: letter, key of its quantity, heading, width."""
+    """Column of the sheet: letter, key of its quantity, key of its heading, width.
+
+    A quantity stands under its symbol, ``end`` tells its band's ends apart; without a
+    key of a heading, a quantity of a case under its name. What the study has stands
+    hidden, and says so.
+    """
 
     letter: str
     quantity: str
     heading: str
     width: float
+    end: str = ""
+    is_of_study: bool = False
 
     @property
     def index(self) -> int:
@@ -68,67 +72,79 @@ class _Field:
         return ones + 26 * sum(ten + 1 for ten in tens)
 
     @property
-    def column(self) -> Column:
-        return Column(
-            heading=self.heading,
-            quantity=self.quantity,
-            is_number=bool(self.quantity) or self.heading == "No.",
-        )
+    def is_number(self) -> bool:
+        """Whether its cells are numbers."""
+        return bool(self.quantity) or self.heading == "heading.no"
+
+    def name(self, words: Words) -> Column:
+        """The column under its heading."""
+        heading = words(self.heading) if self.heading else self._name(words)
+        if self.is_of_study:
+            study = words("heading.study")
+            heading = words("show.label", label=study, text=heading)
+        return Column(heading=heading, quantity=self.quantity, is_number=self.is_number)
+
+    def _name(self, words: Words) -> str:
+        row = QUANTITIES[self.quantity]
+        if self in _CASES:
+            return name_heading(words, self.quantity)
+        label = row.symbol
+        if self.end:
+            label = f"{label} {words(f'heading.{self.end}')}"
+        return add_unit(label, row.unit)
 
 
 def _field(letter: str, quantity: str, end: str = "") -> _Field:
-    row = QUANTITIES[quantity]
-    unit = f" [{row.unit}]" if row.unit else ""
-    return _Field(letter, quantity, f"{row.symbol}{end}{unit}", 8.3)
+    return _Field(letter, quantity, "", 8.3, end)
 
 
 _LEAD = (
-    _Field("A", "", "No.", 4),
-    _Field("B", "", "Net row", 15),
-    _Field("C", "", "Check", 20),
-    _Field("D", "", "Clause", 9),
+    _Field("A", "", "heading.no", 4),
+    _Field("B", "", "heading.net_row", 15),
+    _Field("C", "", "heading.check", 20),
+    _Field("D", "", "heading.clause", 9),
 )
 _ACTIONS = (
-    _field("E", "action_kN", " low"),
+    _field("E", "action_kN", "low"),
     _field("F", "action_kN"),
-    _field("G", "action_kN", " high"),
+    _field("G", "action_kN", "high"),
 )
 _ACTION_FACTOR = _field("H", "action_factor")
 _DEMANDS = (
-    _field("I", "demand_kN", " low"),
+    _field("I", "demand_kN", "low"),
     _field("J", "demand_kN"),
-    _field("K", "demand_kN", " high"),
+    _field("K", "demand_kN", "high"),
 )
 _RESISTANCE_K = _field("L", "resistance_characteristic_kN")
 _RESISTANCE_FACTOR = _field("M", "resistance_factor")
 _RESISTANCE = _field("N", "resistance_kN")
 _RATIOS = (
-    _field("O", "utilisation", " low"),
+    _field("O", "utilisation", "low"),
     _field("P", "utilisation"),
-    _field("Q", "utilisation", " high"),
+    _field("Q", "utilisation", "high"),
 )
-_SET = _Field("R", "", "Set by the study", 10)
-_VERDICT = _Field("S", "", "Verdict", 13)
+_SET = _Field("R", "", "heading.set_by_study", 10)
+_VERDICT = _Field("S", "", "heading.verdict", 13)
 _TAIL = (
-    _Field("W", "", "Resistance from", 18),
-    _Field("X", "", "Reason", 36),
+    _Field("W", "", "heading.resistance_from", 18),
+    _Field("X", "", "heading.reason", 36),
 )
 _CASES = tuple(
-    _Field(letter, column.quantity, column.heading, 8.5)
-    for letter, column in zip("TUV", CASE_COLUMNS, strict=True)
+    _Field(letter, quantity, "", 8.5)
+    for letter, quantity in zip("TUV", CASE_QUANTITIES, strict=True)
 )
 # Hidden: what the live cells are compared with, and what is sorted by.
-_RANK = _Field("Y", "", "Rank", 8)
-_UNCHANGED = _Field("Z", "", "As in the study", 8)
+_RANK = _Field("Y", "", "heading.rank", 8)
+_UNCHANGED = _Field("Z", "", "heading.as_in_study", 8)
 _STUDY_TEXTS = (
-    _Field("AA", "", "Study: Resistance from", 8),
-    _Field("AB", "", "Study: Reason", 8),
+    _Field("AA", "", "heading.resistance_from", 8, is_of_study=True),
+    _Field("AB", "", "heading.reason", 8, is_of_study=True),
 )
-_STUDY_VERDICT = _Field("AC", "", "Study: Verdict", 8)
+_STUDY_VERDICT = _Field("AC", "", "heading.verdict", 8, is_of_study=True)
 _STUDY_NUMBERS = (
-    _Field("AD", "utilisation", "Study: μ low", 8),
-    _Field("AE", "utilisation", "Study: μ high", 8),
-    _Field("AF", "resistance_characteristic_kN", "Study: characteristic resistance", 8),
+    _Field("AD", "utilisation", "", 8, "low", is_of_study=True),
+    _Field("AE", "utilisation", "", 8, "high", is_of_study=True),
+    _Field("AF", "resistance_characteristic_kN", "", 8, is_of_study=True),
 )
 _SHOWN = (
     *_LEAD,
@@ -150,11 +166,11 @@ _FIELDS = (*_SHOWN, *_HIDDEN)
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Checks" and the defined names that the summary counts by."""
-    sheet = book.add_sheet("Checks", "Checks", paper=A3)
+    sheet = book.add_sheet("checks", book.words("heading.checks"), paper=A3)
     book.link_back(sheet, (0, 3))
     for line, note in enumerate(_NOTES, 1):
         sheet.write_string(line, 0, book.words(note), book.text(italic=True))
-    columns = [translate_view(field.column, book.words) for field in _FIELDS]
+    columns = [field.name(book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
         options = {"hidden": field in _HIDDEN}
@@ -166,7 +182,7 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
             _CheckLine(book, sheet, line).write((number, row.id), check, words)
             line += 1
     if line == HEAD_ROW + 1:
-        text = book.words("none: no check was made")
+        text = book.words("heading.no_check")
         sheet.write_string(line, 0, text, book.text())
     last = max(line, HEAD_ROW + 2)
     _finish(book, sheet, last)
@@ -186,7 +202,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
     }
     for name, field in named.items():
         area = f"${field.letter}${first}:${field.letter}${last}"
-        book.workbook.define_name(name, f"={book.refer('Checks', area)}")
+        book.workbook.define_name(name, f"={book.refer('checks', area)}")
     _validate(book, sheet, (first - 1, last - 1))
     for field, decorate in (
         (_VERDICT, book.colour_verdicts),
@@ -310,7 +326,8 @@ class _CheckLine:
 
     def _put(self, field: _Field, cell: Cell) -> None:
         place = (self._line, field.index)
-        self._book.write_cell(self._sheet, place, field.column, cell)
+        column = Column(heading="", quantity=field.quantity, is_number=field.is_number)
+        self._book.write_cell(self._sheet, place, column, cell)
 
     def _put_number(
         self, field: _Field, value: float | None, formula: str = ""

@@ -4,41 +4,40 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import replace
 from datetime import UTC, datetime
 
 from netdesign.errors import NetDesignError
-from netdesign.report.language import Words
-from netdesign.report.translation import show_study, translate_view
 from netdesign.report.view import tables
 from netdesign.report.view.table import Cell, Column, Table
-from netdesign.report.view.whole import ReportView
+from netdesign.report.view.whole import ReportView, build_view
+from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import Book
 from netdesign.study.records import Study
+from netdesign.words.catalogue import Language
 
 _FIRST_LINE = 4  # of a table below its caption and headings, zero-based
 _NO_TIME = datetime(1980, 1, 1)
 SHEETS = (
-    "Summary",
-    "Inputs",
-    "Checks",
-    "Envelope",
-    "Cases",
-    "Changes",
-    "Support",
-    "Guideline",
-    "Quality",
-    "Assumptions",
-    "Profile",
-    "Provenance",
+    "summary",
+    "inputs",
+    "checks",
+    "envelope",
+    "cases",
+    "changes",
+    "support",
+    "guideline",
+    "quality",
+    "assumptions",
+    "profile",
+    "provenance",
 )
 
 
 def render_workbook(
-    study: Study, words: Words | None = None, view: ReportView | None = None
+    study: Study, language: Language = "en", view: ReportView | None = None
 ) -> bytes:
     """Workbook of a study; the same study gives the same bytes.
 
@@ -46,8 +45,8 @@ def render_workbook(
     ----------
     study : Study
         What is shown.
-    words : Words, optional
-        Language; English if not given.
+    language : str
+        ``en``, ``fr`` or ``de``.
     view : ReportView, optional
         Of this study in this language, where it is there already.
 
@@ -58,8 +57,8 @@ def render_workbook(
     """
     import xlsxwriter
 
-    words = words or Words()
-    view = view or show_study(study, words)
+    words = Words(language)
+    view = view or build_view(study, language)
     buffer = io.BytesIO()
     options = {
         "in_memory": True,
@@ -70,7 +69,7 @@ def render_workbook(
     with xlsxwriter.Workbook(buffer, options) as workbook:
         workbook.set_properties(
             {
-                "title": words("Anchor check of snow nets"),
+                "title": words("heading.anchor_check"),
                 "subject": view.running_title,
                 "author": view.prepared,
                 "created": _read_time(study.provenance.started),
@@ -91,49 +90,56 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     _add_inputs(book, view)
     add_check_sheet(book, study, view)
     _add_row_tables(book, study, view)
-    book.add_table_sheet("Quality", "Solver quality", [view.quality, view.outcomes])
-    book.add_table_sheet("Assumptions", "Assumptions", [view.assumptions])
-    book.add_table_sheet("Profile", "Limit profile", [view.profile])
-    notes = _list_notes(book, view)
-    book.add_table_sheet("Provenance", "Provenance", [view.provenance, notes])
+    for name, title, parts in (
+        ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
+        ("assumptions", "heading.assumptions", [view.assumptions]),
+        ("profile", "heading.limit_profile", [view.profile]),
+        (
+            "provenance",
+            "heading.provenance",
+            [view.provenance, _list_notes(book, view)],
+        ),
+    ):
+        book.add_table_sheet(name, book.words(title), parts)
     link_sheets(book, SHEETS[1:])
 
 
 def _add_inputs(book: Book, view: ReportView) -> None:
-    inputs = [(book.words("Ranges"), view.ranges)]
+    inputs = [(book.words("heading.ranges"), view.ranges)]
     inputs += [(row.id, row.inputs) for row in view.rows]
-    caption = "As typed and as understood, with the cell"
-    book.add_table_sheet("Inputs", "Inputs", [_stack(book, caption, inputs)])
+    caption = book.words("heading.typed_and_understood")
+    title = book.words("heading.inputs")
+    book.add_table_sheet("inputs", title, [_stack(book, caption, inputs)])
 
 
 def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
     """Sheets on which the same table of every net row stands."""
     cases = [
-        (shown.id, translate_view(tables.build_cases(row), book.words))
+        (shown.id, tables.build_cases(row, book.words))
         for row, shown in zip(study.rows, view.rows, strict=True)
     ]
     for name, title, parts in (
-        ("Envelope", "Largest force of each member", _list_parts(view, "extremes")),
-        ("Cases", "All cases", cases),
-        ("Changes", "What would flip the checks", _list_parts(view, "changes")),
+        ("envelope", "heading.largest_of_members", _list_parts(view, "extremes")),
+        ("cases", "heading.all_cases", cases),
+        ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
         (
-            "Support",
-            "Forces on the ground in the drawn case",
+            "support",
+            "heading.forces_on_ground",
             _list_parts(view, "anchors"),
         ),
         (
-            "Guideline",
-            "Independent check by the guideline",
+            "guideline",
+            "heading.check_by_guideline",
             _list_parts(view, "guideline"),
         ),
     ):
         caption = parts[0][1].caption if parts else book.words(title)
         stacked = _stack(book, caption, parts)
-        sheet = book.add_table_sheet(name, title, [stacked])
+        sheet = book.add_table_sheet(name, book.words(title), [stacked])
         bottom = _FIRST_LINE + len(stacked.rows) - 1
-        if name == "Envelope" and stacked.rows:
+        if name == "envelope" and stacked.rows:
             add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
-        if name == "Cases" and stacked.rows:
+        if name == "cases" and stacked.rows:
             add_case_chart(book, sheet, _span(parts), bottom)
 
 
@@ -152,22 +158,19 @@ def _span(parts: Sequence[tuple[str, Table]]) -> list[tuple[int, int]]:
 
 
 def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Table:
-    caption = book.words(caption)
-    heading = Column(heading=book.words("Net row"))
-    if not parts:
-        empty = book.words("none")
-        return Table(caption=caption, columns=(heading,), rows=(), empty=empty)
-    stacked = tables.stack_tables(caption, parts)
-    columns = (heading, *stacked.columns[1:])
-    return replace(stacked, columns=columns, empty=parts[0][1].empty)
+    if parts:
+        return tables.stack_tables(caption, parts, book.words)
+    heading, empty = book.words("heading.net_row"), book.words("show.none")
+    columns = (Column(heading=heading),)
+    return Table(caption=caption, columns=columns, rows=(), empty=empty)
 
 
 def _list_notes(book: Book, view: ReportView) -> Table:
     return Table(
-        caption=book.words("Notes"),
-        columns=(Column(heading=book.words("Note")),),
+        caption=book.words("heading.notes"),
+        columns=(Column(heading=book.words("heading.note")),),
         rows=tuple((Cell(text=note),) for note in view.notes),
-        empty=book.words("none"),
+        empty=book.words("show.none"),
     )
 
 

@@ -16,7 +16,6 @@ from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import (
     MISSING,
-    name_heading,
     number_format,
 )
 from netdesign.report.workbook.charts import add_utilisation_chart
@@ -36,25 +35,21 @@ _CASE_DECIMALS = 2
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Summary": overall verdict, net rows, assumed values, signatures."""
-    sheet = book.add_sheet("Summary", "Anchor check of snow nets")
+    sheet = book.add_sheet("summary", book.words("heading.anchor_check"))
     sheet.write_string(1, 0, view.running_title or MISSING, book.text())
     last = _HEAD_ROW + max(len(study.rows), 1)
     _write_overall(book, sheet, study, last)
-    columns = [
-        Column(heading=book.words(one.heading), is_number=one.is_number)
-        for one in _list_columns(book)
-    ]
-    book.write_head(sheet, _HEAD_ROW, columns, _WIDTHS)
+    book.write_head(sheet, _HEAD_ROW, _list_columns(book), _WIDTHS)
     for index, width in enumerate(_WIDTHS):
         sheet.set_column(index, index, width)
     sheet.set_column(_STUDY_REASONS, _STUDY_VERDICT, None, None, {"hidden": True})
     if not study.rows:
-        text = book.words("none: the site has no net rows")
+        text = book.words("heading.no_rows")
         sheet.write_string(last, 1, text, book.text())
     first_check = FIRST_CHECK + 2  # line in the sheet of checks, counted from one
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
         _write_row(book, sheet, number, row, shown)
-        target = book.refer("Checks", f"A{first_check}")
+        target = book.refer("checks", f"A{first_check}")
         book.link(sheet, (_HEAD_ROW + number, 1), target, shown.id)
         first_check += len(row.checks)
     book.colour_verdicts(sheet, (2, 2, last, 2))
@@ -68,26 +63,26 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
 
 def link_sheets(book: Book, names: Sequence[str]) -> None:
     """Lead from the summary to every other sheet, in the line above its table."""
-    sheet = book.workbook.get_worksheet_by_name(book.name("Summary"))
+    sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
     for column, name in enumerate(names, 1):
         target = book.refer(name, "A1")
         book.link(sheet, (_HEAD_ROW - 1, column), target, book.name(name))
 
 
 def _list_columns(book: Book) -> tuple[Column, ...]:
-    ratio = name_heading("utilisation")
+    words = book.words
     return (
-        Column(heading="No.", is_number=True),
-        Column(heading="Net row"),
-        Column(heading="Verdict"),
+        Column(heading=words("heading.no"), is_number=True),
+        Column(heading=words("heading.net_row")),
+        Column(heading=words("heading.verdict")),
         *(Column(heading=book.word(v), is_number=True) for v in _COUNTED),
-        Column(heading=f"Largest {ratio.lower()}", is_number=True),
-        Column(heading="Largest high end", is_number=True),
-        Column(heading="Limit", is_number=True),
-        Column(heading="Governing check"),
-        Column(heading="Its case"),
-        Column(heading="Held back by study"),
-        Column(heading="Reasons"),
+        Column(heading=words("heading.largest_utilisation"), is_number=True),
+        Column(heading=words("heading.largest_high_end"), is_number=True),
+        Column(heading=words("heading.limit"), is_number=True),
+        Column(heading=words("heading.governing_check")),
+        Column(heading=words("heading.its_case")),
+        Column(heading=words("heading.held_back")),
+        Column(heading=words("heading.reasons")),
     )
 
 
@@ -96,7 +91,7 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
     rows = f"C{_HEAD_ROW + 2}:C{last + 1}"
     form = book.text(bold=True, font_size=12)
     word = book.word(study.verdict)
-    sheet.write_string(2, 0, book.words("Verdict"), form)
+    sheet.write_string(2, 0, book.words("heading.verdict"), form)
     counts = {v: f'COUNTIF({rows},"{book.word(v)}")' for v in _COUNTED}
     formula = write_merged(
         counts,
@@ -117,7 +112,7 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
     }
     for name, area in names.items():
-        book.workbook.define_name(name, f"={book.refer('Summary', area)}")
+        book.workbook.define_name(name, f"={book.refer('summary', area)}")
 
 
 def _list_words(book: Book) -> dict[Verdict, str]:
@@ -158,7 +153,7 @@ def _write_governing(
     """Name and case of the check that decides now."""
     mine = f"check_net_row_number,A{index + 1}"
     line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
-    none = book.words("none: no check was made")
+    none = book.words("heading.no_check")
     first, second, third = (
         f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
@@ -249,12 +244,16 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     """Identification, room for signatures, assumed values, under the rows."""
     head, text = book.text(bold=True, bottom=1), book.text()
     wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
-    signed = (("Prepared", view.prepared), ("Checked", view.checked), ("Approved", ""))
+    signed = (
+        ("heading.prepared", view.prepared),
+        ("heading.checked", view.checked),
+        ("heading.approved", ""),
+    )
     blocks: list[tuple[str, Sequence[tuple[str, str]]]] = [
-        ("To verify this report", view.verification),
-        ("Identification and sign-off", view.identification),
-        ("Signatures", [(book.words(label), name) for label, name in signed]),
-        ("Assumed: confirm in your copy of the standard", _list_assumed(book, view)),
+        ("heading.verify_report", view.verification),
+        ("heading.identification", view.identification),
+        ("heading.signatures", [(book.words(label), name) for label, name in signed]),
+        ("heading.assumed", _list_assumed(book, view)),
     ]
     for title, pairs in blocks:
         for column in range(_LIMIT):
@@ -272,8 +271,8 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
 def _list_assumed(book: Book, view: ReportView) -> Sequence[tuple[str, str]]:
     return [
         (
-            f"{book.words('Clause')} {clause.text}",
+            f"{book.words('heading.clause')} {clause.text}",
             f"{what.text.rstrip('.')}: {value.text} {unit.text}".rstrip(" -"),
         )
         for clause, what, value, unit, *_ in view.assumed.rows
-    ] or [(book.words("none"), "")]
+    ] or [(book.words("show.none"), "")]

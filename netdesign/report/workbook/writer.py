@@ -8,10 +8,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from netdesign.outcome import Verdict
-from netdesign.report.language import Words
-from netdesign.report.translation import translate_view
 from netdesign.report.view.table import Cell, Column, Table
-from netdesign.report.words import VERDICTS, number_format
+from netdesign.report.words import Words, number_format, show_verdict
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
 _HEAD = {"bold": True, "bottom": 1, "text_wrap": True, "valign": "bottom"}
@@ -43,9 +41,7 @@ class Book:
     def __init__(self, workbook: Any, footer: str, words: Words) -> None:
         self.workbook = workbook
         self.words = words
-        self.verdicts = {
-            verdict: translate_view(shown, words) for verdict, shown in VERDICTS.items()
-        }
+        self.verdicts = {verdict: show_verdict(verdict, words) for verdict in Verdict}
         self._footer = _show_literally(footer[:120])
         self._formats: dict[tuple[tuple[str, Any], ...], Any] = {}
         self._forms: dict[tuple[bool, tuple[str, Any] | None], Any] = {}
@@ -74,14 +70,13 @@ class Book:
         sheet.fit_to_pages(1, 0)
         sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.7)
         sheet.set_footer(f"&L&8 {self._footer}&C&8 &A&R&8 &P / &N")
-        shown = self.words(title)
-        sheet.write_string(0, 0, shown, self.text(bold=True, font_size=13))
+        sheet.write_string(0, 0, title, self.text(bold=True, font_size=13))
         sheet.set_row(0, 22)
         return sheet
 
     def name(self, sheet: str) -> str:
-        """Name of a sheet in the language of the workbook."""
-        return self.words(sheet)[:_LONGEST_NAME]
+        """Name of a sheet, by its key, in the language of the workbook."""
+        return self.words(f"heading.{sheet}")[:_LONGEST_NAME]
 
     def refer(self, sheet: str, area: str) -> str:
         """Reference to an area of another sheet."""
@@ -94,8 +89,8 @@ class Book:
 
     def link_back(self, sheet: Any, place: tuple[int, int] = (1, 0)) -> None:
         """Lead back to the first sheet."""
-        text = f"← {self.name('Summary')}"
-        self.link(sheet, place, self.refer("Summary", "A1"), text)
+        text = f"← {self.name('summary')}"
+        self.link(sheet, place, self.refer("summary", "A1"), text)
 
     def word(self, verdict: Verdict) -> str:
         """Word of a verdict in the language of the workbook."""

@@ -21,10 +21,10 @@ _CARRIES = {
     "post_base": "post",
 }
 _PUSHED = ("post", "post_base")
-_OPENINGS = {
-    Verdict.PASS: ("The demand stays within", "The member is slack"),
-    Verdict.FAIL: ("The demand exceeds",),
-    Verdict.NOT_PROVEN: ("Not proven: ",),
+_REASONS = {
+    Verdict.PASS: ("check.passes", "check.slack"),
+    Verdict.FAIL: ("check.fails", "check.fails_besides"),
+    Verdict.NOT_PROVEN: ("check.not_proven",),
 }
 
 
@@ -147,7 +147,7 @@ def _audit_verdict(place: str, check: CheckRecord, *, complete: bool) -> Iterato
         yield f"{place}: no utilisation, though demand and resistance are there"
     if check.verdict is not verdict and not is_held_back(check):
         yield f"{place} says {check.verdict}, but its numbers give {verdict}"
-    if not check.reason.startswith(_OPENINGS[check.verdict]):
+    if check.reason.key not in _REASONS[check.verdict]:
         yield f"{place} says {check.verdict}, but its reason does not"
 
 
@@ -158,7 +158,7 @@ def is_held_back(check: CheckRecord) -> bool:
     """
     high, resistance = check.demand_high_kN, check.resistance_kN
     is_met = high is not None and bool(resistance) and high <= (resistance or 0.0)
-    is_told = check.reason.startswith(_OPENINGS[Verdict.NOT_PROVEN])
+    is_told = check.reason.key in _REASONS[Verdict.NOT_PROVEN]
     return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
 
 

@@ -79,7 +79,7 @@ def _audit_case(
         numbers += [case.error_percent, case.balance_residual]
     if case.outcome is Outcome.CONVERGED:
         is_whole = all(number is not None and number >= 0.0 for number in numbers)
-        if not is_whole or case.reason not in ("", str(RELEASED)):
+        if not is_whole or case.reason not in (None, RELEASED):
             yield f"{place} converged, but has a reason, or no numbers of at least 0"
         elif (case.balance_residual or 0.0) > tolerance:
             yield f"{place} converged, but its balance is left open"

@@ -29,8 +29,9 @@ from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import compare_values
 from netdesign.units import newton_from_kilonewton
+from netdesign.words.message import say
 
-_UNKNOWN_GAP = "cases are missing"  # whatever it is: nothing passes with one
+_UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
 _MOST = 5  # places of one row that are named
 
 
@@ -72,7 +73,7 @@ def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[
 
 
 def _find_law(study: Study) -> CreepLaw:
-    name = study.provenance.settings.get("creep law", "").partition(" ")[0]
+    name = study.provenance.settings.get("creep_law", "").partition(" ")[0]
     return CREEP_LAWS.get(name, BOUTILLIER_2004)
 
 
@@ -143,7 +144,7 @@ def _judge_again(
         low, middle, high = map(newton_from_kilonewton, sizes)
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
-    gap = "" if is_whole else _UNKNOWN_GAP
+    gap = None if is_whole else _UNKNOWN_GAP
     again = record_result(check_member(action, given, standard, gap=gap), given)
     # a gap in its own words is one
     return again if is_whole else replace(again, reason=check.reason)

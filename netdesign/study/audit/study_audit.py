@@ -13,6 +13,7 @@ from netdesign.study.audit.check_audit import audit_checks
 from netdesign.study.audit.comparing import is_of_steady_states
 from netdesign.study.audit.envelope_audit import Spans, audit_envelope
 from netdesign.study.audit.support_audit import audit_support
+from netdesign.study.check_site import list_reasons
 from netdesign.study.records import RowStudy, Study
 
 _AXES = {
@@ -50,7 +51,7 @@ def audit_study(
     found = [*_audit_profile(study, standard)]
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
-    tolerance = _read_number(study, "balance tolerance") if is_steady else math.inf
+    tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
     for row in study.rows:
         found += audit_envelope(row, spans, tolerance)
         found += audit_checks(row, study.profile)
@@ -93,16 +94,7 @@ def _audit_verdict(row: RowStudy) -> Iterator[str]:
     verdict = merge_verdicts([*(check.verdict for check in row.checks), *held])
     if row.verdict is not verdict:
         yield f"{place} says {row.verdict}, but its parts give {verdict}"
-    reasons = [
-        f"{check.id}: {check.reason}"
-        for check in row.checks
-        if check.verdict is not Verdict.PASS
-    ]
-    reasons += [
-        f"The independent check {law.name} is not met."
-        for law in row.independent
-        if not law.is_met
-    ]
+    reasons = list_reasons(row.checks, row.independent)
     if row.reasons != reasons:
         yield f"{place}: its reasons are not those of its checks"
 

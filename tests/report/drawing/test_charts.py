@@ -21,8 +21,12 @@ def panel(**changes):
     return Panel(**{"title": "Pull [kN/m]", "lines": lines, **changes})
 
 
+def draw(panels, title="t"):
+    return draw_panels(panels, "x", title, time_label="time")
+
+
 def test_names_ticks_and_marks_are_readable():
-    svg = draw_panels([panel(marks=[Mark(x=0.5, label="plateau from")])], "x", "Pulls")
+    svg = draw([panel(marks=[Mark(x=0.5, label="plateau from")])], "Pulls")
     shown = texts(svg)
     assert {"foot", "head", "plateau from", "Pull [kN/m]"} <= set(shown)
     assert {"1 min", "1 h", "1 d", "10 d"} <= set(shown)
@@ -31,12 +35,12 @@ def test_names_ticks_and_marks_are_readable():
 
 
 def test_same_bytes_each_time():
-    assert draw_panels([panel()], "x", "t") == draw_panels([panel()], "x", "t")
+    assert draw([panel()]) == draw([panel()])
 
 
 def test_drawing_without_a_second_time_is_still_drawn():
     line = Line(label="foot", x=[1.0], y=[2.0])
-    assert "foot" in texts(draw_panels([panel(lines=[line])], "x", "t"))
+    assert "foot" in texts(draw([panel(lines=[line])]))
 
 
 @pytest.mark.parametrize(

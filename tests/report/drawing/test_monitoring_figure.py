@@ -7,6 +7,7 @@ from netdesign.report.drawing.monitoring_figure import (
 )
 from netdesign.report.page.html import render_html
 from netdesign.study.records import MonitoringRecord, read_document, write_document
+from netdesign.words.message import say
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader
 
@@ -19,7 +20,7 @@ RECORD = MonitoringRecord(
     model_times_d=[0.1, 1.0, 2.0],
     model_kN=[20.0, 19.0, 18.0],
     model_start="sagged",
-    model_reason="",
+    model_reason=None,
 )
 TEXT = "{http://www.w3.org/2000/svg}text"
 
@@ -34,7 +35,12 @@ def test_measured_stands_beside_the_model():
 
 
 def test_without_model_the_measurement_is_drawn_and_the_reason_told():
-    bare = replace(RECORD, model_times_d=[], model_kN=[], model_reason="it folded")
+    bare = replace(
+        RECORD,
+        model_times_d=[],
+        model_kN=[],
+        model_reason=say("text.as_given", text="it folded"),
+    )
     shown = texts(draw_monitoring([bare], "x"))
     assert "measured" in shown
     assert "model" not in shown

@@ -4,10 +4,11 @@ import pytest
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
-from netdesign.report.language import LANGUAGES, load_words
 from netdesign.report.page import html
-from netdesign.report.view.whole import EXPLANATION, build_view
+from netdesign.report.view.whole import build_view
+from netdesign.report.words import ENGLISH, Words
 from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import MENTION, SCRIPT, build_study
 from tests.report.reading import PageReader
 
@@ -104,7 +105,7 @@ def test_first_page_lists_the_assumed_values(page):
 def test_card_says_what_would_flip_the_governing_check(page):
     card = page[page.index('id="verdict"') : page.index('id="identification"')]
     assert "It passes with any one of these alone:" in card
-    assert "type =1+1 has 900 kN, now 480 kN" in card
+    assert "type =1+1 of the workbook has 900 kN, now 480 kN" in card
     assert "snow density" not in card  # no density flips it
 
 
@@ -150,15 +151,16 @@ def test_page_repeats_byte_for_byte(page):
 @pytest.mark.parametrize("detail", ["summary", "full"])
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_first_page_says_how_the_report_is_verified(language, detail):
-    study, words = build_study(), load_words(language)
-    page = html.render_html(study, words, detail)
+    study, words = build_study(), Words(language)
+    page = html.render_html(study, language, detail)
     verdict = page[page.index('<section id="verdict"') : page.index("</section>")]
     shown = " ".join(PageReader(verdict).text)
     assert "netdesign verify --study study.json --site combe.xlsx" in shown
     assert compute_digest(study) in shown
-    for text in ("To verify this report", "What that does", EXPLANATION):
-        assert words(text) in shown
-        assert (words(text) == text) is (language == "en")
+    for key in ("verify_report", "what_that_does", "verify_explained"):
+        text = words(f"heading.{key}")
+        assert text in shown
+        assert (text == ENGLISH(f"heading.{key}")) is (language == "en")
 
 
 def test_the_digest_shown_is_that_of_the_document_written():

@@ -14,6 +14,7 @@ from netdesign.report.view.row_tables import (
     describe_change,
     describe_widths,
 )
+from netdesign.report.words import ENGLISH
 from netdesign.study.records import ChangeRecord
 from tests.report.build_study import build_study
 
@@ -25,19 +26,21 @@ def texts(table):
 
 
 def test_anchor_has_its_vector_and_direction_and_a_slack_one_says_so():
-    loaded, slack = texts(build_anchors(ROW))
+    loaded, slack = texts(build_anchors(ROW, ENGLISH))
     assert loaded == ["Foot anchor", "Net", "30.0", "40.0", "5.0", "50.0", "53.1"]
     assert slack[:2] == ["Downhill anchor", "Downhill guy, slack"]
     assert slack[-1] == "-"
 
 
 def test_forces_on_the_head_are_listed_as_they_close():
-    assert sum(cell[1].number for cell in build_head(ROW).rows) == pytest.approx(0.0)
-    assert texts(build_head(ROW))[0] == ["Net", "17.5", "-77.0"]
+    assert sum(
+        cell[1].number for cell in build_head(ROW, ENGLISH).rows
+    ) == pytest.approx(0.0)
+    assert texts(build_head(ROW, ENGLISH))[0] == ["Net", "17.5", "-77.0"]
 
 
 def test_guideline_stands_beside_the_solve_with_its_difference():
-    table = build_guideline(ROW)
+    table = build_guideline(ROW, ENGLISH)
     solved, same, second = texts(table)
     assert solved[0].startswith("Coupled solve: 450 kg/m³")
     assert (same[0], same[-2], same[-1]) == ("same snow", "25", "33")
@@ -46,14 +49,14 @@ def test_guideline_stands_beside_the_solve_with_its_difference():
 
 
 def test_guideline_that_could_not_be_asked_leaves_no_rows():
-    table = build_guideline(replace(ROW, guideline=None))
+    table = build_guideline(replace(ROW, guideline=None), ENGLISH)
     assert table.rows == ()
     assert table.empty.startswith("none")
 
 
 def test_interval_is_itemised_and_says_what_counts():
     check = ROW.checks[0]
-    error, law = texts(build_spreads(check))
+    error, law = texts(build_spreads(check, ENGLISH))
     assert error[:2] == ["numerical error", "0.900 to 0.950"]
     low, high = 0.9 * 520 / 1.35, 0.95 * 520 / 1.35  # kN of the design resistance
     assert error[2:4] == [f"{low:.1f}", f"{high:.1f}"]
@@ -61,11 +64,11 @@ def test_interval_is_itemised_and_says_what_counts():
     assert error[4] == f"{below:.1f}"
     assert error[6:] == ["yes", "-"]
     assert law[1:7] == ["-", "-", "-", "-", "-", "no, for comparison"]
-    assert build_spreads(None).rows == ()
+    assert build_spreads(None, ENGLISH).rows == ()
 
 
 def test_changes_of_every_check_are_listed():
-    lines = texts(build_changes(ROW))
+    lines = texts(build_changes(ROW, ENGLISH))
     assert len(lines) == 2 * sum(bool(check.changes) for check in ROW.checks)
     assert lines[1][2:5] == ["snow density: none", "450 kg/m³", "7"]
 
@@ -79,7 +82,7 @@ def test_change_in_words():
         sense="at most",
         solves=9,
     )
-    assert describe_change(change) == "snow thickness at most 1.26 m"
+    assert describe_change(change, ENGLISH) == "snow thickness at most 1.26 m"
 
 
 def test_worked_steps_lead_from_the_solved_force_to_the_action():

@@ -6,6 +6,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.view.check_view import find_governing, find_highest
 from netdesign.report.view.tables import build_cases, build_quality
 from netdesign.report.view.whole import build_view
+from netdesign.report.words import ENGLISH
 from tests.report.build_study import build_row, build_study
 
 
@@ -45,9 +46,11 @@ def test_failed_case_is_named_and_counted_and_in_no_maximum():
     assert failed[0].text == "350 kg/m³, φ 30°, θ 30°"
     assert "60 iterations" in failed[2].text
     assert ("Cases", "80 solved, 1 without a result") in view.counts
-    assert build_quality(study).rows[1][2].number == 1
+    assert build_quality(study, ENGLISH).rows[1][2].number == 1
     numbers = [
-        cells for cells in build_cases(study.rows[1]).rows if "-" in cells[3].text
+        cells
+        for cells in build_cases(study.rows[1], ENGLISH).rows
+        if "-" in cells[3].text
     ]
     assert len(numbers) == 1
 

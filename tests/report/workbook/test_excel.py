@@ -5,13 +5,12 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.language import LANGUAGES, load_words
 from netdesign.report.view.check_view import find_utilisation_band
-from netdesign.report.view.whole import EXPLANATION
-from netdesign.report.words import VERDICTS
+from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
 from netdesign.study.records import compute_digest
+from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_rows, read_workbook, recalculate
 
@@ -86,11 +85,8 @@ def fresh(content, tmp_path_factory):
     books = {
         "en": content,
         "edited": edit(content),
-        **{name: render_workbook(STUDY, load_words(name)) for name in ("fr", "de")},
-        **{
-            f"spoilt-{name}": spoil(render_workbook(MANY, load_words(name)))
-            for name in LANGUAGES
-        },
+        **{name: render_workbook(STUDY, name) for name in ("fr", "de")},
+        **{f"spoilt-{name}": spoil(render_workbook(MANY, name)) for name in LANGUAGES},
     }
     return recalculate(books, tmp_path_factory.mktemp("books"))
 
@@ -130,11 +126,11 @@ def assert_equals_study(content, study):
         for heading, value in expected.items():
             shown = "-" if value is None else pytest.approx(value, rel=LIMIT)
             assert line[heading] == shown, heading
-        assert line["Verdict"] == VERDICTS[check.verdict].word
+        assert line["Verdict"] == ENGLISH(f"verdict.{check.verdict}")
     summary = read_rows(book["Summary"], "No.")
     words = [line["Verdict"] for line in summary]
-    assert words == [VERDICTS[row.verdict].word for row in study.rows]
-    assert book["Summary"]["C3"].value == VERDICTS[study.verdict].word
+    assert words == [ENGLISH(f"verdict.{row.verdict}") for row in study.rows]
+    assert book["Summary"]["C3"].value == ENGLISH(f"verdict.{study.verdict}")
 
 
 def test_cached_values_equal_the_study(content):
@@ -171,28 +167,28 @@ def test_verdicts_follow_an_edited_cell(fresh):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_what_is_no_number_never_passes(language, fresh):
-    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
-    passes, open_ = (words(VERDICTS[v].word) for v in ("pass", "not_proven"))
-    sheet = book[words("Checks")]
+    words, book = Words(language), read_workbook(fresh[f"spoilt-{language}"])
+    passes, open_ = (words(f"verdict.{v}") for v in ("pass", "not_proven"))
+    sheet = book[words("heading.checks")]
     spoilt = dict(zip((line for line, _ in LOADED), SPOILS, strict=False))
     for line, check in LOADED:
         expected = open_ if line in spoilt else passes
         assert sheet[f"S{line}"].value == expected, (check.id, spoilt.get(line))
-    summary = book[words("Summary")]
+    summary = book[words("heading.summary")]
     assert summary["C3"].value == open_
     assert {summary[f"C{line}"].value for line in range(6, 6 + 12)} == {open_}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
-    words, book = load_words(language), read_workbook(fresh[f"spoilt-{language}"])
-    sheet, changed = book[words("Checks")], words(CHANGED)
+    words, book = Words(language), read_workbook(fresh[f"spoilt-{language}"])
+    sheet, changed = book[words("heading.checks")], words(CHANGED)
     spoilt = [line for (line, _), _ in zip(LOADED, SPOILS, strict=False)]
     for line, check in LOADED:
         texts = {sheet[f"{letter}{line}"].value for letter in "WX"}
         assert (texts == {changed}) is (line in spoilt), check.id
-    summary = book[words("Summary")]
-    assert summary["D3"].value == words(VERDICTS["not_proven"].meaning)
+    summary = book[words("heading.summary")]
+    assert summary["D3"].value == words("meaning.not_proven")
     assert summary["M6"].value == changed
     assert summary["J6"].value == sheet["C5"].value  # the first of those not proven
 
@@ -204,20 +200,21 @@ def test_what_governs_and_why_follows_an_edited_cell(fresh):
         "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
     ]  # fmt: skip
     assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
-    assert [checks[f"X{line}"].value == CHANGED for line in (5, 6, 18, 22)] == [
+    changed = ENGLISH(CHANGED)
+    assert [checks[f"X{line}"].value == changed for line in (5, 6, 18, 22)] == [
         False, True, True, True
     ]  # fmt: skip
-    assert summary["D3"].value == VERDICTS["fail"].meaning
+    assert summary["D3"].value == ENGLISH("meaning.fail")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_first_sheet_says_how_the_report_is_verified(language):
-    words = load_words(language)
-    book = read_workbook(render_workbook(STUDY, words))
+    words = Words(language)
+    book = read_workbook(render_workbook(STUDY, language))
     shown = [cell.value for line in next(iter(book)).iter_rows() for cell in line]
     assert "netdesign verify --study study.json --site combe.xlsx" in shown
     assert compute_digest(STUDY) in shown
-    assert words(EXPLANATION) in shown
+    assert words("heading.verify_explained") in shown
 
 
 def test_a_spreadsheet_program_refuses_what_no_factor_can_be(content):
@@ -266,7 +263,7 @@ def test_only_our_formulas_exist(content):
 
 def test_sheets_are_ready_to_read_and_print(content):
     book = read_workbook(content)
-    assert tuple(book.sheetnames) == SHEETS
+    assert book.sheetnames == [ENGLISH(f"heading.{name}") for name in SHEETS]
     for sheet in book:
         assert sheet.freeze_panes
         assert sheet.page_setup.orientation == "landscape"
@@ -286,7 +283,7 @@ def test_summary_leads_to_every_sheet_and_back(content):
         for cell in line
         if cell.hyperlink
     }
-    assert targets == set(SHEETS[1:])
+    assert targets == {ENGLISH(f"heading.{name}") for name in SHEETS[1:]}
     for sheet in list(book)[1:]:
         back = [c.hyperlink for line in sheet.iter_rows() for c in line if c.hyperlink]
         assert [link.location for link in back] == ["'Summary'!A1"]
@@ -303,14 +300,14 @@ def test_charts_follow_the_cells(content):
 
 @pytest.mark.parametrize("language", ["fr", "de"])
 def test_workbook_in_other_languages_calculates_the_same(language, fresh):
-    words, book = load_words(language), read_workbook(fresh[language])
-    sheet, head = book[words("Checks")], words("No.")
+    words, book = Words(language), read_workbook(fresh[language])
+    sheet, head = book[words("heading.checks")], words("heading.no")
     for line, check in zip(read_rows(sheet, head), expected_checks(STUDY), strict=True):
-        assert line[words("Verdict")] == words(VERDICTS[check.verdict].word)
+        assert line[words("heading.verdict")] == words(f"verdict.{check.verdict}")
         used = check.utilisation
         assert line["μ"] == ("-" if used is None else pytest.approx(used, rel=LIMIT))
-    overall = book[words("Summary")]["C3"].value
-    assert overall == words(VERDICTS[STUDY.verdict].word)
+    overall = book[words("heading.summary")]["C3"].value
+    assert overall == words(f"verdict.{STUDY.verdict}")
 
 
 def test_numbers_are_numbers_with_a_format(content):
@@ -332,7 +329,7 @@ def test_small_studies_have_a_workbook(rows):
     verdict = merge_verdicts(row.verdict for row in parts)
     content = render_workbook(replace(study, rows=parts, verdict=verdict))
     book = read_workbook(content)
-    assert book["Summary"]["C3"].value == VERDICTS[verdict].word
+    assert book["Summary"]["C3"].value == ENGLISH(f"verdict.{verdict}")
 
 
 def test_bare_row_has_a_workbook():

@@ -16,6 +16,11 @@ def alteration(function):
     return function
 
 
+def as_given(text):
+    """Somebody's own words, as a document has them."""
+    return {"key": "text.as_given", "arguments": {"text": text}}
+
+
 def forces(study):
     """Checks of forces that carry something, of every row."""
     return [c for row in study["rows"] for c in row["checks"] if c["action_kN"]]
@@ -152,7 +157,8 @@ def a_law_above_its_limit_and_met(study):
 def a_law_below_its_limit_and_not_met(study):
     one = law(study, "end_direction")
     one["is_met"] = False
-    reason = f"The independent check {one['name']} is not met."
+    name = {"key": f"law.{one['name']}", "arguments": {}}
+    reason = {"key": "row.law_not_met", "arguments": {"law": name}}
     study["rows"][0]["reasons"].append(reason)
     study["verdict"] = study["rows"][0]["verdict"] = "not_proven"
 
@@ -239,8 +245,16 @@ def a_check_said_to_fail(study):
     row = study["rows"][0]
     check = row["checks"][0]
     check["verdict"] = row["verdict"] = study["verdict"] = "fail"
-    check["reason"] = "The demand exceeds the resistance over its whole band."
-    row["reasons"].append(f"{check['id']}: {check['reason']}")
+    check["reason"] = {"key": "check.fails", "arguments": {}}
+    title = {
+        "key": "check.title",
+        "arguments": {
+            "member": {"key": f"member.{check['member']}", "arguments": {}},
+            "mode": {"key": f"mode.{check['mode']}", "arguments": {}},
+        },
+    }
+    arguments = {"check": title, "reason": check["reason"]}
+    row["reasons"].append({"key": "row.check_reason", "arguments": arguments})
 
 
 @alteration
@@ -286,7 +300,7 @@ def a_case_without_a_result(study):
     row = study["rows"][0]
     case = min(row["cases"], key=lambda case: case["foot_anchor_kN"])
     case.update({f"{member}_kN": None for member in MEMBERS})
-    case.update(outcome="diverged", reason="lost", error_percent=None)
+    case.update(outcome="diverged", reason=as_given("lost"), error_percent=None)
     row["envelope"]["failed"] += 1
 
 
@@ -426,7 +440,7 @@ def notes_cleared(study):
 
 @alteration
 def a_note_of_a_row_altered(study):
-    study["rows"][0]["notes"] = ["the base plate was proven by hand"]
+    study["rows"][0]["notes"] = [as_given("the base plate was proven by hand")]
 
 
 @alteration
@@ -496,15 +510,13 @@ def another_name_of_the_site(study):
 
 @alteration
 def looser_tolerances_hidden(study):
-    study["provenance"]["settings"]["balance tolerance"] = "1e-12"
+    study["provenance"]["settings"]["balance_tolerance"] = "1e-12"
 
 
 @alteration
 def another_method(study):
     settings = study["provenance"]["settings"]
-    settings["method"] = (
-        "steady; governing cases confirmed by a history from a sagged net"
-    )
+    settings["method"] = "transient from a sagged net"
 
 
 @alteration
@@ -589,8 +601,9 @@ def another_creep_law_brought_near(study):
 @alteration
 def a_change_that_flips_a_check_added(study):
     forces(study)[0]["changes"].append({
-        "quantity": "post spacing", "unit": "m", "now": 3.5, "bound": 9.0,
-        "sense": "at most", "solves": 0, "note": "",
+        "quantity": {"key": "change.post_spacing", "arguments": {}},
+        "unit": "m", "now": 3.5, "bound": 9.0,
+        "sense": "at most", "solves": 0, "note": None,
     })  # fmt: skip
 
 
@@ -612,7 +625,7 @@ def another_clause(study):
 
 @alteration
 def another_reason(study):
-    forces(study)[0]["reason"] = "The demand stays within by far."
+    forces(study)[0]["reason"] = as_given("The demand stays within by far.")
 
 
 @alteration
@@ -620,7 +633,7 @@ def a_measurement_added(study):
     study["rows"][0]["monitoring"] = [{
         "member": "foot_anchor", "source": "Monitoring!A2", "times_d": [0.0],
         "tensions_kN": [3.0], "air_temperatures_C": [None], "model_times_d": [],
-        "model_kN": [], "model_start": "", "model_reason": "none",
+        "model_kN": [], "model_start": "", "model_reason": as_given("none"),
     }]  # fmt: skip
 
 
