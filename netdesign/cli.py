@@ -6,7 +6,6 @@ Imports of anything heavy stand inside the commands that need it: help is instan
 from __future__ import annotations
 
 import gc
-import io
 import json
 import os
 import signal
@@ -31,6 +30,7 @@ from netdesign.commands.dry_run import announce
 from netdesign.commands.envelope import envelope
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
+from netdesign.commands.language import find_language, tell
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -43,9 +43,11 @@ from netdesign.commands.paper import paper
 from netdesign.commands.report import DEFAULT_FOLDER, report
 from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.site_input import open_site, site_options, temporary_example
-from netdesign.commands.solving import judge_rows, open_rows, solving_options
+from netdesign.commands.solving import open_run, solving_options
 from netdesign.commands.standards import standards
+from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
 from netdesign.commands.verify import verify
+from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams, print_json
 from netdesign.errors import (
@@ -56,6 +58,8 @@ from netdesign.errors import (
 )
 from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.outcome import Outcome, Verdict
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,7 +84,11 @@ _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
 none of them; a standard output that cannot be written to ends with 2."
 
 
-@click.group(epilog=_EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    cls=ToldGroup,
+    epilog=_EPILOG,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(__version__)
 @click.pass_context
 def cli(context: click.Context) -> None:
@@ -182,12 +190,11 @@ def check(
         render_files,
     )
     from netdesign.study.cases import CheckRun
+    from netdesign.study.check_site import check_site
 
     if example == (site_file is not None):
-        raise click.UsageError(
-            "give a site workbook, or --example for the built-in one"
-        )
-    site = _read_site(site_file, overwrite=force, **reading)
+        raise UsageRefusal(say("usage.site_or_example"))
+    site = _read_site(site_file, overwrite=force, language=language, **reading)
     profiles = _choose_profiles(standards, site)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
@@ -197,26 +204,36 @@ def check(
         started=_now(),
     )
     if dry_run:
-        sys.exit(announce(site, run, as_json=as_json, profiles=len(profiles)))
+        sys.exit(
+            announce(
+                site,
+                run,
+                as_json=as_json,
+                profiles=len(profiles),
+                language=language,
+            )
+        )
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
     names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
     require_free([path for group in names for path in group], overwrite=force)
     style = ReportStyle(language=language, detail=detail)
-    with open_rows(
+    with open_run(
         site,
         run,
         executor=executor,
         cache=cache,
         quiet=quiet,
         profiles=len(profiles),
-    ) as solved:
-        studies = judge_rows(site, run, solved, profiles)
+        language=language,
+    ) as (runner, progress):
+        studies = check_site(site, profiles, run, runner, progress)
+        progress.enter("reports")
         files = render_files(studies, names, style)
-    failed = tell_faults(solved.runner.faults)
+    failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=force)
     _show(studies, language, as_json=as_json, explain=explain)
-    _report_places(names, quiet=quiet or as_json)
+    _report_places(names, language, quiet=quiet or as_json)
     sys.exit(failed or _exit_code(studies))
 
 
@@ -225,9 +242,7 @@ def check(
 @click.option("--example", is_flag=True, help="Fill in the built-in example site.")
 @language_option("Of headings, words and notes; all three are read.")
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
-def init(
-    site_file: Path, *, example: bool, language: Literal["en", "fr", "de"], force: bool
-) -> None:
+def init(site_file: Path, *, example: bool, language: Language, force: bool) -> None:
     """Write an input workbook to fill in.
 
     \b
@@ -240,7 +255,7 @@ def init(
 
     require_free([site_file], overwrite=force)
     write_site_workbook(site_file, example=example, overwrite=force, language=language)
-    click.echo(f"wrote {site_file}", err=True)
+    tell(say("cli.wrote", path=str(site_file)), language, err=True)
 
 
 @cli.command()
@@ -252,6 +267,7 @@ def init(
 )
 @json_option("solution")
 @out_option("Folder for a page with drawings, the solution, a history's table.")
+@language_option("Of what is printed, and of reasons and remarks.")
 @force_option
 def solve(
     scene_file: Path,
@@ -259,6 +275,7 @@ def solve(
     method: Literal["steady", "transient", "staggered"] | None,
     as_json: bool,
     out: Path | None,
+    language: Language,
     force: bool,
 ) -> None:
     """Solve one scene, given as a TOML file.
@@ -281,27 +298,32 @@ def solve(
     if out is not None:
         require_free_folder(out, scene, settings, overwrite=force)
     start = time.perf_counter()
-    solution, failed = _solve(scene, settings)
+    solution, failed = _solve(scene, settings, language)
     elapsed = time.perf_counter() - start
     bound = None if failed else _bound_refused(scene, settings, solution)
-    document = write_solution_document(solution, settings, elapsed, bound)
+    document = write_solution_document(solution, settings, elapsed, bound, language)
     if out is not None:
         written = write_solution_folder(
-            out, solution, document, scene_file.name, overwrite=force
+            out,
+            solution,
+            document,
+            scene_file.name,
+            overwrite=force,
+            language=language,
         )
-        _report_places([written], quiet=as_json)
+        _report_places([written], language, quiet=as_json)
     if as_json:
         click.echo(json.dumps(document, indent=1, allow_nan=False))
     elif document["outcome"] == "converged":
-        _show_solution(document)
+        _show_solution(document, language)
     else:
-        _show_refusal(document)
+        _show_refusal(solution, document, language)
     proven = document["outcome"] == "converged"
     proven = proven and document.get("plateau", {"reached": True})["reached"]
     sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
 
 
-def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
+def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved, int]:
     """Solution of a scene, and the exit code of a fault; it is told on stderr."""
     from netdesign.coupling.solution import FailedSolution
     from netdesign.solving.describe import describe_case
@@ -312,7 +334,7 @@ def _solve(scene: Scene, settings: Settings) -> tuple[Solved, int]:
     if not isinstance(solution, Fault):
         return solution, 0
     failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
-    return failed, tell_faults({solution: ()})
+    return failed, tell_faults({solution: ()}, language)
 
 
 def _bound_refused(
@@ -328,14 +350,19 @@ def _bound_refused(
     return None
 
 
-def _show_refusal(document: dict[str, Any]) -> None:
-    click.echo(f"{document['outcome']}: {document['reason']}")
+def _show_refusal(
+    solution: Solved, document: dict[str, Any], language: Language
+) -> None:
+    told = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
+    tell(told, language)
     if bound := document.get("upper_bound"):
-        click.echo(
-            f"With a slack of {bound['slack']:.3g} the net pulls with at most "
-            f"{bound['foot_kN_per_m']:.1f} kN/m at its foot and "
-            f"{bound['head_kN_per_m']:.1f} kN/m at its head; more slack lowers both."
+        limit = say(
+            "solve.bound",
+            slack=bound["slack"],
+            foot=bound["foot_kN_per_m"],
+            head=bound["head_kN_per_m"],
         )
+        tell(limit, language)
 
 
 accept_variables(cli)
@@ -354,8 +381,8 @@ def main() -> NoReturn:
         code = end.code
     streams.flush()
     if streams.fault and code in (None, *EXIT_CODES.values()):
-        reason = streams.fault.strerror
-        click.echo(f"error: standard output cannot be written to: {reason}", err=True)
+        cause = explain_system(streams.fault)
+        tell(say("cli.output_lost", cause=cause), _speak(), err=True)
         streams.flush()
         code = OutputError.exit_code
     sys.exit(code)
@@ -376,17 +403,19 @@ def _run() -> NoReturn:
         sys.exit(end.exit_code)
     except (click.Abort, KeyboardInterrupt):
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second one changes nothing
-        click.echo(f"interrupted; to continue: {_own_command()}", err=True)
+        tell(say("cli.interrupted", command=_own_command()), _speak(), err=True)
         sys.exit(_EXIT_INTERRUPTED)
     except click.ClickException as error:
-        error.show(shown := io.StringIO())
-        click.echo(make_printable(shown.getvalue()), nl=False, err=True)
+        shown = describe_refusal(error, _speak())
+        click.echo(make_printable(shown), nl=False, err=True)
         sys.exit(_EXIT_USAGE)
     except SiteDataError as error:
-        click.echo(f"{error}\n{_count_findings(error)}", err=True)
+        lines = say("text.lines", lines=(error.message, _count_findings(error)))
+        click.echo(make_printable(render(lines, _speak())), err=True)
         sys.exit(error.exit_code)
     except NetDesignError as error:
-        click.echo(f"error: {make_printable(str(error))}", err=True)
+        told = render(say("cli.error", reason=error.message), _speak())
+        click.echo(make_printable(told), err=True)
         sys.exit(error.exit_code)
     except Exception as error:  # the one place where a bug ends
         if os.environ.get("NETDESIGN_TRACEBACK"):
@@ -395,9 +424,14 @@ def _run() -> NoReturn:
     sys.exit(0)
 
 
+def _speak() -> Language:
+    """Language of this run, also where its command line was refused."""
+    return find_language(cli, sys.argv[1:])
+
+
 def _tell_unexpected(error: Exception) -> int:
     """Say what nobody handled: what given paths can cause, their readers have."""
-    return tell_faults({describe_fault(error): ()})
+    return tell_faults({describe_fault(error): ()}, _speak())
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:
@@ -417,7 +451,14 @@ def _choose_profiles(names: Sequence[str], site: Site) -> list[Standard]:
         return _load_profiles((named,))
     except StandardError as error:
         place = site.project_cells["standard"].replace("!", " › ")
-        raise StandardError(f"{site.file_name} › {place}: {error}") from None
+        raise StandardError(
+            say(
+                "standard.in_site",
+                file=site.file_name,
+                place=place,
+                fault=error.message,
+            )
+        ) from None
 
 
 def _load_profiles(names: Sequence[str]) -> list[Standard]:
@@ -425,7 +466,7 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
 
     profiles = [load_standard(name) for name in names]
     if len({profile.id for profile in profiles}) < len(profiles):
-        raise click.UsageError("two of the profiles have the same id")
+        raise UsageRefusal(say("usage.same_profiles"))
     return profiles
 
 
@@ -453,46 +494,58 @@ def _show(
         print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
 
 
-def _show_solution(document: dict[str, Any]) -> None:
+def _show_solution(document: dict[str, Any], language: Language) -> None:
     for end, pull in (document["anchor_forces"] or {}).items():
-        click.echo(
-            f"{end:5} {pull['size_kN_per_m']:10.2f} kN/m  "
-            f"(x {pull['x_kN_per_m']:.2f}, y {pull['y_kN_per_m']:.2f}, "
-            f"error {pull['error_kN_per_m']:.2f})"
-        )
+        tell(_describe_end(end, pull, language), language)
     if document["wall"]:
-        wall = document["wall"]
-        click.echo(
-            f"wall  x {wall['force_x_kN_per_m']:.2f}, y {wall['force_y_kN_per_m']:.2f} "
-            f"kN/m, error {wall['error_kN_per_m']:.2f}; moment about the foot "
-            f"{wall['moment_about_foot_kN']:.2f} kN"
-        )
+        tell(_describe_wall(document["wall"]), language)
     else:
-        click.echo(f"sag   {document['sag_m']:10.4f} m")
+        tell(say("solve.sag", sag=document["sag_m"]), language)
     if document["history"]:
-        _show_plateau(document)
-    balance = document["balance"]
-    click.echo(f"balance residual {balance['relative_residual']:.1e} of the weight")
+        tell(_describe_plateau(document), language)
+    residual = document["balance"]["relative_residual"]
+    tell(say("solve.balance", residual=residual), language)
     for flag in document["flags"]:
-        click.echo(f"note: {flag}")
+        tell(say("cli.note", text=flag), language)
 
 
-def _show_plateau(document: dict[str, Any]) -> None:
-    plateau = document["plateau"]
-    if not plateau["reached"]:
-        click.echo(f"no plateau within {document['history'][-1]['time_d']:.3g} days")
-        return
-    click.echo(
-        f"plateau after {plateau['time_d']:.3g} days: foot "
-        f"{plateau['foot_kN_per_m']:.2f}, head {plateau['head_kN_per_m']:.2f} kN/m, "
-        f"drift {plateau['drift_per_efold']:+.1%} per e-fold of time; above are the "
-        "largest while the snow is the scene's"
+def _describe_end(end: str, pull: dict[str, float], language: Language) -> Message:
+    return say(
+        "solve.end",
+        end=render(say(f"envelope_member.{end}"), language),  # padded as a text
+        size=pull["size_kN_per_m"],
+        x=pull["x_kN_per_m"],
+        y=pull["y_kN_per_m"],
+        error=pull["error_kN_per_m"],
     )
 
 
-def _report_places(names: list[list[Path]], *, quiet: bool) -> None:
+def _describe_wall(wall: dict[str, float]) -> Message:
+    return say(
+        "solve.wall",
+        x=wall["force_x_kN_per_m"],
+        y=wall["force_y_kN_per_m"],
+        error=wall["error_kN_per_m"],
+        moment=wall["moment_about_foot_kN"],
+    )
+
+
+def _describe_plateau(document: dict[str, Any]) -> Message:
+    plateau = document["plateau"]
+    if not plateau["reached"]:
+        return say("solve.no_plateau", days=document["history"][-1]["time_d"])
+    return say(
+        "solve.plateau",
+        days=plateau["time_d"],
+        foot=plateau["foot_kN_per_m"],
+        head=plateau["head_kN_per_m"],
+        drift=plateau["drift_per_efold"],
+    )
+
+
+def _report_places(names: list[list[Path]], language: Language, *, quiet: bool) -> None:
     for path in [] if quiet else [path for group in names for path in group]:
-        click.echo(f"wrote {path}", err=True)
+        tell(say("cli.wrote", path=str(path)), language, err=True)
 
 
 def _exit_code(studies: Sequence[Study]) -> int:
@@ -501,9 +554,11 @@ def _exit_code(studies: Sequence[Study]) -> int:
     return EXIT_CODES[merge_verdicts(study.verdict for study in studies)]
 
 
-def _count_findings(error: SiteDataError) -> str:
+def _count_findings(error: SiteDataError) -> Message:
     count = len(error.findings)
-    return f"{count} finding{'s' if count != 1 else ''}; nothing was checked"
+    if count == 1:
+        return say("finding.count_one")
+    return say("finding.count", count=count)
 
 
 def _own_command() -> str:
@@ -526,7 +581,5 @@ def _now() -> str:
     try:
         time = datetime.fromtimestamp(int(epoch), UTC) if epoch else datetime.now(UTC)
     except (ValueError, OverflowError, OSError):
-        raise click.UsageError(
-            f"SOURCE_DATE_EPOCH = {epoch!r}: must be whole seconds since 1970"
-        ) from None
+        raise UsageRefusal(say("usage.epoch", epoch=epoch or "")) from None
     return time.isoformat(timespec="seconds")

@@ -3,15 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
+from typing import ClassVar, Protocol, cast
 
 from netdesign.outcome import Outcome
+from netdesign.words.message import Message, say
+
+
+class Told(Protocol):
+    """What has a message; ``site.cells.findings.Finding`` is one."""
+
+    @property
+    def message(self) -> Message:
+        """What the user is told."""
 
 
 class NetDesignError(Exception):
-    """Base of every error that the program raises on purpose."""
+    """Base of every error that the program raises on purpose.
+
+    Attributes
+    ----------
+    message : Message
+        What the user is told; somebody else's words may be given as they are.
+    """
 
     exit_code: ClassVar[int] = 5
+
+    def __init__(self, message: Message | str) -> None:
+        super().__init__(message)
+        given = say("text.as_given", text=message) if isinstance(message, str) else None
+        self.message = given or cast(Message, message)
+
+    def __str__(self) -> str:
+        """The message in English, for logs and for whoever uses the package."""
+        return str(self.message)
+
+
+class ContentError(ValueError):
+    """What is wrong inside of a file or value, before its place is known."""
+
+    def __init__(self, message: Message) -> None:
+        super().__init__(message)
+        self.message = message
+
+    def __str__(self) -> str:
+        """The message in English."""
+        return str(self.message)
 
 
 class ModelError(NetDesignError):
@@ -31,9 +67,11 @@ class SiteDataError(NetDesignError):
 
     exit_code = 3
 
-    def __init__(self, findings: Sequence[object]) -> None:
+    def __init__(self, findings: Sequence[Told]) -> None:
         self.findings = tuple(findings)
-        super().__init__("\n".join(str(finding) for finding in self.findings))
+        lines = tuple(finding.message for finding in self.findings)
+        super().__init__(say("text.lines", lines=lines))
+        self.args = (findings,)
 
 
 class StudyError(NetDesignError):
@@ -59,7 +97,9 @@ class SolveError(NetDesignError):
 
     exit_code = 4
 
-    def __init__(self, outcome: Outcome, reason: str = "") -> None:
+    def __init__(self, outcome: Outcome, reason: Message | str | None = None) -> None:
         self.outcome = outcome
-        self.reason = reason or outcome.sentence
-        super().__init__(f"{outcome.value}: {self.reason}")
+        given = say("text.as_given", text=reason) if isinstance(reason, str) else reason
+        self.reason: Message = given or outcome.message
+        super().__init__(say("error.solve", ended=outcome.word, reason=self.reason))
+        self.args = (outcome, self.reason)

@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from netdesign.errors import ModelError, SolveError
+from netdesign.words.message import say
 
 EXIT_CODE = 5
 # What a report says: the rest is of use to those only who can mend it.
-SENTENCE = "the program itself failed in this case, please report it"
+SENTENCE = say("fault.sentence")
 _LONGEST = 500  # signs of a message
 
 Result = TypeVar("Result")

@@ -6,22 +6,29 @@ All are written in the positive, so that NaN fails them.
 from __future__ import annotations
 
 import math
+import re
 
 from netdesign.errors import ModelError
+from netdesign.words.message import Message, say
 
 
 def require_positive(name: str, value: float, unit: str = "") -> None:
     """Refuse anything but a finite number above zero."""
     if not (math.isfinite(value) and value > 0):
         raise ModelError(
-            f"{name} = {value!r}: must be a finite number above 0{_in(unit)}"
+            say(
+                "guard.positive",
+                name=name_quantity(name),
+                value=float(value),
+                unit=_in(unit),
+            )
         )
 
 
 def require_count(name: str, value: int) -> None:
     """Refuse anything but a whole number above zero."""
     if not (isinstance(value, int) and value > 0):
-        raise ModelError(f"{name} = {value!r}: must be a whole number above 0")
+        raise ModelError(say("guard.count", name=name_quantity(name), value=value))
 
 
 def require_within(
@@ -30,14 +37,33 @@ def require_within(
     """Refuse anything but a finite number with ``low <= value <= high``."""
     if not (math.isfinite(value) and low <= value <= high):
         raise ModelError(
-            f"{name} = {value!r}: must lie between {low:g} and {high:g}{_in(unit)}"
+            say(
+                "guard.within",
+                name=name_quantity(name),
+                value=value,
+                low=low,
+                high=high,
+                unit=_in(unit),
+            )
         )
 
 
 def require_one_of(name: str, value: str, accepted: tuple[str, ...]) -> None:
     """Refuse a word that is not one of the accepted ones."""
     if value not in accepted:
-        raise ModelError(f"{name} = {value!r}: must be one of {', '.join(accepted)}")
+        raise ModelError(
+            say(
+                "guard.one_of",
+                name=name_quantity(name),
+                value=value,
+                accepted=accepted,
+            )
+        )
+
+
+def name_quantity(name: str) -> Message:
+    """Name of a quantity in refusals: ``quantity.slope_angle`` of ``slope angle``."""
+    return say(f"quantity.{re.sub('[^a-z]+', '_', name)}")
 
 
 def _in(unit: str) -> str:

@@ -95,7 +95,7 @@ def test_a_bug_in_a_worker_is_a_fault_of_the_program(end_of, kind):
     end = end_of(kind("17 of 4"))
     assert end.outcome is Outcome.PROGRAM_FAULT
     assert end.fault.kind == kind.__name__
-    assert "17" not in end.reason
+    assert "17" not in str(end.reason)
     assert "friction 30 deg, inclination 0 deg, slope 40 deg" in end.fault.case
 
 

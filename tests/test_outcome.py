@@ -95,10 +95,11 @@ def test_no_error_ends_like_a_verdict():
 def test_a_solve_error_says_outcome_and_reason():
     error = SolveError(Outcome.DIVERGED, "residual grew")
     assert str(error) == "diverged: residual grew"
-    assert SolveError(Outcome.DIVERGED).reason == Outcome.DIVERGED.sentence
+    assert SolveError(Outcome.DIVERGED).reason == Outcome.DIVERGED.message
 
 
 def test_a_site_error_carries_every_finding():
-    error = SiteDataError(["first", "second"])
-    assert error.findings == ("first", "second")
+    findings = [NetDesignError("first"), NetDesignError("second")]
+    error = SiteDataError(findings)
+    assert error.findings == tuple(findings)
     assert str(error) == "first\nsecond"

@@ -17,6 +17,7 @@ from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
@@ -95,10 +96,7 @@ def build_cable_state(
     """
     slack = final_lengths < unstressed_lengths * (1.0 - _ROUNDING)
     if slack.any():
-        raise ModelError(
-            f"segment {int(np.argmax(slack))} is slack: increments of tension must "
-            "start from a net without slack; use solve_sliding"
-        )
+        raise ModelError(say("cable.segment_slack", segment=int(np.argmax(slack))))
     return CableState(
         final_lengths=final_lengths,
         unstressed_lengths=unstressed_lengths,
@@ -281,5 +279,11 @@ def _fail(
 def _require_matching(state: CableState, final: Floats, angles: Floats) -> None:
     require_lengths("final length", final)
     if not (final.shape == state.final_lengths.shape == (angles.size + 1,)):
-        sizes = f"{state.final_lengths.size} old, {final.size} new lengths"
-        raise ModelError(f"{sizes}, {angles.size} angles: must be n + 1, n + 1 and n")
+        raise ModelError(
+            say(
+                "cable.increment_sizes",
+                old=state.final_lengths.size,
+                new=final.size,
+                angles=angles.size,
+            )
+        )

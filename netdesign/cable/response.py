@@ -21,6 +21,7 @@ from netdesign.cable.tension import (
 )
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -83,7 +84,7 @@ def respond(
         measure_arcs(points), old_lengths, bounds, stiffness=stiffness
     )
     if sliding.outcome is not Outcome.CONVERGED:
-        raise SolveError(sliding.outcome, "friction of the net on the snow")
+        raise SolveError(sliding.outcome, say("cable.friction"))
     return pull_nodes(points, sliding)
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from netdesign.cable.tension import compute_tensions, require_lengths
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
@@ -386,7 +387,14 @@ def _require_matching(
     require_lengths("old unstressed length", old)
     require_lengths("start length", guess)
     if not (guess.shape == old.shape == final.shape == (bounds.size + 1,)):
-        lengths = f"{final.size} final, {old.size} old, {guess.size} start lengths"
-        raise ModelError(f"{lengths}, {bounds.size} bounds: must be n + 1 each, and n")
+        raise ModelError(
+            say(
+                "cable.sliding_sizes",
+                final=final.size,
+                old=old.size,
+                start=guess.size,
+                bounds=bounds.size,
+            )
+        )
     if not (bounds >= 0.0).all():
-        raise ModelError(f"ratio bounds {bounds!r}: must be at least 0")
+        raise ModelError(say("cable.ratio_bounds", bounds=repr(bounds)))

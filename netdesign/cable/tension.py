@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
-from netdesign.guards import require_positive, require_within
+from netdesign.guards import name_quantity, require_positive, require_within
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -210,5 +211,10 @@ def require_lengths(name: str, lengths: Floats) -> None:
     if not sound.all():
         first = int(np.argmin(sound))
         raise ModelError(
-            f"{name} {first} = {lengths[first]!r}: must be a finite number above 0 in m"
+            say(
+                "guard.positive_entry",
+                name=name_quantity(name),
+                place=first,
+                value=float(lengths[first]),
+            )
         )

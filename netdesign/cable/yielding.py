@@ -27,6 +27,7 @@ from netdesign.cable.response import (
 from netdesign.cable.sliding import NetState, SlidingStep
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
@@ -198,7 +199,7 @@ def settle_net(
                 return pull_nodes(net.points, sliding), end
         else:
             slides = slides + part * (wanted - slides)
-    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
 def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
@@ -207,7 +208,7 @@ def _place_net(given: _Given, place: Floats, slides: Floats) -> _Net:
     steps = np.diff(points)
     chords = np.hypot(*steps)
     if not chords.min() > 0.0:
-        raise SolveError(Outcome.NONFINITE, "two nodes of the net at one place")
+        raise SolveError(Outcome.NONFINITE, say("cable.nodes_at_one_place"))
     directions = steps / chords
     (ax, ay), (bx, by) = directions[:, :-1], directions[:, 1:]
     angles = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
@@ -316,7 +317,7 @@ def _solve(matrix: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        raise SolveError(Outcome.NONFINITE, "friction of the net: singular") from None
+        raise SolveError(Outcome.NONFINITE, say("cable.friction_singular")) from None
 
 
 def _choose(
@@ -348,7 +349,7 @@ def _choose(
         if number >= _FREE_ROUNDS:
             changes = changes[:1]
         glide[changes] = wanted[changes]
-    raise SolveError(Outcome.MAX_ITERATIONS, "friction of the net on the snow")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("cable.friction"))
 
 
 def _go(

@@ -20,6 +20,7 @@ from netdesign.checks.schema import (
     TablesFile,
     check_table,
 )
+from netdesign.edge.causes import explain
 from netdesign.edge.given_files import (
     MAX_TOML_BYTES,
     is_there,
@@ -29,6 +30,7 @@ from netdesign.edge.given_files import (
 from netdesign.edge.resources import find_resource
 from netdesign.errors import StandardError
 from netdesign.units import radian_from_degree
+from netdesign.words.message import Message, say
 
 CONFIRM = "assumed: confirm in your copy of the standard"
 
@@ -197,14 +199,11 @@ def load_standard(id_or_path: str | Path) -> Standard:
     raise StandardError(_explain_unknown(str(id_or_path)))
 
 
-def _explain_unknown(wanted: str) -> str:
+def _explain_unknown(wanted: str) -> Message:
     known = list_standards()
-    near = difflib.get_close_matches(wanted.lower(), known, n=3, cutoff=0.5)
-    guess = f"did you mean {' or '.join(near)}? " if near else ""
-    return (
-        f"limit profile {wanted!r} is unknown: {guess}"
-        f"Accepted are {', '.join(known)}, or the path of a profile folder."
-    )
+    near = tuple(difflib.get_close_matches(wanted.lower(), known, n=3, cutoff=0.5))
+    guess = say("standard.did_you_mean", near=near) if near else ""
+    return say("standard.unknown", wanted=wanted, guess=guess, known=known)
 
 
 def _load_folder(folder: Path) -> Standard:
@@ -217,11 +216,9 @@ def _load_folder(folder: Path) -> Standard:
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
     if document.choice and "choices.toml" not in contents:
-        message = (
-            f"{folder}: lacks choices.toml, in which 'choice' = {document.choice!r} of "
-            "document.toml must stand"
+        raise StandardError(
+            say("standard.lacks_choices", folder=str(folder), choice=document.choice)
         )
-        raise StandardError(message)
     if "choices.toml" in contents:
         choices = read(ChoicesFile, "choices.toml")
         factors = _choose(document.choice, factors, choices, folder)
@@ -249,11 +246,14 @@ def _choose(
     """Factors with those of the chosen set in place of their namesakes."""
     known = {choice.name: choice for choice in choices.choice}
     if name not in known:
-        message = (
-            f"{folder / 'document.toml'}: 'choice' = {name!r}: must be one of "
-            f"{', '.join(known)} (choices.toml)"
+        raise StandardError(
+            say(
+                "standard.unknown_choice",
+                file=str(folder / "document.toml"),
+                choice=name,
+                known=tuple(known),
+            )
         )
-        raise StandardError(message)
     chosen = {factor.id: factor for factor in known[name].factor}
     kept = [factor for factor in factors if factor.id not in chosen]
     return [*kept, *chosen.values()]
@@ -269,23 +269,33 @@ def _read_files(folder: Path) -> dict[str, bytes]:
             if path.is_file() and path.suffix in _HASHED_SUFFIXES
         }
     except (OSError, ValueError) as error:
-        message = f"{folder}: cannot be read: {error}"
-        raise StandardError(message) from error
+        raise StandardError(
+            say("standard.unreadable", folder=str(folder), cause=explain(error))
+        ) from error
 
 
 def _require_known_files(folder: Path) -> None:
     missing = [name for name in _FILES if not (folder / name).is_file()]
     if missing:
-        message = f"{folder}: lacks {', '.join(missing)}; needs {', '.join(_FILES)}"
-        raise StandardError(message)
+        raise StandardError(
+            say(
+                "standard.lacks_files",
+                folder=str(folder),
+                missing=tuple(missing),
+                needed=_FILES,
+            )
+        )
     accepted = (*_FILES, *_OPTIONAL)
     foreign = [p.name for p in folder.glob("*.toml") if p.name not in accepted]
     if foreign:
-        message = (
-            f"{folder}: unknown file {', '.join(sorted(foreign))}; accepted are "
-            f"{', '.join(accepted)} and *.md"
+        raise StandardError(
+            say(
+                "standard.foreign_files",
+                folder=str(folder),
+                foreign=tuple(sorted(foreign)),
+                accepted=accepted,
+            )
         )
-        raise StandardError(message)
 
 
 def _read_unix(path: Path) -> bytes:
@@ -302,8 +312,9 @@ def _parse(
     try:
         return parse_toml(contents[name]), label
     except ValueError as error:
-        message = f"{label}: is not TOML in UTF-8: {error}"
-        raise StandardError(message) from error
+        raise StandardError(
+            say("standard.no_toml", file=label, cause=explain(error))
+        ) from error
 
 
 def _hash(contents: dict[str, bytes]) -> str:

@@ -9,7 +9,7 @@ from typing import Protocol
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
-from netdesign.words.message import Message
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,8 +23,7 @@ class Band:
     def __post_init__(self) -> None:
         """Refuse disorder, negative sizes, NaN and infinity."""
         if not (0.0 <= self.low <= self.value <= self.high < math.inf):
-            message = f"{self}: must be finite with 0 <= low <= value <= high"
-            raise ModelError(message)
+            raise ModelError(say("band.disorder", band=repr(self)))
 
     def times(self, factor: float) -> Band:
         """Multiply by a positive factor [-]."""

@@ -17,7 +17,9 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails
 
-from netdesign.errors import StandardError
+from netdesign.edge.causes import explain_shape
+from netdesign.errors import ContentError, StandardError
+from netdesign.words.message import Message, say
 
 ACTION_FACTOR = "action.snow"
 MIN_INCLINATION = "geometry.inclination.min"
@@ -111,8 +113,7 @@ def _table_id(text: str) -> str:
 
 def _known(text: str, accepted: Sequence[str]) -> str:
     if text not in accepted:
-        message = f"must be one of {', '.join(accepted)}"
-        raise ValueError(message)
+        raise ContentError(say("standard.one_of", accepted=tuple(accepted)))
     return text
 
 
@@ -181,8 +182,7 @@ class ModelEntry(Entry):
     def _check(self) -> ModelEntry:
         _require_unit(self, MODEL_UNITS[self.id])
         if self.value <= 0 and not self.id.startswith("snow.creep."):
-            message = f"'value' = {self.value!r}: must be above 0"
-            raise ValueError(message)
+            raise ContentError(say("standard.above_zero", value=self.value))
         return self
 
 
@@ -209,25 +209,17 @@ class TableEntry(_Table):
     @model_validator(mode="after")
     def _check(self) -> TableEntry:
         if self.over != TABLE_COUNTS[self.id]:
-            message = f"'over' = {self.over!r}: must be {TABLE_COUNTS[self.id]!r}"
-            raise ValueError(message)
+            needed = TABLE_COUNTS[self.id]
+            raise ContentError(say("standard.over", over=self.over, needed=needed))
         expected = 1.0
         for number, row in enumerate(self.rows, 1):
             if row.from_ != expected:
-                fault = "overlaps the row before" if row.from_ < expected else "leaves"
-                gap = "" if row.from_ < expected else f" {expected:g} without a value"
-                message = (
-                    f"'rows' entry {number} 'from' = {row.from_}: {fault}{gap}; "
-                    f"must be {expected:g}"
-                )
-                raise ValueError(message)
+                raise ContentError(_describe_gap(number, row.from_, expected))
             is_whole = row.to == math.inf or float(row.to).is_integer()
             if not (is_whole and row.to >= row.from_):
-                message = (
-                    f"'rows' entry {number} 'to' = {row.to}: must be a whole number "
-                    f"of at least {row.from_}, or inf"
+                raise ContentError(
+                    say("standard.row_end", number=number, end=row.to, least=row.from_)
                 )
-                raise ValueError(message)
             expected = row.to + 1.0
         return self
 
@@ -251,11 +243,11 @@ class LimitsFile(_Table):
         by_id = {entry.id: entry.value for entry in self.limit}
         for least, most in _PAIRS:
             if (least in by_id) != (most in by_id):
-                message = f"{least} and {most} are only accepted together"
-                raise ValueError(message)
+                raise ContentError(
+                    say("standard.only_together", least=least, most=most)
+                )
             if least in by_id and not by_id[least] < by_id[most]:
-                message = f"{least} must be less than {most}"
-                raise ValueError(message)
+                raise ContentError(say("standard.must_be_less", least=least, most=most))
         return self
 
 
@@ -281,12 +273,11 @@ class ModelFile(_Table):
         _require_unique(given)
         for group in ("snow.", "end."):
             needed = [name for name in MODEL_UNITS if name.startswith(group)]
-            missing = [name for name in needed if name not in given]
+            missing = tuple(name for name in needed if name not in given)
             if missing and len(missing) < len(needed):
-                message = f"values of {group}* are given all or none; lacks " + (
-                    ", ".join(missing)
+                raise ContentError(
+                    say("standard.all_or_none", group=group, missing=missing)
                 )
-                raise ValueError(message)
         return self
 
 
@@ -314,15 +305,23 @@ class ChoicesFile(_Table):
 
 def _require_unit(entry: Entry, unit: str) -> None:
     if entry.unit != unit:
-        message = f"'unit' = {entry.unit!r}: must be {unit!r} for {entry.id}"
-        raise ValueError(message)
+        raise ContentError(
+            say("standard.unit", unit=entry.unit, needed=unit, id=entry.id)
+        )
 
 
 def _require_unique(ids: Sequence[str]) -> None:
-    twice = sorted({name for name in ids if ids.count(name) > 1})
+    twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
     if twice:
-        message = f"each id may stand once; twice or more: {', '.join(twice)}"
-        raise ValueError(message)
+        raise ContentError(say("standard.twice", ids=twice))
+
+
+def _describe_gap(number: int, start: int, expected: float) -> Message:
+    if start < expected:
+        return say(
+            "standard.row_overlaps", number=number, start=start, expected=expected
+        )
+    return say("standard.row_leaves", number=number, start=start, expected=expected)
 
 
 FileT = TypeVar(
@@ -364,25 +363,28 @@ def check_table(
     try:
         return shape.model_validate(table)
     except ValidationError as error:
-        lines = [_describe(shape, detail) for detail in error.errors()]
-        message = "\n".join(f"{file_name}: {line}" for line in lines)
-        raise StandardError(message) from None
+        lines = [_describe(file_name, shape, detail) for detail in error.errors()]
+        raise StandardError(say("text.lines", lines=tuple(lines))) from None
 
 
-def _describe(shape: type[BaseModel], detail: ErrorDetails) -> str:
+def _describe(file: str, shape: type[BaseModel], detail: ErrorDetails) -> Message:
     """One line from one complaint: where, what is accepted, what stands there."""
-    place = " ".join(_name(part) for part in detail["loc"]) or "whole file"
+    parts = tuple(_name(part) for part in detail["loc"])
+    place = say("standard.place", parts=parts or (say("standard.whole_file"),))
     if detail["type"] == "extra_forbidden":
-        return f"{place}: unknown key; accepted are {_list_keys(shape, detail)}"
+        keys = _list_keys(shape, detail)
+        return say("standard.unknown_key", file=file, place=place, accepted=keys)
     if detail["type"] == "missing":
-        return f"{place}: is missing"
-    message = detail["msg"].removeprefix("Value error, ")
+        return say("standard.missing_key", file=file, place=place)
+    fault = explain_shape(detail)
     if detail["type"] == "value_error" and isinstance(detail["input"], Mapping):
-        return f"{place}: {message}"  # a whole table: too long to repeat
-    return f"{place} = {detail['input']!r}: {message}"
+        # a whole table: too long to repeat
+        return say("standard.fault", file=file, place=place, fault=fault)
+    value = repr(detail["input"])
+    return say("standard.value_fault", file=file, place=place, value=value, fault=fault)
 
 
-def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> str:
+def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     depth = sum(isinstance(part, int) for part in detail["loc"])
     fields = shape.model_fields
@@ -391,8 +393,10 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> str:
         fields = element.model_fields
     if depth > 1:
         fields = TableRow.model_fields if element is TableEntry else Entry.model_fields
-    return ", ".join(field.alias or name for name, field in fields.items())
+    return tuple(field.alias or name for name, field in fields.items())
 
 
-def _name(part: str | int) -> str:
-    return f"entry {part + 1}" if isinstance(part, int) else f"'{part}'"
+def _name(part: str | int) -> str | Message:
+    if isinstance(part, int):
+        return say("standard.entry", number=part + 1)
+    return f"'{part}'"

@@ -1,4 +1,7 @@
-"""``netdesign bench``: run time against error, stability, honesty, envelopes."""
+"""``netdesign bench``: run time against error, stability, honesty, envelopes.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
 
 from __future__ import annotations
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import click
 
+from netdesign.commands.usage import UsageRefusal
+from netdesign.words.message import say
+
 COMPLETE_VARIABLE = "_NETDESIGN_COMPLETE"
 _PROGRAM = "netdesign"
 
@@ -23,7 +26,7 @@ def completion(context: click.Context, shell: str) -> None:
 
     kind = get_completion_class(shell)
     if kind is None:  # click knows all three
-        raise click.UsageError(f"{shell} is not known")
+        raise UsageRefusal(say("usage.shell_unknown", shell=shell))
     command = context.find_root().command
     script = kind(command, {}, _PROGRAM, COMPLETE_VARIABLE)
     # not source(): for bash it would first start a bash to ask for its version

@@ -24,7 +24,11 @@ from typing import Any
 
 import click
 
+from netdesign.commands.usage import UsageRefusal, ValueRefusal, explain_usage
+from netdesign.edge.causes import explain
 from netdesign.edge.given_files import is_there, read_toml
+from netdesign.errors import ContentError
+from netdesign.words.message import Message, say
 
 CONFIG_NAME = "netdesign.toml"
 ENVIRONMENT_PREFIX = "NETDESIGN"
@@ -83,7 +87,7 @@ def require_known_variables(name: str, command: click.Command) -> None:
     start = _name_variable(name, "")
     for variable in sorted(os.environ):
         if variable.startswith(start) and variable not in known:
-            raise click.UsageError(f"{variable}: {_suggest(variable, known)}")
+            raise UsageRefusal(_suggest(variable, variable, known))
 
 
 def _name_variable(command: str, option: str) -> str:
@@ -106,13 +110,37 @@ def _find_file(command: click.Command, typed: Mapping[str, Any]) -> Path | None:
     return next((one for one in beside if is_there(one) and one.is_file()), None)
 
 
+def read_default(
+    group: click.Group, command: click.Command, words: list[str], name: str
+) -> str | None:
+    """One option's default from the file of a command line; None where there is none.
+
+    What is wrong with the line or its file is told by whoever parses them.
+    """
+    if not isinstance(command, ConfiguredCommand):
+        return None
+    context = click.Context(
+        command, parent=click.Context(group), info_name=command.name
+    )
+    try:
+        typed, _, _ = command.make_parser(context).parse_args(words)
+        path = _find_file(command, typed)
+        table = read_toml(path).get(command.name or "", {}) if path else {}
+    except (click.UsageError, OSError, ValueError):
+        return None
+    found = table.get(name) if isinstance(table, dict) else None
+    return found if isinstance(found, str) else None
+
+
 def _read_defaults(
     command: click.Command, ctx: click.Context, path: Path
 ) -> dict[str, Any]:
     try:
         tables = read_toml(path)
     except (OSError, ValueError) as error:
-        raise click.UsageError(f"{path}: cannot be read as TOML: {error}") from None
+        raise UsageRefusal(
+            say("file.no_toml", file=str(path), cause=explain(error))
+        ) from None
     group = ctx.find_root().command
     commands = [
         name
@@ -121,23 +149,31 @@ def _read_defaults(
     ]
     for name in tables:
         if commands and name not in commands:
-            raise click.UsageError(f"{path}: [{name}]: {_suggest(name, commands)}")
+            raise UsageRefusal(_suggest(f"{path}: [{name}]", name, commands))
     table = tables.get(command.name or "", {})
     if not isinstance(table, dict):
-        raise click.UsageError(f"{path}: {command.name}: must be a table of options")
+        raise UsageRefusal(
+            say("config.not_a_table", path=str(path), command=command.name or "")
+        )
     options = _name_options(command)
     defaults = {}
     for key, value in table.items():
         place = f"{path}: [{command.name}] {key}"
         if key not in options:
-            raise click.UsageError(f"{place}: {_suggest(key, list(options))}")
+            raise UsageRefusal(_suggest(place, key, list(options)))
         if "\\x00" in repr(value):  # no command line can hold one
-            raise click.UsageError(f"{place} = {value!r}: holds a zero character")
+            raise UsageRefusal(
+                say("config.zero_character", place=place, value=repr(value))
+            )
         try:
             word = _write_as_typed(options[key], value)
             options[key].type_cast_value(ctx, word)
         except (click.BadParameter, ValueError, OverflowError) as error:
-            raise click.UsageError(f"{place} = {value!r:.200}: {error}") from None
+            shown = f"{value!r:.200}"
+            refused = say(
+                "config.bad_value", place=place, value=shown, reason=_explain(error)
+            )
+            raise UsageRefusal(refused) from None
         defaults[options[key].name or ""] = word
     return defaults
 
@@ -152,12 +188,12 @@ def _write_as_typed(option: click.Option, value: object) -> object:
     """
     if isinstance(value, list) and option.multiple:
         if any(isinstance(word, list) for word in value):
-            raise ValueError("no such value fits")
+            raise ContentError(say("config.no_fit"))
         return [_write_as_typed(option, word) for word in value]
     if isinstance(value, bool) and option.is_flag:
         return value
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ValueError("no such value fits")
+        raise ContentError(say("config.no_fit"))
     return str(value)
 
 
@@ -172,7 +208,16 @@ def _name_options(command: click.Command) -> dict[str, click.Option]:
     }
 
 
-def _suggest(word: str, known: list[str]) -> str:
+def _explain(error: Exception) -> Message | str:
+    if isinstance(error, ValueRefusal):
+        return error.told
+    if isinstance(error, click.BadParameter) and error.param is not None:
+        return explain_usage(error)
+    return explain(error)
+
+
+def _suggest(place: str, word: str, known: list[str]) -> Message:
     near = difflib.get_close_matches(word, known, n=1)
-    guess = f"; did you mean {near[0]!r}?" if near else ""
-    return f"is not known{guess}"
+    if not near:
+        return say("config.unknown", place=place)
+    return say("config.unknown_near", place=place, near=near[0])

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from netdesign.commands.options import json_option
+from netdesign.commands.language import tell
+from netdesign.commands.options import json_option, language_option
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.report.difference import Change
@@ -22,7 +25,8 @@ _TURNED = 1
 @click.argument("old", type=click.Path(path_type=Path))
 @click.argument("new", type=click.Path(path_type=Path))
 @json_option("changes")
-def diff(old: Path, new: Path, *, as_json: bool) -> None:
+@language_option()
+def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
     """Show what changed from one study to another: verdicts, checks, inputs.
 
     Verdicts that got worse come first. Exit code 1 if a verdict turned: of the study,
@@ -37,18 +41,22 @@ def diff(old: Path, new: Path, *, as_json: bool) -> None:
 
     changes = compare_studies(load_study(old), load_study(new))
     if as_json:
-        click.echo(json.dumps(write_difference(changes), indent=1, allow_nan=False))
+        click.echo(
+            json.dumps(write_difference(changes, language), indent=1, allow_nan=False)
+        )
     else:
-        _show(changes)
+        _show(changes, language)
     sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)
 
 
-def _show(changes: Sequence[Change]) -> None:
+def _show(changes: Sequence[Change], language: Language) -> None:
+    from netdesign.report.difference import name_area
+
     area = ""
     for change in changes:
         if change.area != area:
             area = change.area
-            click.echo(area)
-        click.echo(f"  {change}")
+            click.echo(name_area(area, language))
+        click.echo(f"  {change.tell(language)}")
     if not changes:
-        click.echo("the two studies are the same but for time and command")
+        tell(say("diff.same"), language)

@@ -1,4 +1,7 @@
-"""What the program runs on, and whether it works here."""
+"""What the program runs on, and whether it works here.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
 
 from __future__ import annotations
 
@@ -121,7 +124,7 @@ def _round_trip_example() -> str:
         write_site_workbook(path, example=True)
         site = read_site(path)
     if site.notes:
-        raise RuntimeError("; ".join(site.notes))
+        raise RuntimeError("; ".join(map(str, site.notes)))
     return f"example written and read: {len(site.rows)} net rows"
 
 

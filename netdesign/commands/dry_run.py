@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.language import tell
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,7 +26,14 @@ if TYPE_CHECKING:
 _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 
 
-def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> int:
+def announce(
+    site: Site,
+    run: CheckRun,
+    *,
+    as_json: bool,
+    profiles: int = 1,
+    language: Language = "en",
+) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""
     from netdesign.envelope.runner import Runner
     from netdesign.study.cases import list_phases
@@ -42,33 +52,48 @@ def announce(site: Site, run: CheckRun, *, as_json: bool, profiles: int = 1) -> 
             "phases": [
                 {
                     "phase": one.key,
-                    "does": one.words,
+                    "does": render(one.words, language),
                     "cases": one.cases,
                     "cases_most": one.most,
                 }
                 for one in phases
             ],
-            "notes": list(site.notes),
+            "notes": [render(one, language) for one in site.notes],
         }
         click.echo(json.dumps(plan, indent=1))
     else:
-        _show(site, run, phases, seconds)
-    return tell_faults(runner.faults)
+        _show(site, run, phases, seconds, language)
+    return tell_faults(runner.faults, language)
 
 
-def _show(site: Site, run: CheckRun, phases: Sequence[Phase], seconds: float) -> None:
-    about = "" if site.ranges.is_grid else "about "
-    click.echo(
-        f"{site.file_name}: {len(site.rows)} net rows, {about}{phases[0].cases} cases "
-        f"and about {_count_further(phases)} further solves, about "
-        f"{max(seconds, 1.0):.0f} s with {run.jobs} processes; nothing was written"
+def _show(
+    site: Site,
+    run: CheckRun,
+    phases: Sequence[Phase],
+    seconds: float,
+    language: Language,
+) -> None:
+    summary = say(
+        "plan.summary" if site.ranges.is_grid else "plan.summary_about",
+        file=site.file_name,
+        rows=len(site.rows),
+        cases=phases[0].cases,
+        further=_count_further(phases),
+        seconds=max(seconds, 1.0),
+        jobs=run.jobs,
     )
+    tell(summary, language)
     for phase in phases:
         if phase.cases:
-            most = f" (up to {phase.most})" if phase.most > phase.cases else ""
-            click.echo(f"{phase.cases:7}{most} {phase.words}")
+            tell(_name_phase(phase), language)
     for note in site.notes:
-        click.echo(f"note: {note}")
+        tell(say("cli.note", text=note), language)
+
+
+def _name_phase(phase: Phase) -> Message:
+    if phase.most <= phase.cases:
+        return say("plan.phase", cases=phase.cases, phase=phase.words)
+    return say("plan.phase_most", cases=phase.cases, most=phase.most, phase=phase.words)
 
 
 def _count_further(phases: Sequence[Phase]) -> int:

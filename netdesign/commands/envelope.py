@@ -13,15 +13,20 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.language import tell
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
     json_option,
+    language_option,
     out_option,
     quiet_option,
 )
 from netdesign.commands.ranges import RANGE, GivenRange
 from netdesign.commands.solving import follow_runner, solving_options
+from netdesign.commands.usage import UsageRefusal
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.coupling.scene import Scene
@@ -71,6 +76,7 @@ def _range_options(command: Any) -> Any:
 @solving_options
 @out_option("Folder.")
 @json_option("envelope")
+@language_option()
 @force_option
 @quiet_option
 def envelope(
@@ -83,6 +89,7 @@ def envelope(
     cache: bool,
     out: Path | None,
     as_json: bool,
+    language: Language,
     force: bool,
     quiet: bool,
     **ranges: GivenRange | None,
@@ -114,20 +121,22 @@ def envelope(
             executor=executor,
             processes=jobs or os.cpu_count() or 1,
             store=find_store() if cache else None,
-            say=lambda text: click.echo(text, err=True),
+            tell=lambda message: tell(message, language, err=True),
         ) as runner,
-        show_phases(_list_phases(given, confirm), quiet=quiet) as progress,
+        show_phases(
+            _list_phases(given, confirm), quiet=quiet, language=language
+        ) as progress,
     ):
         follow_runner(progress, runner)
         task = _build_task(scene, _read_confirming(scene_file, confirm), box, accuracy)
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
-            document = _sample(task, counts, runner, start)
+            document = _sample(task, counts, runner, start, language)
         else:
-            document, record = _search(task, runner, progress, start)
+            document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
-    failed = tell_faults(runner.faults)
+    failed = tell_faults(runner.faults, language)
     text = json.dumps(document, indent=1, allow_nan=False)
     if out:
         files = dict(zip(paths, _render(record, text), strict=True))
@@ -135,23 +144,22 @@ def envelope(
     if as_json:
         click.echo(text)
     else:
-        _show(document)
+        _show(document, language)
     sys.exit(failed or (_NOT_PROVEN if document["outcome"] == "not_proven" else 0))
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
     """Refuse what is no envelope; whether a grid is asked for."""
     if not given:
-        flags = ", ".join(flag for flag, _, _ in _OPTIONS)
-        raise click.UsageError(f"no range is given: accepted are {flags}")
+        flags = tuple(flag for flag, _, _ in _OPTIONS)
+        raise UsageRefusal(say("usage.no_range", flags=flags))
     if len(given) > _MOST_RANGES:
-        raise click.UsageError(f"{len(given)} ranges: at most {_MOST_RANGES} at once")
+        raise UsageRefusal(
+            say("usage.many_ranges", count=len(given), most=_MOST_RANGES)
+        )
     counts = [one.count is not None for one in given.values()]
     if any(counts) and not all(counts):
-        raise click.UsageError(
-            "low:high:n in one range and low:high in another: give n in all of them "
-            "for a grid, or in none for a bounded search"
-        )
+        raise UsageRefusal(say("usage.mixed_ranges"))
     return all(counts)
 
 
@@ -162,11 +170,17 @@ def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
 
     counts = [one.count for one in given.values() if one.count]
     number = math.prod(counts) if counts else _USUAL_CASES * len(given)
-    phases = [Phase(key="envelope", words="grid" if counts else "search", cases=number)]
+    phases = [
+        Phase(
+            key="envelope",
+            words=say("phase.grid" if counts else "phase.search"),
+            cases=number,
+        )
+    ]
     if confirm == "transient" and not counts:
-        words = "histories of the governing cases"
+        words = say("phase.histories")
         phases.append(Phase(key="histories", words=words, cases=3, cost=HISTORY))
-    return [*phases, Phase(key="outputs", words="outputs", cases=0)]
+    return [*phases, Phase(key="outputs", words=say("phase.outputs"), cases=0)]
 
 
 def _build_box(given: dict[str, GivenRange]) -> Box:
@@ -226,7 +240,11 @@ def _read_confirming(
 
 
 def _sample(
-    task: RowTask, counts: dict[str, int | None], runner: Runner, start: float
+    task: RowTask,
+    counts: dict[str, int | None],
+    runner: Runner,
+    start: float,
+    language: Language,
 ) -> dict[str, Any]:
     """Document of a grid."""
     from netdesign.envelope.search import run_grid
@@ -234,11 +252,15 @@ def _sample(
 
     grid = run_grid(task, counts, runner)
     elapsed = time.perf_counter() - start
-    return write_grid_document(task.box, grid, runner.counts, elapsed)
+    return write_grid_document(task.box, grid, runner.counts, elapsed, language)
 
 
 def _search(
-    task: RowTask, runner: Runner, progress: RunProgress, start: float
+    task: RowTask,
+    runner: Runner,
+    progress: RunProgress,
+    start: float,
+    language: Language,
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document of a bounded search, and its model to draw."""
     from netdesign.envelope.search import search_rows
@@ -246,7 +268,7 @@ def _search(
 
     (found,) = search_rows([task], runner, progress.tell_wave)
     elapsed = time.perf_counter() - start
-    return write_envelope_document(found, runner.counts, elapsed)
+    return write_envelope_document(found, runner.counts, elapsed, language)
 
 
 def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
@@ -263,19 +285,38 @@ def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
     return [part.encode() for part in (f"{text}\n", *pictures)]
 
 
-def _show(document: dict[str, Any]) -> None:
+def _show(document: dict[str, Any], language: Language) -> None:
     for one in document["extremes"]:
-        case = ", ".join(f"{key} {value:.4g}" for key, value in one["case"].items())
-        bound = one["upper_bound"]
-        limit = "no bound" if bound is None else f"nowhere above {bound:.2f}"
-        click.echo(f"{one['quantity']:22} {one['max']:10.2f}  {limit}  at {case}")
+        line = render(_describe_extreme(one), language)
+        click.echo(f"{one['quantity']:22} {line}")
         again = one.get("confirmation") or {}
         if again.get("difference_percent") is not None:
-            click.echo(
-                f"{'':22} {again['confirmed_kN_per_m']:10.2f}  {again['method']}, "
-                f"{again['elements']} triangles: {again['difference_percent']:+.2f} %"
-            )
-    cases = ", ".join(f"{count} {what}" for what, count in document["cases"].items())
-    click.echo(f"cases: {cases}; {document['cost']['wall_s']:.2f} s")
+            line = render(_describe_confirmation(again), language)
+            click.echo(f"{'':22} {line}")
+    counts = tuple(
+        say(f"case_count.{what}", count=count)
+        for what, count in document["cases"].items()
+    )
+    seconds = document["cost"]["wall_s"]
+    tell(say("envelope.cases", counts=counts, seconds=seconds), language)
     if document["reason"]:
-        click.echo(f"NOT PROVEN: {document['reason']}")
+        tell(say("envelope.not_proven", reason=document["reason"]), language)
+
+
+def _describe_extreme(one: dict[str, Any]) -> Message:
+    case = ", ".join(f"{key} {value:.4g}" for key, value in one["case"].items())
+    bound = one["upper_bound"]
+    limit = say("envelope.no_bound")
+    if bound is not None:
+        limit = say("envelope.nowhere_above", bound=bound)
+    return say("envelope.at_case", max=one["max"], limit=limit, case=case)
+
+
+def _describe_confirmation(again: dict[str, Any]) -> Message:
+    is_steady = again["method"] == "steady"
+    return say(
+        "envelope.confirmed_steady" if is_steady else "envelope.confirmed_transient",
+        force=again["confirmed_kN_per_m"],
+        elements=again["elements"],
+        difference=again["difference_percent"],
+    )

@@ -1,4 +1,7 @@
-"""``netdesign glide``: the stored glide factors, measured again."""
+"""``netdesign glide``: the stored glide factors, measured again.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
 
 from __future__ import annotations
 

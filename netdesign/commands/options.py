@@ -8,10 +8,11 @@ from typing import Any
 
 import click
 
+from netdesign.words.catalogue import LANGUAGES
+
 Decorator = Callable[..., Any]
 
 MOST_PROCESSES = 256
-LANGUAGES = ("en", "fr", "de")
 
 force_option: Decorator = click.option(
     "--force", is_flag=True, help="Overwrite existing outputs."
@@ -48,7 +49,7 @@ def accuracy_option(text: str, *, default: float, least: float = 1e-4) -> Decora
     )
 
 
-def language_option(text: str) -> Decorator:
+def language_option(text: str = "Of what is printed.", **more: Any) -> Decorator:
     """``--language``: English unless told otherwise."""
     return click.option(
         "--language",
@@ -56,4 +57,5 @@ def language_option(text: str) -> Decorator:
         default=LANGUAGES[0],
         show_default=True,
         help=text,
+        **more,
     )

@@ -1,4 +1,7 @@
-"""``netdesign paper``: the source paper's study on one page."""
+"""``netdesign paper``: the source paper's study on one page.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
 
 from __future__ import annotations
 

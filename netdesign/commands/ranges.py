@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 import click
 
+from netdesign.commands.usage import ValueRefusal
+from netdesign.words.message import say
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenRange:
@@ -46,18 +49,13 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]  # generic in click 
             low = high = math.nan
             count = None
         if len(parts) not in (2, 3) or not (math.isfinite(low) and math.isfinite(high)):
-            self.fail(f"{text!r}: accepted is low:high or low:high:n", param, ctx)
+            raise ValueRefusal(say("usage.range_form", text=text), ctx, param)
         if low > high:
-            self.fail(f"{text!r} is reversed: accepted is low:high", param, ctx)
+            raise ValueRefusal(say("usage.range_reversed", text=text), ctx, param)
         if low == high:
-            self.fail(
-                f"{text!r} is empty: accepted is low below high; leave the option out "
-                "to keep the scene's value",
-                param,
-                ctx,
-            )
+            raise ValueRefusal(say("usage.range_empty", text=text), ctx, param)
         if count is not None and not 2 <= count <= 1000:
-            self.fail(f"{text!r}: accepted are 2 to 1000 samples", param, ctx)
+            raise ValueRefusal(say("usage.range_samples", text=text), ctx, param)
         return GivenRange(low=low, high=high, count=count)
 
 

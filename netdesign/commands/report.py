@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from netdesign.commands.language import tell
 from netdesign.commands.options import force_option, out_option
 from netdesign.commands.report_options import list_wanted, report_options
 from netdesign.commands.stored_study import (
@@ -16,6 +17,8 @@ from netdesign.commands.stored_study import (
     read_own_site,
 )
 from netdesign.errors import NetDesignError, StudyError
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -57,18 +60,23 @@ def report(
     from netdesign.study.records import load_study
 
     study = load_study(study_file)
+    language: Language = options["language"]
     names = name_files(out, [study.profile.id], list_wanted(options))
     require_free(names[0], overwrite=force)
-    _require_sound(study, study_file, site_file, standard)
+    _require_sound(study, study_file, site_file, standard, language)
     files = render_files([study], names, ReportStyle(**options))
     write_files(files, overwrite=force)
     for path in names[0]:
-        click.echo(f"wrote {path}", err=True)
+        tell(say("cli.wrote", path=str(path)), language, err=True)
     sys.exit(VERDICTS[study.verdict].exit_code)
 
 
 def _require_sound(
-    study: Study, study_file: Path, site_file: Path | None, standard: str | None
+    study: Study,
+    study_file: Path,
+    site_file: Path | None,
+    standard: str | None,
+    language: Language,
 ) -> None:
     """Refuse a study that cannot be true; say what it was not compared with.
 
@@ -80,36 +88,43 @@ def _require_sound(
     from netdesign.study.audit import audit_study
     from netdesign.study.records import compute_digest
 
-    site = _find_site(study, study_file, site_file)
-    profile = _find_profile(study, standard)
-    found = [f"its command: {one}" for one in contradict_command(study)]
+    site = _find_site(study, study_file, site_file, language)
+    profile = _find_profile(study, standard, language)
+    found: list[Message | str] = [
+        say("stored.command", reason=one) for one in contradict_command(study)
+    ]
     found += audit_study(study, profile, site)
     if study.digest and study.digest != compute_digest(study):
-        found.insert(0, "it was altered after it was written: its SHA-256 is another")
+        found.insert(0, say("stored.altered"))
     if found:
-        more = [f"and {len(found) - _SHOWN} more"] if found[_SHOWN:] else []
-        lines = "\n".join((*found[:_SHOWN], *more))
-        raise StudyError(f"{study_file}: contradicts itself:\n{lines}")
+        more = say("stored.more", count=len(found) - _SHOWN)
+        lines = (*found[:_SHOWN], *((more,) if found[_SHOWN:] else ()))
+        raise StudyError(say("stored.contradicts", study=str(study_file), lines=lines))
 
 
-def _find_site(study: Study, study_file: Path, site_file: Path | None) -> Site | None:
+def _find_site(
+    study: Study, study_file: Path, site_file: Path | None, language: Language
+) -> Site | None:
     """Site of the study, where its file is at hand; one that is given has to be it."""
     try:
         site = read_own_site(study, study_file, site_file)
     except NetDesignError as error:
         if site_file is not None:
             raise
-        _tell_uncompared("site file", str(error).partition("\n")[0])
+        reason = render(error.message, language).partition("\n")[0]
+        _tell_uncompared("stored.site_uncompared", reason, language)
         return None
     if site.sha256 == study.provenance.site_sha256:
         return site
     if site_file is not None:
-        raise StudyError(f"{site_file}: not the site file of this study: other SHA-256")
-    _tell_uncompared("site file", "the one of its name has another SHA-256")
+        raise StudyError(say("stored.not_the_site", file=str(site_file)))
+    _tell_uncompared("stored.site_uncompared", say("stored.other_site"), language)
     return None
 
 
-def _find_profile(study: Study, standard: str | None) -> Standard | None:
+def _find_profile(
+    study: Study, standard: str | None, language: Language
+) -> Standard | None:
     """Profile of the study, where it is at hand; one that is given has to be it."""
     from netdesign.checks import load_standard
 
@@ -118,18 +133,19 @@ def _find_profile(study: Study, standard: str | None) -> Standard | None:
     except NetDesignError as error:
         if standard is not None:
             raise
-        _tell_uncompared("limit profile", str(error))
+        _tell_uncompared("stored.profile_uncompared", error.message, language)
         return None
     if profile.sha256 == study.profile.sha256:
         return profile
     if standard is not None:
-        raise StudyError(f"{standard}: not the profile of this study: other SHA-256")
-    _tell_uncompared("limit profile", "the one of its id has another SHA-256")
+        raise StudyError(say("stored.not_the_profile", profile=standard))
+    reason = say("stored.other_profile")
+    _tell_uncompared("stored.profile_uncompared", reason, language)
     return None
 
 
-def _tell_uncompared(what: str, reason: str) -> None:
+def _tell_uncompared(key: str, reason: Message | str, language: Language) -> None:
     from netdesign.edge.given_files import make_printable
 
-    text = f"not compared with its {what}: {reason}"
+    text = render(say(key, reason=reason), language)
     click.echo(make_printable(text), err=True)

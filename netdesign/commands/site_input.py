@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.language import tell
+from netdesign.commands.usage import UsageRefusal, ValueRefusal
+from netdesign.edge.causes import explain_with_file
 from netdesign.errors import OutputError, SiteDataError
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 if TYPE_CHECKING:
     from netdesign.site.cells.cells import TextFormat
@@ -45,12 +51,12 @@ def site_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _check_delimiter(
-    _context: click.Context, _option: click.Parameter, value: str | None
+    context: click.Context, option: click.Parameter, value: str | None
 ) -> str:
     sign = _DELIMITERS.get(value or "", value or "")
     is_mark = sign == "\t" or (sign.isprintable() and not sign.isalnum())
     if len(sign) > 1 or sign == '"' or not is_mark:
-        raise click.BadParameter("one sign such as ';', or tab")
+        raise ValueRefusal(say("usage.delimiter"), context, option)
     return sign
 
 
@@ -61,6 +67,7 @@ def open_site(
     decimal_mark: str | None = None,
     annotate: Path | None = None,
     overwrite: bool = False,
+    language: Language = "en",
 ) -> Site:
     """Read a site; with ``annotate`` also write its copy, whether refused or not.
 
@@ -81,16 +88,19 @@ def open_site(
     if annotate is None:
         return read_site(path, text_format)
     if annotate.suffix.casefold() != ".xlsx":
-        raise click.UsageError(f"--annotate {annotate}: must end in .xlsx")
+        raise UsageRefusal(say("usage.annotate_xlsx", path=str(annotate)))
     if annotate.absolute() == path.absolute():
-        raise click.UsageError("--annotate: must be another file than the site's")
+        raise UsageRefusal(say("usage.annotate_other"))
     require_free([annotate], overwrite=overwrite)
+    write = partial(
+        _write_copy, path, annotate, text_format, overwrite=overwrite, language=language
+    )
     try:
         site = read_site(path, text_format)
     except SiteDataError as error:
-        _write_copy(path, annotate, text_format, error, overwrite=overwrite)
+        write(error)
         raise
-    _write_copy(path, annotate, text_format, site, overwrite=overwrite)
+    write(site)
     return site
 
 
@@ -121,7 +131,9 @@ def temporary_example() -> Iterator[Path]:
     try:
         place = tempfile.TemporaryDirectory()
     except OSError as error:
-        raise OutputError(f"no temporary folder: {error}") from error
+        raise OutputError(
+            say("output.no_temporary_folder", cause=explain_with_file(error))
+        ) from error
     with place as folder:
         path = Path(folder) / "example.xlsx"
         write_site_workbook(path, example=True)
@@ -135,6 +147,7 @@ def _write_copy(
     read: Site | SiteDataError,
     *,
     overwrite: bool,
+    language: Language,
 ) -> None:
     from netdesign.edge.output import write_files
     from netdesign.site.cells.findings import Finding
@@ -142,9 +155,9 @@ def _write_copy(
 
     findings = [one for one in read.findings if isinstance(one, Finding)]
     try:
-        content = annotate_workbook(path, findings, text_format)
+        content = annotate_workbook(path, findings, text_format, language)
     except SiteDataError as error:
-        click.echo(f"no annotated copy: {error}", err=True)
+        tell(say("finding.no_copy", reason=error.message), language, err=True)
         return
     write_files({copy: content}, overwrite=overwrite)
-    click.echo(f"wrote {copy}", err=True)
+    tell(say("cli.wrote", path=str(copy)), language, err=True)

@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 
 import click
 
+from netdesign.commands.language import tell
+from netdesign.commands.options import language_option
+from netdesign.commands.usage import ToldGroup
 from netdesign.errors import OutputError
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
 
 
-@click.group()
+@click.group(cls=ToldGroup)
 def standards() -> None:
     """Show the limit profiles, and start one of your own.
 
@@ -27,6 +32,7 @@ def standards() -> None:
 
 
 @standards.command("list")
+@language_option("Of refusals.", expose_value=False)
 def list_profiles() -> None:
     """List the profiles that come with the program."""
     from netdesign.checks import list_standards, load_standard
@@ -37,34 +43,39 @@ def list_profiles() -> None:
 
 @standards.command("show")
 @click.argument("name", metavar="ID")
-def show_profile(name: str) -> None:
+@language_option("Of what the program says; a profile keeps its own words.")
+def show_profile(name: str, *, language: Language) -> None:
     """Show every value of a profile with its status and source."""
     from netdesign.checks import load_standard
 
     profile = load_standard(name)
     click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
-    click.echo(f"version {profile.version}, sha256 {profile.sha256}")
+    told = say("standard.version", version=profile.version, sha256=profile.sha256)
+    tell(told, language)
     if profile.choice:
-        click.echo(f"choice {profile.choice} (choices.toml)")
+        tell(say("standard.choice", choice=profile.choice), language)
     click.echo(f"\n{profile.what_it_is}\n{profile.what_it_is_not}\n")
     for entry in profile.listed:
         click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
-        click.echo(f"    {entry.text}\n    clause {entry.clause}; {entry.source}")
+        clause = say("standard.clause", clause=entry.clause, source=entry.source)
+        click.echo(f"    {entry.text}\n    {render(clause, language)}")
 
 
 @standards.command("validate")
 @click.argument("folder", type=click.Path(path_type=Path))
-def validate_profile(folder: Path) -> None:
+@language_option()
+def validate_profile(folder: Path, *, language: Language) -> None:
     """Validate a profile folder; every fault is told."""
     from netdesign.checks import load_standard
 
-    click.echo(_summarise(load_standard(folder)))
+    tell(_summarise(load_standard(folder)), language)
 
 
 @standards.command("copy")
 @click.argument("name", metavar="ID")
 @click.argument("folder", type=click.Path(path_type=Path))
-def copy_profile(name: str, folder: Path) -> None:
+@language_option()
+def copy_profile(name: str, folder: Path, *, language: Language) -> None:
     """Copy a profile to edit; its id becomes the name of the folder."""
     from netdesign.checks import load_standard
     from netdesign.edge.output import require_free, write_files
@@ -73,13 +84,10 @@ def copy_profile(name: str, folder: Path) -> None:
     profile = load_standard(name)
     source = find_resource("standards") / name
     if not source.is_dir():
-        raise OutputError(f"{name}: only a profile of the program can be copied by id")
+        raise OutputError(say("standard.copy_by_id", name=name))
     own = folder.name.lower()
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]*", own):
-        raise OutputError(
-            f"{folder}: the name of the folder becomes the profile's id: letters, "
-            "digits, dots and dashes, starting with a letter or digit"
-        )
+        raise OutputError(say("standard.folder_name", folder=str(folder)))
     paths = [path for path in sorted(source.iterdir()) if path.is_file()]
     free = [folder / path.name for path in paths]
     require_free(free, overwrite=False, may_force=False)
@@ -89,11 +97,15 @@ def copy_profile(name: str, folder: Path) -> None:
     )
     files = {folder / name: text.encode("utf-8") for name, text in texts.items()}
     write_files(files, overwrite=False)
-    click.echo(_summarise(load_standard(folder)))
+    tell(_summarise(load_standard(folder)), language)
 
 
-def _summarise(profile: Standard) -> str:
-    return (
-        f"{profile.id}: version {profile.version}, {len(profile.values)} values, "
-        f"{len(profile.tables)} tables, sha256 {profile.sha256}"
+def _summarise(profile: Standard) -> Message:
+    return say(
+        "standard.summary",
+        id=profile.id,
+        version=profile.version,
+        values=len(profile.values),
+        tables=len(profile.tables),
+        sha256=profile.sha256,
     )

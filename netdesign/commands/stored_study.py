@@ -11,6 +11,7 @@ import click
 
 from netdesign.commands.site_input import reopen_site, temporary_example
 from netdesign.errors import StudyError
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.site.model import Site
@@ -59,14 +60,13 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
         return reopen_site(found, values)
     if not values.get("example"):
         raise StudyError(
-            f"{study_file}: no site file {name!r:.60} beside it or one folder up: "
-            "give it with --site"
+            say("stored.no_site", study=str(study_file), site=f"{name!r:.60}")
         )
     with temporary_example() as path:
         return reopen_site(path, {})
 
 
-def contradict_command(study: Study) -> Iterator[str]:
+def contradict_command(study: Study) -> Iterator[Message]:
     """Sentences on where the command of a study is not one that could make it."""
     from netdesign.edge.given_files import make_printable
 
@@ -75,19 +75,23 @@ def contradict_command(study: Study) -> Iterator[str]:
         return
     values = _parse_command(made.command)
     if values is None:
-        yield f"{made.command!r:.120} is no command that makes a study"
+        yield say("stored.no_command", command=f"{made.command!r:.120}")
         return
     named = "example.xlsx" if values.get("example") else values.get("site_file")
     if Path(named or "").name != make_printable(Path(made.site_file).name):
-        yield f"it reads {named!r:.60}, the study {made.site_file!r:.60}"
+        yield say(
+            "stored.reads_other",
+            given=f"{named!r:.60}",
+            stored=f"{made.site_file!r:.60}",
+        )
     accuracy, method = values.get("accuracy"), values.get("method")
     if accuracy is not None and not _is_number(accuracy, made.settings.get("accuracy")):
-        yield f"it asks for an accuracy of {accuracy!r:.20}"
+        yield say("stored.asks_accuracy", given=f"{accuracy!r:.20}")
     if method is not None and method != made.settings.get("method"):
-        yield f"it asks for the method {method!r:.20}"
+        yield say("stored.asks_method", given=f"{method!r:.20}")
     standards = values.get("standards") or ()
     if standards and not any(_may_be(one, study.profile.id) for one in standards):
-        yield f"it asks for the limit profile {standards[0]!r:.60}"
+        yield say("stored.asks_profile", given=f"{standards[0]!r:.60}")
 
 
 def _parse_command(command: str) -> dict[str, Any] | None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,14 +14,18 @@ from typing import TYPE_CHECKING
 import click
 
 from netdesign.commands.faults import tell_faults
-from netdesign.commands.options import jobs_option, json_option
-from netdesign.commands.solving import judge_rows, open_rows
+from netdesign.commands.language import tell
+from netdesign.commands.options import jobs_option, json_option, language_option
+from netdesign.commands.solving import open_run
 from netdesign.commands.stored_study import (
     NO_COMMAND,
     contradict_command,
     origin_options,
     read_own_site,
 )
+from netdesign.commands.usage import UsageRefusal
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from netdesign.study.records import Study
@@ -41,6 +46,7 @@ _SHOWN = 20  # differences; more help nobody
 @origin_options
 @jobs_option("Processes of --study [all cores].")
 @json_option("cases")
+@language_option("Of what --study prints; the pack speaks English.")
 def verify(
     *,
     study_file: Path | None,
@@ -48,6 +54,7 @@ def verify(
     standard: str | None,
     jobs: int | None,
     as_json: bool,
+    language: Language,
 ) -> None:
     """Run the verification pack, or verify a stored study.
 
@@ -63,11 +70,11 @@ def verify(
     """
     if study_file is None:
         if site_file or standard or jobs:
-            raise click.UsageError("--site, --standard and --jobs go with --study")
+            raise UsageRefusal(say("usage.only_with_study"))
         sys.exit(_run_pack(as_json=as_json))
     if as_json:
-        raise click.UsageError("--json: not with --study")
-    sys.exit(_verify_study(study_file, site_file, standard, jobs))
+        raise UsageRefusal(say("usage.json_not_with_study"))
+    sys.exit(_verify_study(study_file, site_file, standard, jobs, language))
 
 
 def _run_pack(*, as_json: bool) -> int:
@@ -88,11 +95,16 @@ def _run_pack(*, as_json: bool) -> int:
 
 
 def _verify_study(
-    path: Path, site_file: Path | None, standard: str | None, jobs: int | None
+    path: Path,
+    site_file: Path | None,
+    standard: str | None,
+    jobs: int | None,
+    language: Language,
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
     from netdesign.checks import load_standard
     from netdesign.study.audit import audit_study
+    from netdesign.study.check_site import check_site
     from netdesign.study.records import load_study
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
@@ -100,125 +112,140 @@ def _verify_study(
     run = build_run(study, jobs or os.cpu_count() or 1)
     site = read_own_site(study, path, site_file)
     profile = load_standard(standard or study.profile.id)
+    show, made = _Shown(language), study.provenance
     hashes = [
-        _show_hash("site file", study.provenance.site_sha256, site.sha256),
-        _show_hash("limit profile", study.profile.sha256, profile.sha256),
+        show.hash(say("verify.site_file"), made.site_sha256, site.sha256),
+        show.hash(say("verify.limit_profile"), study.profile.sha256, profile.sha256),
     ]
     if not all(hashes):
-        click.echo("not solved again: these are not the inputs of the study")
+        tell(say("verify.not_its_inputs"), language)
         return _FAIL
     told = [
-        _show_digest(study),
-        _show_contradictions("its command", list(contradict_command(study))),
-        _show_contradictions("its time", list(_contradict_time(study))),
-        _show_contradictions("its own arithmetic", audit_study(study, profile, site)),
+        show.digest(study),
+        show.contradictions(say("verify.its_command"), contradict_command(study)),
+        show.contradictions(say("verify.its_time"), _contradict_time(study)),
+        show.contradictions(
+            say("verify.its_arithmetic"), audit_study(study, profile, site)
+        ),
     ]
-    with open_rows(site, run, executor="", cache=False, quiet=False) as solved:
-        (again,) = judge_rows(site, run, solved, [profile])
-    if failed := tell_faults(solved.runner.faults):
+    with open_run(
+        site, run, executor="", cache=False, quiet=False, language=language
+    ) as (runner, watch):
+        (again,) = check_site(site, [profile], run, runner, watch)
+    if failed := tell_faults(runner.faults, language):
         return failed
     count, differences = list_differences(study, again)
     ties = [one for one in differences if is_of_ties(one)]
     differences = [one for one in differences if one not in ties]
-    _show_comparison(study, again, count, differences)
-    left = _show_unverified(study, again, ties)
+    show.comparison(study, again, count, differences)
+    left = show.unverified(study, again, ties)
     if differences or not all(told):
         return _FAIL
     return _NOT_PROVEN if left else 0
 
 
-def _show_hash(what: str, stored: str, again: str) -> bool:
-    from netdesign.edge.given_files import make_printable
-
-    is_equal = stored == again
-    click.echo(f"{what}, SHA-256: {'equal' if is_equal else 'DIFFERS'}")
-    click.echo(f"  stored {make_printable(stored)}\n  now    {again}")
-    return is_equal
-
-
-def _show_digest(study: Study) -> bool:
-    """Whether the document is as it was written; one without a digest may be."""
-    from netdesign.study.records import compute_digest
-
-    if not study.digest:
-        return True
-    return _show_hash("document", study.digest, compute_digest(study))
-
-
-def _show_contradictions(what: str, found: Sequence[str]) -> bool:
-    from netdesign.edge.given_files import make_printable
-
-    for one in found[:_SHOWN]:
-        click.echo(f"{what}: DIFFERS: {make_printable(one)}")
-    if not found:
-        click.echo(f"{what}: holds")
-    return not found
-
-
-def _contradict_time(study: Study) -> Iterator[str]:
+def _contradict_time(study: Study) -> Iterator[Message]:
     """The time of the run lies in no future and has a zone; more nobody can know."""
     started = study.provenance.started
     if not started:
         return
     time = datetime.fromisoformat(started)
     if time.tzinfo is None:
-        yield f"{started} has no time zone"
+        yield say("verify.no_zone", time=started)
     elif time > datetime.now(UTC):
-        yield f"{started} lies in the future"
+        yield say("verify.in_future", time=started)
 
 
-def _show_comparison(
-    study: Study, again: Study, count: int, differences: Sequence[Difference]
-) -> None:
-    """Tell which values do not come out; the hash may differ in last digits."""
-    from netdesign.edge.given_files import make_printable
-    from netdesign.report.view.tables import hash_results
-    from netdesign.study.records import write_document
-    from netdesign.study.values import SAME
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    """What is printed of a verified study, in a language."""
 
-    stored, now = hash_results(study), hash_results(again)
-    if stored == now or differences:
-        _show_hash("results", stored, now)
-    else:
-        click.echo("results, SHA-256: not equal, by last digits only")
-    cases = sum(len(row.cases) for row in again.rows)
-    click.echo(f"{cases} cases solved again, {count} values compared")
-    for one in differences[:_SHOWN]:
-        click.echo(f"  DIFFERS: {make_printable(str(one))}")
-    if differences[_SHOWN:]:
-        click.echo(f"  and {len(differences) - _SHOWN} more")
-    if not differences:
-        is_equal = write_document(study) == write_document(again)
-        same = f"same numbers, within {SAME:g} of each"
-        click.echo("same bytes" if is_equal else same)
+    language: Language
 
+    def tell(self, message: Message) -> None:
+        from netdesign.edge.given_files import make_printable
 
-def _show_unverified(study: Study, again: Study, ties: Sequence[Difference]) -> bool:
-    """Tell what no new solve can show; whether any of it might have been shown."""
-    from netdesign.edge.given_files import make_printable
-    from netdesign.study.repeat import list_versions
+        click.echo(make_printable(render(message, self.language)))
 
-    made = study.provenance
-    old, new = list_versions(study), list_versions(again)
-    others = [name for name in old | new if old.get(name) != new.get(name)]
-    for name in others:
-        then = make_printable(str(old.get(name)))
-        click.echo(f"not verified: {name} {then} then, {new.get(name)} now")
-    if ties:
-        click.echo(
-            f"not verified: {len(ties)} values in the logs of the searches, in which "
-            f"other processors break ties in other ways; the first: "
-            f"{make_printable(str(ties[0]))}"
+    def hash(self, what: Message, stored: str, now: str) -> bool:
+        """Whether two hashes are equal."""
+        is_equal = stored == now
+        key = "verify.hash_equal" if is_equal else "verify.hash_differs"
+        self.tell(say(key, what=what))
+        self.tell(say("verify.hashes", stored=stored, now=now))
+        return is_equal
+
+    def digest(self, study: Study) -> bool:
+        """Whether the document is as it was written; one without a digest may be."""
+        from netdesign.study.records import compute_digest
+
+        if not study.digest:
+            return True
+        return self.hash(say("verify.document"), study.digest, compute_digest(study))
+
+    def contradictions(self, what: Message, found: Iterable[Message | str]) -> bool:
+        """Whether there are none; the first of them."""
+        told = list(found)
+        for one in told[:_SHOWN]:
+            self.tell(say("verify.differs", what=what, reason=one))
+        if not told:
+            self.tell(say("verify.holds", what=what))
+        return not told
+
+    def comparison(
+        self, study: Study, again: Study, count: int, differences: Sequence[Difference]
+    ) -> None:
+        """Tell which values do not come out; the hash may differ in last digits."""
+        from netdesign.report.view.tables import hash_results
+        from netdesign.study.records import write_document
+        from netdesign.study.values import SAME
+
+        stored, now = hash_results(study), hash_results(again)
+        if stored == now or differences:
+            self.hash(say("verify.results"), stored, now)
+        else:
+            self.tell(say("verify.last_digits"))
+        cases = sum(len(row.cases) for row in again.rows)
+        self.tell(say("verify.compared", cases=cases, values=count))
+        for one in differences[:_SHOWN]:
+            self.tell(say("verify.difference", **_show_values(one)))
+        if differences[_SHOWN:]:
+            self.tell(say("verify.more", count=len(differences) - _SHOWN))
+        if not differences:
+            is_equal = write_document(study) == write_document(again)
+            same = say("verify.same_numbers", share=SAME)
+            self.tell(say("verify.same_bytes") if is_equal else same)
+
+    def unverified(
+        self, study: Study, again: Study, ties: Sequence[Difference]
+    ) -> bool:
+        """Tell what no new solve can show; whether any of it might have been shown."""
+        from netdesign.study.repeat import list_versions
+
+        made = study.provenance
+        old, new = list_versions(study), list_versions(again)
+        others = [name for name in old | new if old.get(name) != new.get(name)]
+        for name in others:
+            then, now = str(old.get(name)), str(new.get(name))
+            self.tell(say("verify.other_version", name=name, then=then, now=now))
+        if ties:
+            values = _show_values(ties[0])
+            self.tell(say("verify.ties", count=len(ties), **values))
+        if not study.digest:
+            self.tell(say("verify.no_digest"))
+        if made.command == NO_COMMAND:
+            self.tell(say("verify.no_command"))
+        self.tell(
+            say("verify.as_stated", time=made.started or say("verify.not_stated"))
         )
-    if not study.digest:
-        click.echo("not verified: whether it was altered, since it has no SHA-256")
-    if made.command == NO_COMMAND:
-        click.echo("not verified: its command, which is not stated")
-    time = make_printable(made.started) or "not stated"
-    click.echo(
-        f"as stated, known to nobody else: time of the run ({time}), the words of its "
-        "command that decide no value; the document's SHA-256 shows only that nobody "
-        "altered them without computing it again"
-    )
-    unknown = (others, ties, not study.digest, made.command == NO_COMMAND)
-    return any(map(bool, unknown))
+        unknown = (others, ties, not study.digest, made.command == NO_COMMAND)
+        return any(map(bool, unknown))
+
+
+def _show_values(one: Difference) -> dict[str, str]:
+    """A difference as the arguments of a message."""
+    return {
+        "place": one.place,
+        "stored": repr(one.stored),
+        "again": repr(one.again),
+    }

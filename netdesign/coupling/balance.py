@@ -12,6 +12,7 @@ from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowLaw
+from netdesign.words.message import Message, say
 
 Floats = NDArray[np.float64]
 
@@ -35,9 +36,7 @@ class SuctionError(SolveError):
     def __init__(self, share: float) -> None:
         super().__init__(
             Outcome.OUT_OF_VALIDITY,
-            f"the snow would pull on the net with {share:.0%} of what it presses; up "
-            f"to {LARGEST_SUCTION:.0%} is accepted: more friction on the net, or less "
-            "slack, is needed",
+            say("balance.suction", share=float(share), accepted=LARGEST_SUCTION),
         )
 
 
@@ -94,24 +93,24 @@ def check_balance(
         ``out_of_validity`` if the snow would have to pull on the net.
     """
     if not balance.relative_residual <= tolerance:
-        _refuse("force missing from the balance", balance.relative_residual, tolerance)
+        _refuse(say("balance.force_missing"), balance.relative_residual, tolerance)
     allowed = tolerance if friction_tolerance is None else friction_tolerance
     if not balance.friction_excess <= allowed:
-        _refuse("shear beyond the friction limit", balance.friction_excess, allowed)
+        _refuse(say("balance.shear_beyond"), balance.friction_excess, allowed)
     tension = balance.smallest_tension
     if tension is not None and not tension > 0.0:
         raise SolveError(
-            Outcome.BALANCE_VIOLATED, f"the net would have to push: {tension:g} N/m"
+            Outcome.BALANCE_VIOLATED, say("balance.net_pushes", tension=float(tension))
         )
 
     if tension is not None and not balance.suction_share <= LARGEST_SUCTION:
         raise SuctionError(balance.suction_share)
 
 
-def _refuse(what: str, value: float, tolerance: float) -> None:
+def _refuse(what: Message, value: float, tolerance: float) -> None:
     raise SolveError(
         Outcome.BALANCE_VIOLATED,
-        f"{what}: {value:.1e} of the weight, accepted is {tolerance:.0e}",
+        say("balance.violated", what=what, value=float(value), tolerance=tolerance),
     )
 
 

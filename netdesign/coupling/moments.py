@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.words.message import Message
+
 Floats = NDArray[np.float64]
 
 # On a plateau, per e-fold of time: end pulls change by less than the first share of
@@ -122,8 +124,8 @@ class History:
         The creep law followed the density.
     fallen_share : float
         Share of the snow's mass that fell over the head.
-    ended : str
-        Why it ended before its horizon; empty if it did not.
+    ended : Message or None
+        Why it ended before its horizon; None if it did not.
     """
 
     moments: tuple[Moment, ...]
@@ -131,7 +133,7 @@ class History:
     start: str
     densifies: bool
     fallen_share: float
-    ended: str
+    ended: Message | None
 
     @property
     def at_plateau(self) -> Moment | None:

@@ -32,6 +32,7 @@ from netdesign.snow.law import FlowLaw, FlowLayer, Sides
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import Layer, Snowpack
 from netdesign.snow.wall import Wall
+from netdesign.words.message import say
 
 # Snow may stand above the head by this share of the net's height before the scene
 # is refused: rounding of a height that was meant to be equal.
@@ -100,25 +101,17 @@ class Scene:
         height, thickness = self.net.height_normal, self.snowpack.thickness
         if height < thickness * (1.0 - _OVERTOPPING):
             raise ModelError(
-                f"net height = {height:g} m is below the snow thickness of "
-                f"{thickness:g} m (both normal to the slope): the model has no rule "
-                "for snow that overtops the net; raise the net or lower the snow"
+                say("scene.net_too_low", height=height, thickness=thickness)
             )
         if isinstance(self.net, Net):
             _require_clear_of_ground(self.net)
         require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
         if not any(self.snowpack.gravity_direction):
-            raise ModelError(
-                "slope angle = 0 with gravity along the slope only: the snow would "
-                "have no weight; take the full gravity"
-            )
+            raise ModelError(say("scene.no_weight"))
         for name in ("ground_contact", "net_contact"):
             require_one_of(name, getattr(self, name), ("two-sided", "one-sided"))
         if self.ground_contact == "one-sided" and self.snowpack.gravity == "parallel":
-            raise ModelError(
-                "one-sided ground with gravity along the slope only: nothing would "
-                "press the snow on the ground; take the full gravity"
-            )
+            raise ModelError(say("scene.nothing_presses"))
         require_within(
             "upslope length over snow thickness",
             self.snowpack.upslope_length / thickness,
@@ -129,9 +122,11 @@ class Scene:
             layer.temperature is not None for layer in self.layers
         ):
             raise ModelError(
-                "layer temperature: fluidity against temperature is known for creep "
-                f"exponent {FLUIDITY_EXPONENT:g} only, this law has "
-                f"{self.creep_law.exponent:g}"
+                say(
+                    "scene.layer_temperature",
+                    known=FLUIDITY_EXPONENT,
+                    exponent=self.creep_law.exponent,
+                )
             )
         for layer in self.layers:
             require_admissible(self.creep_law, layer.density / ICE_DENSITY)
@@ -240,9 +235,12 @@ def _require_clear_of_ground(net: Net) -> None:
         steepest = math.pi / 2 - net.inclination
         most = 8.0 / 3.0 * (math.tan(steepest) / 4.0) ** 2
         raise ModelError(
-            f"slack = {net.slack:g}: the net would lie on the ground at its foot; at "
-            f"an inclination of {math.degrees(net.inclination):.1f} degrees less than "
-            f"{most:.3g} is accepted"
+            say(
+                "net.lies_on_ground",
+                slack=net.slack,
+                inclination=math.degrees(net.inclination),
+                most=float(most),
+            )
         )
 
 
@@ -293,4 +291,4 @@ class SolverSettings:
         require_count("rounds", self.max_rounds)
         require_count("iterations", self.max_iterations)
         if len(self.levels) < 2:
-            raise ModelError("an error estimate needs at least two mesh levels")
+            raise ModelError(say("scene.two_levels"))

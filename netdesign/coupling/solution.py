@@ -14,13 +14,11 @@ from netdesign.coupling.scene import Scene
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.words.message import Message, say
 
 Floats = NDArray[np.float64]
 # What a reader must know of a net that was to hold the snow on both sides.
-RELEASED = (
-    "the snow would pull on the net more than a two-sided contact stands for: solved "
-    "with a net that lets go of it (one-sided)"
-)
+RELEASED = say("balance.released")
 Method = Literal["steady", "transient", "staggered"]
 
 
@@ -244,7 +242,7 @@ class FailedSolution:
     """A solve that gave no number that may be used."""
 
     outcome: Outcome
-    reason: str
+    reason: Message
 
 
 def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+from netdesign.errors import ContentError
+from netdesign.words.message import Message, say
 
 # A scene, a profile's file and a set of defaults have a few kilobytes.
 MAX_TOML_BYTES = 256 * 2**10
@@ -35,7 +39,7 @@ def read_bounded(path: Path, most: int) -> bytes:
     with path.open("rb") as file:
         content = file.read(most + 1)
     if len(content) > most:
-        raise ValueError(f"is larger than {most / 2**10:,.0f} KiB")
+        raise ContentError(say("file.too_large", most=most / 2**10))
     return content
 
 
@@ -50,11 +54,11 @@ def parse_toml(content: bytes) -> dict[str, Any]:
     if max((line.count(b".") for line in content.splitlines()), default=0) > (
         _MOST_POINTS
     ):
-        raise ValueError(f"has a line with more than {_MOST_POINTS} points")
+        raise ContentError(say("file.many_points", most=_MOST_POINTS))
     try:
         return tomllib.loads(content.decode("utf-8-sig"))
     except RecursionError:
-        raise ValueError("its values are nested too deep") from None
+        raise ContentError(say("file.nested")) from None
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -78,9 +82,9 @@ def make_printable(text: str) -> str:
     return "".join(sign if sign.isprintable() or sign in kept else " " for sign in text)
 
 
-def list_faults(faults: list[str]) -> str:
+def list_faults(faults: Sequence[Message]) -> Message:
     """One fault a line; of very many the first ones and their number."""
     if len(faults) <= _MOST_FAULTS:
-        return "\n".join(faults)
-    left = len(faults) - _MOST_FAULTS
-    return "\n".join((*faults[:_MOST_FAULTS], f"and {left} more faults"))
+        return say("text.lines", lines=tuple(faults))
+    left = say("text.more_faults", count=len(faults) - _MOST_FAULTS)
+    return say("text.lines", lines=(*faults[:_MOST_FAULTS], left))

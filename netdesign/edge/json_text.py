@@ -12,6 +12,9 @@ from operator import attrgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from netdesign.errors import ContentError
+from netdesign.words.message import say
+
 if TYPE_CHECKING:  # slow to import and only needed to read a document
     from pydantic import TypeAdapter
     from pydantic_core import SchemaValidator
@@ -128,15 +131,17 @@ def read_json(shape: type, text: str) -> Any:
     """
     values = text.count(",")
     if values > MAX_VALUES or text.count("{") > MAX_OBJECTS:
-        most = f"{MAX_VALUES} values or {MAX_OBJECTS} objects"
-        raise ValueError(f"holds more than {most}")
+        raise ContentError(
+            say("file.holds_more", values=MAX_VALUES, objects=MAX_OBJECTS)
+        )
     keys = _inspect(text)
     if values <= _SMALL and len(text) <= _SMALL_TEXT:
         return _build_validator(shape).validate_json(text)
     strange = keys.symmetric_difference(field.name for field in fields(shape))
     strange -= {one.name for one in fields(shape) if one.default is not MISSING} - keys
     if strange:
-        raise ValueError(f"unknown or missing: {', '.join(sorted(strange))[:500]}")
+        shown = ", ".join(sorted(strange))[:500]
+        raise ContentError(say("file.unknown_or_missing", keys=shown))
     return _build_quick_validator(shape).validate_json(text)
 
 
@@ -147,15 +152,15 @@ def _inspect(text: str) -> set[str]:
     def note_keys(pairs: list[tuple[str, object]]) -> None:
         nonlocal last
         if len(pairs) > _MOST_KEYS:
-            raise ValueError(f"an object has more than {_MOST_KEYS} keys")
+            raise ContentError(say("file.many_keys", most=_MOST_KEYS))
         last = {key for key, _ in pairs}
         if len(last) < len(pairs):
-            raise ValueError(f"an object has a key twice, among {sorted(last)!r:.100}")
+            raise ContentError(say("file.key_twice", keys=f"{sorted(last)!r:.100}"))
 
     try:
         json.loads(text, object_pairs_hook=note_keys)
     except RecursionError:
-        raise ValueError("its values are nested too deep") from None
+        raise ContentError(say("file.nested")) from None
     except json.JSONDecodeError:
         return set()  # the validator says where
     return last

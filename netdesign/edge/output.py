@@ -10,7 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from netdesign.edge.causes import explain_system, explain_with_file
 from netdesign.errors import OutputError
+from netdesign.words.message import say
 
 _OLD = ".old"
 _RANDOM_END = re.compile(r"\.[a-z0-9_]{8}(\.old)?")  # what mkstemp adds to a name
@@ -37,7 +39,9 @@ def require_free(paths: list[Path], *, overwrite: bool, may_force: bool = True) 
         _require_files(paths)
         _require_free(paths, overwrite=overwrite, may_force=may_force)
     except OSError as error:
-        raise OutputError(f"{error.filename}: {error.strerror}") from error
+        raise OutputError(
+            say("text.at_place", place=str(error.filename), text=explain_system(error))
+        ) from error
 
 
 def _require_files(paths: list[Path]) -> None:
@@ -47,24 +51,21 @@ def _require_files(paths: list[Path]) -> None:
     """
     for path in paths:
         if path.exists() and not path.is_file():
-            raise OutputError(
-                f"{path} is there and is no file: choose another place for the output"
-            )
+            raise OutputError(say("output.not_a_file", path=str(path)))
 
 
 def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> None:
-    taken = [str(path) for path in paths if path.exists()]
+    taken = tuple(str(path) for path in paths if path.exists())
+    if taken and not overwrite and may_force:
+        raise OutputError(say("output.exists_force", paths=taken))
     if taken and not overwrite:
-        advice = "use --force to overwrite, or " if may_force else ""
-        raise OutputError(
-            f"exists already: {', '.join(taken)}; {advice}choose another place"
-        )
+        raise OutputError(say("output.exists", paths=taken))
     for folder in {path.parent for path in paths}:
         nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
         if not nearest.is_dir():
-            raise OutputError(f"{nearest} is not a folder: choose another place")
+            raise OutputError(say("output.no_folder", path=str(nearest)))
         if not os.access(nearest, os.W_OK):
-            raise OutputError(f"{nearest} cannot be written to: choose another place")
+            raise OutputError(say("output.not_writable", path=str(nearest)))
 
 
 def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
@@ -90,7 +91,9 @@ def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
                 _remove_leftovers(contents)
             _exchange(contents)
     except OSError as error:
-        raise OutputError(f"cannot write: {error}") from error
+        raise OutputError(
+            say("output.cannot_write", cause=explain_with_file(error))
+        ) from error
 
 
 @contextmanager

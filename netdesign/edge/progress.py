@@ -7,8 +7,11 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
+
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 _LATER_CASES = 6  # of a row that a search has to go on with
 _ENOUGH = 3  # cases from which a phase is timed by itself
@@ -53,27 +56,29 @@ class Phase:
 
     Attributes
     ----------
-    key, words : str
-        Its name, for programs and for people.
+    key : str
+        Its name, for programs.
+    words : Message
+        Its name, for people.
     cases, most : int
         About so many solves; ``most`` has room for the largest number seen.
     cost : float
         Time of one over that of a steady case in one process [-].
     pieces : int
         Checks, or whatever else of it is counted; 0 where cases are all there is.
-    unit : str
+    unit : Message
         What a piece is called, in the plural.
     seconds : float
         What it takes besides solves [s].
     """
 
     key: str
-    words: str
+    words: Message | str
     cases: int
     most: int = 0
     cost: float = 1.0
     pieces: int = 0
-    unit: str = "checks"
+    unit: Message = field(default_factory=lambda: say("progress.checks"))
     seconds: float = 0.0
 
 
@@ -82,31 +87,45 @@ class Standing:
     """Where a run stands.
 
     ``open`` counts the solves of this phase and all later ones, as far as they can be
-    known: never 0 while there may be another. ``seconds`` is None as long as nothing
-    is known of it; ``stage`` changes with what a plain line is worth.
+    known: never 0 while there may be another. ``words`` are the phase and what else
+    is known of it. ``seconds`` is None as long as nothing is known of them; ``stage``
+    changes with what a plain line is worth.
     """
 
     done: int
     open: int
-    words: str
-    stage: str
+    words: tuple[Message | str, ...]
+    stage: Message | str
     seconds: float | None
 
     @property
-    def count(self) -> str:
+    def count(self) -> Message:
         """``40 solved, about 90 to go``."""
-        to_go = f", about {self.open} to go" if self.open else ""
-        return f"{self.done} solved{to_go}"
+        if not self.open:
+            return say("progress.solved", done=self.done)
+        return say("progress.solved_to_go", done=self.done, open=self.open)
 
     @property
-    def left(self) -> str:
-        """``about 12 s left``; "" as long as nothing is known of it."""
-        return "" if self.seconds is None else f"about {self.seconds:.0f} s left"
+    def left(self) -> tuple[Message, ...]:
+        """``about 12 s left``; nothing as long as nothing is known of it."""
+        known = self.seconds is not None
+        return (say("progress.left", seconds=self.seconds or 0.0),) if known else ()
+
+    @property
+    def line(self) -> Message:
+        """``search: 40 solved, about 90 to go; gap 2 %; about 12 s left``."""
+        phase, *rest = self.words
+        parts = (self.count, *rest, *self.left)
+        return say("progress.line", phase=phase, parts=parts)
+
+    @property
+    def bar(self) -> Message:
+        """What stands beside a bar: what matters least last, where it may be cut."""
+        return say("progress.bar", parts=(self.count, *self.left, *self.words))
 
     def __str__(self) -> str:
-        """``search: 40 solved, about 90 to go; gap 2 %; about 12 s left``."""
-        head, _, rest = self.words.partition("; ")
-        return "; ".join(filter(None, (f"{head}: {self.count}", rest, self.left)))
+        """The line in English."""
+        return str(self.line)
 
 
 class SearchWave(Protocol):
@@ -147,7 +166,8 @@ class RunProgress:
     def _begin(self) -> None:
         self._began, self._before = self._clock(), self._done
         self._expected, self._pieces = self._phase.cases, 0
-        self._words, self._stage = "", self._phase.key
+        self._words: tuple[Message, ...] = ()
+        self._stage: Message | str = self._phase.key
 
     def enter(self, key: str) -> None:
         """A phase begins, if it is one of those to come; there is no way back."""
@@ -180,11 +200,9 @@ class RunProgress:
         """A wave of a search is over."""
         later = wave.cases_waiting + _LATER_CASES * wave.rows_open
         self._expected = self._done_here + later
-        gap = (
-            f"gap {100 * wave.gap:.2g} %" if math.isfinite(wave.gap) else "no bound yet"
-        )
-        self._words = f"{gap}, {wave.rows_open} rows open" if wave.rows_open else ""
-        self._stage = self._words or self._stage  # that a search is over is not news
+        self._words = (_name_gap(wave),) if wave.rows_open else ()
+        if self._words:  # that a search is over is not news
+            self._stage = self._words[0]
         self._tell()
 
     @property
@@ -228,22 +246,34 @@ class RunProgress:
         left = self._count_left()
         later = sum(one.cases for one in self._phases[self._place + 1 :])
         is_last = self._place == len(self._phases) - 1
-        phase, words = self._phase, [self._words]
+        phase, words = self._phase, self._words
         if phase.pieces:
-            words.append(f"{self._pieces} of {phase.pieces} {phase.unit}")
+            words = (*words, _name_pieces(self._pieces, phase))
         self._show(
             Standing(
                 done=self._done,
                 open=max(left + later, 0 if is_last else 1),
-                words="; ".join([phase.words, *filter(None, words)]),
+                words=(phase.words, *words),
                 stage=self._stage,
                 seconds=self._estimate_seconds(left),
             )
         )
 
 
+def _name_gap(wave: SearchWave) -> Message:
+    if not math.isfinite(wave.gap):
+        return say("progress.no_bound", rows=wave.rows_open)
+    return say("progress.gap", gap=100 * float(wave.gap), rows=wave.rows_open)
+
+
+def _name_pieces(done: int, phase: Phase) -> Message:
+    return say("progress.pieces", done=done, all=phase.pieces, unit=phase.unit)
+
+
 @contextmanager
-def show_phases(phases: Sequence[Phase], *, quiet: bool) -> Iterator[RunProgress]:
+def show_phases(
+    phases: Sequence[Phase], *, quiet: bool, language: Language = "en"
+) -> Iterator[RunProgress]:
     """Progress of a run of several phases, the last of which solves nothing."""
     if quiet:
         yield RunProgress(phases, lambda _: None)
@@ -254,7 +284,7 @@ def show_phases(phases: Sequence[Phase], *, quiet: bool) -> Iterator[RunProgress
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield RunProgress(phases, _write_lines())
+        yield RunProgress(phases, _write_lines(language=language))
         return
     text = Column(no_wrap=True, overflow="ellipsis", ratio=1)
     columns = (
@@ -266,29 +296,28 @@ def show_phases(phases: Sequence[Phase], *, quiet: bool) -> Iterator[RunProgress
         task = progress.add_task("", total=sum(phase.cases for phase in phases))
 
         def show(standing: Standing) -> None:
-            # what matters least stands last, where a narrow terminal cuts it
-            told = (standing.count, standing.left, standing.words)
             progress.update(
                 task,
                 completed=standing.done,
                 total=standing.done + standing.open,
-                description="; ".join(filter(None, told)),
+                description=render(standing.bar, language),
             )
 
         yield RunProgress(phases, show)
 
 
 def _write_lines(
-    clock: Callable[[], float] = time.monotonic,
+    clock: Callable[[], float] = time.monotonic, language: Language = "en"
 ) -> Callable[[Standing], None]:
     """One line for each stage, and between them before anybody wonders."""
-    last, told = "", clock()
+    last: Message | str = ""
+    told = clock()
 
     def show(standing: Standing) -> None:
         nonlocal last, told
         is_new = standing.stage != last and standing.done > 0
         if is_new or clock() - told >= _SILENCE_S:
             last, told = standing.stage, clock()
-            sys.stderr.write(f"{standing}\n")
+            sys.stderr.write(f"{render(standing.line, language)}\n")
 
     return show

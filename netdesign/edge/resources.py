@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from netdesign.errors import NetDesignError
+from netdesign.words.message import say
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -18,4 +19,4 @@ def find_resource(name: str) -> Path:
     for candidate in (_PACKAGE / "_data" / name, _PACKAGE.parent / name):
         if candidate.is_dir():
             return candidate
-    raise NetDesignError(f"the installation lacks its folder '{name}': install again")
+    raise NetDesignError(say("program.folder_missing", name=name))

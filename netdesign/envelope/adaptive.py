@@ -31,6 +31,7 @@ from netdesign.envelope.upper_bound import (
 )
 from netdesign.errors import ModelError
 from netdesign.guards import require_count, require_within
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Point = tuple[float, ...]
@@ -195,7 +196,7 @@ def search_maxima(
     """
     if not 1 <= dimension <= MOST_PARAMETERS:
         raise ModelError(
-            f"{dimension} parameters: an envelope takes 1 to {MOST_PARAMETERS}"
+            say("envelope.parameters", count=dimension, most=MOST_PARAMETERS)
         )
     points = list_first_design(dimension)
     values = list((yield points))

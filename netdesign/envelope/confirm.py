@@ -15,6 +15,7 @@ from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.search import Confirmation, RowEnvelope, build_point_task
+from netdesign.words.message import say
 
 # In which any snow comes to rest, or never does [s]: a thousand years.
 _LONGEST = 1e3 * 365.25 * 86400.0
@@ -114,7 +115,8 @@ def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
     case.
     """
     if not history.is_converged:
-        return replace(history, reason=f"history of a governing case: {history.reason}")
+        reason = say("envelope.history_failed", reason=history.reason or "")
+        return replace(history, reason=reason)
     compared = Compared(steady=steady, history=history)
     forces = {member: _take_demand(compared, member) for member in steady.member_forces}
     raised = any(compared.exceeds(member) for member in forces)

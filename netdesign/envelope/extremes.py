@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from netdesign.checks.result import Band
 from netdesign.envelope.run import CaseResult
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -41,15 +42,20 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
     }
 
 
-def describe_gap(results: Sequence[CaseResult]) -> str:
-    """Why the extremes do not cover every case; "" if they do."""
+def describe_gap(results: Sequence[CaseResult]) -> Message | None:
+    """Why the extremes do not cover every case; None if they do."""
     failed = [result for result in results if not result.is_converged]
     if not results:
-        return "no case was given"
+        return say("envelope.no_case")
     if not failed:
-        return ""
-    reasons = sorted({result.reason for result in failed})
-    return f"{len(failed)} of {len(results)} cases failed ({'; '.join(reasons)})"
+        return None
+    reasons = {str(one.reason): one.reason for one in failed if one.reason is not None}
+    return say(
+        "envelope.failed_cases",
+        failed=len(failed),
+        count=len(results),
+        reasons=tuple(reasons[text] for text in sorted(reasons)),
+    )
 
 
 def find_extreme(member: str, results: Sequence[CaseResult]) -> Extreme:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.errors import ModelError
+from netdesign.words.message import say
 
 _USUAL_COUNT = 3  # of a range without a count, beside one with a count
 
@@ -27,14 +28,11 @@ class Interval:
     def __post_init__(self) -> None:
         """Refuse reversed and endless ranges, and samples that leave an end out."""
         if not -math.inf < self.low <= self.high < math.inf:
-            raise ModelError(
-                f"range {self.low!r} to {self.high!r}: must run from a finite low end "
-                "to a finite high end"
-            )
+            raise ModelError(say("envelope.range_ends", low=self.low, high=self.high))
         if self.count is None:
             return
         if self.count < 1 or (self.count == 1 and self.low != self.high):
-            raise ModelError(f"range with {self.count} samples: at least 2 are needed")
+            raise ModelError(say("envelope.range_samples", count=self.count))
 
     @property
     def samples(self) -> tuple[float, ...]:

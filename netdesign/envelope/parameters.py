@@ -13,6 +13,7 @@ from netdesign.envelope.grid import Case, Interval
 from netdesign.errors import ModelError
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,12 +38,9 @@ class Parameter:
 def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
         if name == "density" and scene.snowpack.layers:
-            raise ModelError(
-                "density: layered snow has no single density to range over; give "
-                "snow.density_kg_m3 instead of snow.layers"
-            )
+            raise ModelError(say("envelope.layered_density"))
         if name == "thickness" and scene.snowpack.layers:
-            raise ModelError("thickness: that of layered snow is the sum of its layers")
+            raise ModelError(say("envelope.layered_thickness"))
         pack: Snowpack = replace(scene.snowpack, **{name: value})  # type: ignore[arg-type]
         return replace(scene, snowpack=pack)
 
@@ -52,7 +50,7 @@ def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
 def _put_net(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
         if not isinstance(scene.net, Net):
-            raise ModelError(f"{name}: a rigid wall has no envelope; it needs a net")
+            raise ModelError(say("envelope.wall_parameter", name=name))
         return replace(scene, net=replace(scene.net, **{name: value}))
 
     return put
@@ -99,8 +97,11 @@ class Box:
         known = [name for name in PARAMETERS if name in names]
         if sorted(names) != sorted(known):
             raise ModelError(
-                f"ranges of {', '.join(names)}: accepted are {', '.join(PARAMETERS)}, "
-                "each once"
+                say(
+                    "envelope.unknown_ranges",
+                    names=tuple(names),
+                    known=tuple(PARAMETERS),
+                )
             )
         order = list(PARAMETERS)
         ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
@@ -125,7 +126,7 @@ def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
     """Case of a scene with some values of its own."""
     net = scene.net
     if not isinstance(net, Net):
-        raise ModelError("net: a rigid wall has no envelope; it needs a net of cables")
+        raise ModelError(say("envelope.wall"))
     base = {
         "density": scene.snowpack.density,
         "friction_angle": net.friction_angle,
@@ -159,13 +160,13 @@ def require_valid(scene: Scene, box: Box) -> None:
         With every distinct reason.
     """
     count = len(box.axes)
-    reasons: dict[str, None] = {}
+    reasons: dict[Message, None] = {}
     for point in [*product((0.0, 1.0), repeat=count), (0.5,) * count]:
         if point == (0.5,) * count and reasons:
             continue  # a corner has said why already
         try:
             place_scene(scene, box.place(point))
         except ModelError as error:
-            reasons.setdefault(str(error))
+            reasons.setdefault(error.message)
     if reasons:
-        raise ModelError("\n".join(reasons))
+        raise ModelError(say("text.lines", lines=tuple(reasons)))

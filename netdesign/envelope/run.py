@@ -20,6 +20,7 @@ from netdesign.solving.solve import Settings
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +34,7 @@ class CaseTask:
 
     case: Case
     scene: Scene | None
-    refusal: str
+    refusal: Message | None
     layout: SupportLayout | None
     settings: Settings
 
@@ -65,7 +66,7 @@ class CaseResult:
 
     case: Case
     outcome: Outcome
-    reason: str = ""
+    reason: Message | None = None
     member_forces: dict[str, Band]
     anchors: AnchorForces | None = None
     solution: SolvedState | None = None
@@ -249,15 +250,16 @@ def build_task(
     settings: Settings,
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
-    scene, refusal = None, ""
+    scene: Scene | None = None
+    refusal: Message | None = None
     try:
         scene = build_scene(case)
     except ModelError as error:
-        refusal = str(error)
+        refusal = error.message
     return CaseTask(
         case=case, scene=scene, refusal=refusal, layout=layout, settings=settings
     )
 
 
-def _failed(task: CaseTask, outcome: Outcome, reason: str) -> CaseResult:
+def _failed(task: CaseTask, outcome: Outcome, reason: Message | None) -> CaseResult:
     return CaseResult(case=task.case, outcome=outcome, reason=reason, member_forces={})

@@ -12,6 +12,7 @@ from netdesign.envelope.store import CaseStore, name_case, name_search
 from netdesign.envelope.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.fault import Fault
 from netdesign.outcome import Outcome
+from netdesign.words.message import Message, say
 
 
 @dataclass(slots=True, kw_only=True)
@@ -37,7 +38,7 @@ class Runner:
         Called after each distinct case of a call, from the store or new.
     on_ask : callable
         Called with the cases that are about to be solved.
-    say : callable
+    tell : callable
         Takes what the user should know.
     counts : Counts
         Of all calls so far.
@@ -50,7 +51,7 @@ class Runner:
     store: CaseStore | None = None
     on_done: Callable[[object], None] = lambda _: None
     on_ask: Callable[[Sequence[Job]], None] = lambda _: None
-    say: Callable[[str], None] = lambda _: None
+    tell: Callable[[Message], None] = lambda _: None
     counts: Counts = field(default_factory=Counts)
     faults: dict[Fault, set[str]] = field(default_factory=dict)
 
@@ -141,7 +142,7 @@ class Runner:
 
     def _give_up(self, error: sqlite3.Error) -> None:
         """A store that fails under way costs its use, not the run."""
-        self.say(f"the store of cases failed ({error}); going on without it")
+        self.tell(say("store.failed", cause=str(error)))
         self.store = None
 
 

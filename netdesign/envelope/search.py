@@ -42,6 +42,7 @@ from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import Batch, Ends
 from netdesign.solving.solve import Settings
 from netdesign.structure.layout import SupportLayout
+from netdesign.words.message import Message, say
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.5
@@ -137,25 +138,23 @@ class RowEnvelope:
     skips_tested: int
 
     @property
-    def gap(self) -> str:
-        """Why the maxima do not cover every case; "" if they do."""
+    def gap(self) -> Message | None:
+        """Why the maxima do not cover every case; None if they do."""
         failed = describe_gap(self.results) or self._describe_unconfirmed()
         if failed or self.maxima.is_closed:
             return failed
-        return (
-            f"after {len(self.results)} cases a force between them could still exceed "
-            "the largest one by more than the gap asked for"
-        )
+        return say("envelope.may_exceed", count=len(self.results))
 
-    def _describe_unconfirmed(self) -> str:
-        """Which governing case could not be solved again; "" if all could."""
+    def _describe_unconfirmed(self) -> Message | None:
+        """Which governing case could not be solved again; None if all could."""
         for one in self.confirmations:
             if not one.confirmed.is_converged:
-                return (
-                    f"the governing case of {one.member} could not be solved again "
-                    f"({one.confirmed.reason})"
+                return say(
+                    "envelope.unconfirmed",
+                    member=say(f"envelope_member.{one.member}"),
+                    reason=one.confirmed.reason or "",
                 )
-        return ""
+        return None
 
     def hidden(self, member: str) -> float:
         """How much larger a member's force may be between the cases [N]."""

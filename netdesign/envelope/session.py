@@ -9,6 +9,7 @@ from pathlib import Path
 from netdesign.envelope.runner import Runner
 from netdesign.envelope.store import CaseStore, StoreError
 from netdesign.envelope.workers import build_workers
+from netdesign.words.message import Message, say
 
 
 @contextmanager
@@ -17,7 +18,7 @@ def open_runner(
     executor: str,
     processes: int,
     store: Path | None,
-    say: Callable[[str], None],
+    tell: Callable[[Message], None],
 ) -> Iterator[Runner]:
     """Runner for the time of a ``with``.
 
@@ -29,7 +30,7 @@ def open_runner(
         On this machine.
     store : Path or None
         File of the finished cases; None keeps none.
-    say : callable
+    tell : callable
         Takes what the user should know, for instance that there can be no store.
 
     Raises
@@ -43,7 +44,7 @@ def open_runner(
         kept: CaseStore | None = None
         if store is not None:
             try:
-                kept = stack.enter_context(CaseStore(store, say))
+                kept = stack.enter_context(CaseStore(store, tell))
             except StoreError as error:
-                say(f"{error}; going on without it")
-        yield Runner(workers=workers, store=kept, say=say)
+                tell(say("store.going_on", reason=error.message))
+        yield Runner(workers=workers, store=kept, tell=tell)

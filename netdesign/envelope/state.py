@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from netdesign.coupling.solution import Balance, EndPull, Solution
 from netdesign.fault import Fault
 from netdesign.outcome import Outcome
+from netdesign.words.message import Message, dump, restore
 
 Floats = NDArray[np.float64]
 # Distance from the net's foot over that of its head. Cases that slip only so far move
@@ -103,7 +104,7 @@ class CaseEnd:
     """
 
     outcome: Outcome
-    reason: str = ""
+    reason: Message | None = None
     state: SolvedState | None = None
     fault: Fault | None = None
 
@@ -132,13 +133,14 @@ def keep_state(solution: Solution) -> SolvedState:
 
 def encode_end(end: CaseEnd) -> tuple[str, bytes]:
     """Text and bytes from which ``decode_end`` makes the very same value."""
+    reason = None if end.reason is None else dump(end.reason)
     if end.state is None:
-        return json.dumps({"outcome": end.outcome.value, "reason": end.reason}), b""
+        return json.dumps({"outcome": end.outcome.value, "reason": reason}), b""
     state = end.state
     arrays = [np.ascontiguousarray(getattr(state, name)) for name, _ in _SHAPE_ARRAYS]
     numbers = {
         "outcome": end.outcome.value,
-        "reason": end.reason,
+        "reason": reason,
         "method": state.method,
         "foot": asdict(state.foot),
         "head": asdict(state.head),
@@ -164,7 +166,8 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         If the two are not what ``encode_end`` wrote.
     """
     numbers: dict[str, Any] = json.loads(text)
-    outcome, reason = Outcome(numbers["outcome"]), str(numbers["reason"])
+    outcome, given = Outcome(numbers["outcome"]), numbers["reason"]
+    reason = None if given is None else restore(given)
     if outcome is not Outcome.CONVERGED:
         return CaseEnd(outcome=outcome, reason=reason)
     state = SolvedState(

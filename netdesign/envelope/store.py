@@ -23,10 +23,12 @@ from types import TracebackType
 from typing import Any
 
 from netdesign import __version__
+from netdesign.edge.causes import explain
 from netdesign.envelope.known_search import KnownSearch, decode_search, encode_search
 from netdesign.envelope.state import CaseEnd, decode_end, encode_end
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
+from netdesign.words.message import Message, say
 
 _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
@@ -123,14 +125,14 @@ def _describe(value: Any) -> Any:
 class CaseStore:
     """Finished cases in one file; use it in a ``with``."""
 
-    def __init__(self, path: Path, say: Callable[[str], None]) -> None:
+    def __init__(self, path: Path, tell: Callable[[Message], None]) -> None:
         """Open or build the file.
 
         Parameters
         ----------
         path : Path
             The file; its folder is made.
-        say : callable
+        tell : callable
             Takes what the user should know: a store that had to be set aside.
 
         Raises
@@ -138,18 +140,23 @@ class CaseStore:
         StoreError
             If there can be no file at that place.
         """
-        self._path, self._say = path, say
+        self._path, self._tell = path, tell
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             fault = self._open()
             if fault:
                 aside = _set_aside(path)
-                say(f"{path}: {fault}; set aside as {aside.name}, a new one is begun")
+                told = say(
+                    "store.set_aside", path=str(path), fault=fault, aside=aside.name
+                )
+                tell(told)
                 fault = self._open()
         except (OSError, sqlite3.Error) as error:
-            raise StoreError(f"{path}: no store of cases here: {error}") from None
+            raise StoreError(
+                say("store.unusable", path=str(path), cause=explain(error))
+            ) from None
         if fault:
-            raise StoreError(f"{path}: no store of cases here: {fault}")
+            raise StoreError(say("store.unusable", path=str(path), cause=fault))
 
     def __enter__(self) -> CaseStore:
         """Return the open store."""
@@ -164,8 +171,8 @@ class CaseStore:
         """Close the file."""
         self._base.close()
 
-    def _open(self) -> str:
-        """Connect; why the file there cannot be used, or ""."""
+    def _open(self) -> Message | None:
+        """Connect; why the file there cannot be used, or None."""
         self._base = sqlite3.connect(self._path, timeout=_BUSY_S, isolation_level=None)
         try:
             self._base.execute("PRAGMA journal_mode = WAL")
@@ -175,15 +182,15 @@ class CaseStore:
             self._base.close()
             raise  # locked, read-only, full: the file itself may be sound
         except sqlite3.DatabaseError as error:
-            fault = f"is damaged ({error})"
+            fault = say("store.damaged", cause=str(error))
         if fault:
             self._base.close()
         return fault
 
-    def _prepare(self) -> str:
+    def _prepare(self) -> Message | None:
         base, version = self._base, identify_solver()
         if base.execute("PRAGMA quick_check").fetchone() != ("ok",):
-            return "is damaged"
+            return say("store.is_damaged")
         base.execute("BEGIN IMMEDIATE")
         tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master")}
         if not tables:
@@ -199,12 +206,12 @@ class CaseStore:
             )
         base.execute("COMMIT")
         if tables and not {"origin", "cases"} <= tables:
-            return "is no store of cases"
+            return say("store.not_a_store")
         origin = base.execute("SELECT layout, solver FROM origin").fetchone()
         if origin != (_LAYOUT, version):
             solver = origin[1] if origin else "?"
-            return f"belongs to version {solver} of the solver, this is {version}"
-        return ""
+            return say("store.other_version", theirs=solver, ours=version)
+        return None
 
     def find(self, names: Iterable[str]) -> dict[str, CaseEnd]:
         """Known cases among the names; a damaged entry is told and left out."""
@@ -219,11 +226,14 @@ class CaseStore:
             for name, numbers, shape, seal in self._base.execute(query, part):
                 end = _unseal(name, numbers, shape, seal)
                 if end is None:
-                    self._say(f"{self._path}: case {name[:12]} is damaged, solved anew")
+                    self._tell_damaged("store.case_damaged", name)
                     self._base.execute("DELETE FROM cases WHERE name = ?", (name,))
                 else:
                     found[name] = end
         return found
+
+    def _tell_damaged(self, key: str, name: str) -> None:
+        self._tell(say(key, path=str(self._path), name=name[:12]))
 
     def keep(self, name: str, end: CaseEnd) -> None:
         """Store one finished case, in a transaction of its own."""
@@ -242,7 +252,7 @@ class CaseStore:
             with suppress(ValueError, KeyError, TypeError):
                 if _seal(name, text) == seal:
                     return decode_search(text)
-            self._say(f"{self._path}: search {name[:12]} is damaged, made anew")
+            self._tell_damaged("store.search_damaged", name)
         return None
 
     def keep_search(self, name: str, known: KnownSearch) -> None:

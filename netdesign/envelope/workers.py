@@ -31,9 +31,10 @@ from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
+from netdesign.words.message import say
 
-DIED = "a worker process ended abruptly"
-NO_MEMORY = "a worker process had not enough memory"
+DIED = say("worker.died")
+NO_MEMORY = say("worker.no_memory")
 _AHEAD = 2  # batches in the hands of a pool, for each of its processes
 _WORTH_A_POOL = 60  # jobs of a wave; starting processes takes as long as these
 _REACH_S = 5.0  # how long a cluster may take to answer
@@ -80,7 +81,7 @@ def solve_job(job: Job) -> CaseEnd:
     except SolveError as error:
         return CaseEnd(outcome=error.outcome, reason=error.reason)
     except ModelError as error:
-        return CaseEnd(outcome=Outcome.OUT_OF_VALIDITY, reason=str(error))
+        return CaseEnd(outcome=Outcome.OUT_OF_VALIDITY, reason=error.message)
     except MemoryError:
         return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=NO_MEMORY)
     if isinstance(end, Fault):
@@ -95,18 +96,18 @@ def _solve(job: Job) -> CaseEnd:
     if isinstance(solution, WallSolution):
         return CaseEnd(
             outcome=Outcome.OUT_OF_VALIDITY,
-            reason="a rigid wall has no net whose forces could be followed",
+            reason=say("worker.wall"),
         )
     history = solution.history
     if history is not None and not history.plateau.reached:
         return CaseEnd(
             outcome=Outcome.PLATEAU_NOT_REACHED,
-            reason=history.ended or Outcome.PLATEAU_NOT_REACHED.sentence,
+            reason=history.ended or Outcome.PLATEAU_NOT_REACHED.message,
         )
     state = keep_state(solution)
     if not state.is_finite:
-        return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.sentence)
-    reason = RELEASED if solution.is_released else ""
+        return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.message)
+    reason = RELEASED if solution.is_released else None
     return CaseEnd(outcome=Outcome.CONVERGED, reason=reason, state=state)
 
 
@@ -205,10 +206,7 @@ class DaskCluster:
         try:
             from distributed import Client
         except ImportError:
-            raise ClusterError(
-                f"--executor dask://{address}: needs the extra: "
-                "pip install 'netdesign[dask]'"
-            ) from None
+            raise ClusterError(say("cluster.needs_extra", address=address)) from None
         _require_answer(address)
         self._address = address
         # what Dask logs of a lost connection is told by a ClusterError
@@ -225,13 +223,7 @@ class DaskCluster:
         others = {v for v in versions.values() if v != identify_solver()}
         if others or not versions:
             self.close()
-            fault = (
-                f"workers have {', '.join(sorted(others))}" if others else "no worker"
-            )
-            raise ClusterError(
-                f"--executor dask://{address}: {fault}; needed are workers with "
-                f"version {identify_solver()} of the solver"
-            )
+            raise _refuse_versions(address, tuple(sorted(others)))
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches; those lost with a worker are tried again job by job.
@@ -292,10 +284,7 @@ class DaskCluster:
             time.sleep(_POLL_S)
             if time.monotonic() - last_seen > _DESERTED_S:
                 if not self._client.scheduler_info()["workers"]:
-                    raise ClusterError(
-                        f"the Dask cluster has had no worker for {_DESERTED_S:.0f} s; "
-                        "finished cases are kept: start workers and run again"
-                    )
+                    raise ClusterError(say("cluster.deserted", seconds=_DESERTED_S))
                 last_seen = time.monotonic()
 
     def close(self) -> None:
@@ -314,7 +303,7 @@ def build_workers(executor: str, processes: int) -> Workers:
     if executor.startswith("dask://") and len(executor) > len("dask://"):
         return DaskCluster(executor.removeprefix("dask://"))
     if executor:
-        raise ClusterError(f"--executor {executor}: accepted is dask://HOST:PORT")
+        raise ClusterError(say("cluster.accepted", executor=executor))
     return OwnProcess() if processes == 1 else ProcessPool(processes)
 
 
@@ -328,7 +317,7 @@ def _require_answer(address: str) -> None:
     """
     host, _, port = address.removeprefix("tcp://").rpartition(":")
     if not (host and port.isascii() and port.isdecimal() and int(port) < _PORTS):
-        raise ClusterError(f"--executor dask://{address}: accepted is dask://HOST:PORT")
+        raise ClusterError(say("cluster.accepted", executor=f"dask://{address}"))
     try:
         socket.create_connection((host.strip("[]"), int(port)), _REACH_S).close()
     except (OSError, ValueError) as error:
@@ -345,16 +334,22 @@ def _naming_loss(address: str) -> Iterator[None]:
         yield
     except (CancelledError, CommClosedError) as error:
         raise ClusterError(
-            f"--executor dask://{address}: the connection to the Dask scheduler is "
-            f"lost ({type(error).__name__}); finished cases are kept: start it, or "
-            "leave the option out, and run again"
+            say("cluster.lost", address=address, kind=type(error).__name__)
         ) from None
 
 
 def _name_silence(address: str, error: Exception) -> ClusterError:
     return ClusterError(
-        f"--executor dask://{address}: no Dask scheduler answers there "
-        f"({type(error).__name__}); start one, or leave the option out"
+        say("cluster.silent", address=address, kind=type(error).__name__)
+    )
+
+
+def _refuse_versions(address: str, others: tuple[str, ...]) -> ClusterError:
+    version = identify_solver()
+    if not others:
+        return ClusterError(say("cluster.no_worker", address=address, version=version))
+    return ClusterError(
+        say("cluster.other_version", address=address, found=others, version=version)
     )
 
 

@@ -15,6 +15,8 @@ from netdesign.envelope.search import Grid, RowEnvelope
 from netdesign.study.record_envelope import record_case, record_envelope
 from netdesign.study.records import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import say
 
 SCHEMA = "netdesign.envelope/1"
 # Quantity of the document for each force that is followed.
@@ -26,7 +28,7 @@ QUANTITY_KEYS = {
 
 
 def write_envelope_document(
-    envelope: RowEnvelope, counts: Counts, wall_s: float
+    envelope: RowEnvelope, counts: Counts, wall_s: float, language: Language = "en"
 ) -> tuple[dict[str, Any], EnvelopeRecord]:
     """Document and record of a searched envelope.
 
@@ -38,12 +40,14 @@ def write_envelope_document(
         Of the run.
     wall_s : float
         Time that the search took [s].
+    language : str
+        Of the reason.
     """
     record = record_envelope(envelope, tuple(QUANTITY_KEYS))
     document = {
         "schema": SCHEMA,
         "outcome": "not_proven" if envelope.gap else "bounded",
-        "reason": envelope.gap,
+        "reason": render(envelope.gap or "", language),
         "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
         "extremes": [_write_bound(envelope, bound) for bound in record.bounds],
         "cases": {
@@ -58,10 +62,7 @@ def write_envelope_document(
             "gap_asked": envelope.task.search.gap,
             "certainty": record.certainty,
             "resolved_share": record.resolved_share,
-            "rests_on": (
-                "held-out errors of the model between the cases; features narrower "
-                "than the resolved share of a range may hide"
-            ),
+            "rests_on": render(say("envelope.rests_on"), language),
         },
         "log": [_write_addition(asdict(one)) for one in record.log],
         "cost": {"wall_s": wall_s},
@@ -75,7 +76,7 @@ def write_envelope_document(
 
 
 def write_grid_document(
-    box: Box, grid: Grid, counts: Counts, wall_s: float
+    box: Box, grid: Grid, counts: Counts, wall_s: float, language: Language = "en"
 ) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
@@ -89,6 +90,8 @@ def write_grid_document(
         Of the run.
     wall_s : float
         Time that the cases took [s].
+    language : str
+        Of the reason.
     """
     results = grid.results
     reason = describe_gap(results)
@@ -96,7 +99,7 @@ def write_grid_document(
     return {
         "schema": SCHEMA,
         "outcome": "not_proven" if reason else "sampled",
-        "reason": reason,
+        "reason": render(reason or "", language),
         "ranges": {
             key: [min(values), max(values)]
             for key, values in _list_values(box, results).items()

@@ -13,6 +13,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.history.staggered import LONGEST_EXCHANGE, StaggeredSettings
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml
 from netdesign.errors import ModelError, SceneFileError
 from netdesign.snow.creep_law import (
@@ -43,6 +44,7 @@ from netdesign.units import (
     newton_from_kilonewton,
     second_from_day,
 )
+from netdesign.words.message import Message, say
 
 Method = Literal["steady", "transient", "staggered"]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -155,14 +157,21 @@ def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Setting
     try:
         tables = read_toml(path)
     except (OSError, ValueError) as error:
-        raise SceneFileError(f"{path}: cannot be read as TOML: {error}") from None
+        raise SceneFileError(
+            say("file.no_toml", file=str(path), cause=explain(error))
+        ) from None
     try:
         return build_scene(SceneFile.model_validate(tables), method)
     except ValidationError as error:
-        lines = [f"{path}: {_describe(fault)}" for fault in error.errors()]
+        lines = [
+            say("text.at_place", place=str(path), text=_describe(fault))
+            for fault in error.errors()
+        ]
         raise SceneFileError(list_faults(lines)) from None
     except ModelError as error:
-        raise SceneFileError(f"{path}: {error}") from None
+        raise SceneFileError(
+            say("text.at_place", place=str(path), text=error.message)
+        ) from None
 
 
 def build_scene(
@@ -202,7 +211,7 @@ def _snowpack(file: SceneFile) -> Snowpack:
     snow, slope = file.snow, math.radians(file.slope.angle_deg)
     thickness = _thickness(snow, slope)
     if (snow.density_kg_m3 is None) == (snow.layers is None):
-        raise ModelError("snow.density_kg_m3 and snow.layers: give exactly one of them")
+        raise ModelError(say("scene_file.density_or_layers"))
     layers = tuple(
         Layer(
             thickness=layer.thickness_m,
@@ -228,9 +237,7 @@ def _snowpack(file: SceneFile) -> Snowpack:
 
 def _thickness(snow: SnowTable, slope: float) -> float:
     if (snow.thickness_m is None) == (snow.height_vertical_m is None):
-        raise ModelError(
-            "snow.thickness_m and snow.height_vertical_m: give exactly one of them"
-        )
+        raise ModelError(say("scene_file.thickness_or_height"))
     if snow.thickness_m is not None:
         return snow.thickness_m
     return compute_thickness(snow.height_vertical_m or 0.0, slope)
@@ -240,10 +247,7 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
     if isinstance(snow.creep_law, CreepLawTable):
         given = snow.creep_law
         if given.name in CREEP_LAWS:
-            raise ModelError(
-                f"snow.creep_law.name = {given.name!r}: is a shipped set; give your "
-                "own another name"
-            )
+            raise ModelError(say("scene_file.shipped_law", name=given.name))
         return CreepLaw(
             name=given.name,
             source=given.source,
@@ -255,10 +259,12 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
             calibrated=(given.calibrated[0], given.calibrated[1]),
         )
     if snow.creep_law not in CREEP_LAWS:
-        known = ", ".join(CREEP_LAWS)
         raise ModelError(
-            f"snow.creep_law = {snow.creep_law!r}: known are {known}, or a table with "
-            "a set of your own"
+            say(
+                "scene_file.unknown_law",
+                name=snow.creep_law,
+                known=tuple(CREEP_LAWS),
+            )
         )
     return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
 
@@ -266,13 +272,10 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
 def _fluidity(snow: SnowTable) -> float:
     given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
     if given is not None and temperature is not None:
-        raise ModelError(
-            "snow.fluidity_per_MPa3_a and snow.temperature_C: give one of them at most"
-        )
+        raise ModelError(say("scene_file.fluidity_or_temperature"))
     if temperature is not None and snow.creep_exponent != FLUIDITY_EXPONENT:
         raise ModelError(
-            "snow.temperature_C: fluidity against temperature is known for creep "
-            f"exponent {FLUIDITY_EXPONENT:g} only; give snow.fluidity_per_MPa3_a"
+            say("scene_file.temperature_exponent", known=FLUIDITY_EXPONENT)
         )
     if temperature is not None:
         return compute_fluidity(kelvin_from_celsius(temperature))
@@ -285,23 +288,14 @@ def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> Groun
     slip, glide = ground.slip_length_m, ground.glide_factor
     if ground.law != "sliding":
         if slip is not None or glide is not None:
-            raise ModelError(
-                "ground.slip_length_m and ground.glide_factor belong to a sliding "
-                f"ground; ground.law is {ground.law!r}"
-            )
+            raise ModelError(say("scene_file.not_sliding", law=ground.law))
         return GroundLaw(kind=ground.law)
     if (slip is None) == (glide is None):
-        raise ModelError(
-            "ground.slip_length_m and ground.glide_factor: a sliding ground needs "
-            "exactly one of them"
-        )
+        raise ModelError(say("scene_file.slip_or_glide"))
     if slip is not None:
         return GroundLaw(kind="sliding", slip_length=slip)
     if creep_law.exponent != FLUIDITY_EXPONENT:
-        raise ModelError(
-            "ground.glide_factor: its slip lengths were measured for creep exponent 3 "
-            "only; give ground.slip_length_m"
-        )
+        raise ModelError(say("scene_file.glide_exponent"))
     return build_ground_from_glide_factor(glide or 1.0, thickness, creep_law.name)
 
 
@@ -311,14 +305,14 @@ def _net(net: NetTable, thickness: float) -> Net | Wall:
     friction = None if net.friction_deg is None else math.radians(net.friction_deg)
     if net.kind == "rigid":
         if net.stiffness_kN_per_m is not None or net.slack is not None:
-            raise ModelError("net.stiffness_kN_per_m and net.slack: a wall has none")
+            raise ModelError(say("scene_file.wall_has_none"))
         return Wall(
             height_normal=height, inclination=inclination, friction_angle=friction
         )
     if net.stiffness_kN_per_m is None:
-        raise ModelError("net.stiffness_kN_per_m: a cable needs one")
+        raise ModelError(say("scene_file.cable_stiffness"))
     if friction is None:
-        raise ModelError("net.friction_deg: a cable needs one")
+        raise ModelError(say("scene_file.cable_friction"))
     return Net(
         height_normal=height,
         inclination=inclination,
@@ -328,8 +322,8 @@ def _net(net: NetTable, thickness: float) -> Net | Wall:
     )
 
 
-def _describe(fault: Any) -> str:
-    place = ".".join(str(part) for part in fault["loc"]) or "file"
+def _describe(fault: Any) -> Message:
+    place = ".".join(map(str, fault["loc"])) or say("scene_file.whole")
     value = fault.get("input")
     shown = f" = {value!r:.100}" if isinstance(value, (str, int, float)) else ""
-    return f"{place}{shown}: {fault['msg']}"
+    return say("scene_file.fault", place=place, value=shown, fault=explain_shape(fault))

@@ -23,6 +23,8 @@ from netdesign.coupling.steady.bound import PullBound
 from netdesign.snow.fluidity import FLUIDITY_EXPONENT, PAPER_FLUIDITY
 from netdesign.solving.solve import Settings
 from netdesign.units import day_from_second, kilonewton_from_newton, mm_per_day
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 SOLUTION_SCHEMA = "netdesign.solution/1"
 _NOTED_LOSS = 0.005  # share of the snow that may go over the head unmentioned
@@ -36,16 +38,18 @@ def write_solution_document(
     settings: Settings,
     wall_s: float,
     bound: PullBound | None = None,
+    language: Language = "en",
 ) -> dict[str, Any]:
     """Solution as plain values in the form ``netdesign.solution/1``.
 
-    ``bound`` is that of a failed solution, where there is one.
+    ``bound`` is that of a failed solution, where there is one; reasons and remarks are
+    in ``language``.
     """
     if isinstance(solution, FailedSolution):
         return {
             "schema": SOLUTION_SCHEMA,
             "outcome": solution.outcome.value,
-            "reason": solution.reason,
+            "reason": render(solution.reason, language),
             **({} if bound is None else {"upper_bound": _write_bound(bound)}),
         }
     held = (
@@ -60,8 +64,8 @@ def write_solution_document(
         **held,
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": _write_velocity(solution),
-        **_write_history(solution),
-        "flags": _list_flags(solution),
+        **_write_history(solution, language),
+        "flags": [render(one, language) for one in _list_flags(solution)],
         "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
             "version": __version__,
@@ -126,7 +130,9 @@ def _write_settings(settings: Settings) -> dict[str, Any]:
     }
 
 
-def _write_history(solution: Solution | WallSolution) -> dict[str, Any]:
+def _write_history(
+    solution: Solution | WallSolution, language: Language
+) -> dict[str, Any]:
     """Null for a steady state; else the moments, the plateau and both its pulls."""
     if not isinstance(solution, Solution) or solution.history is None:
         return {"history": None}
@@ -149,7 +155,7 @@ def _write_history(solution: Solution | WallSolution) -> dict[str, Any]:
         "start": history.start,
         "densification": history.densifies,
         "fallen_over_head": history.fallen_share,
-        "ended": history.ended,
+        "ended": render(history.ended or "", language),
     }
 
 
@@ -253,7 +259,7 @@ def _write_balance(balance: Balance) -> dict[str, float]:
     }
 
 
-def _list_flags(solution: Solution | WallSolution) -> list[str]:
+def _list_flags(solution: Solution | WallSolution) -> list[Message]:
     """What a reader must know before using the numbers."""
     law = solution.scene.creep_law
     flags = _list_history_flags(getattr(solution, "history", None))
@@ -261,39 +267,29 @@ def _list_flags(solution: Solution | WallSolution) -> list[str]:
         flags.append(RELEASED)
     if not solution.scene.is_calibrated:
         low, high = law.calibrated
-        flags.append(
-            f"snow density outside the range of {low:g} to {high:g} (relative) for "
-            f"which the creep law {law.name} is given"
-        )
+        flags.append(say("solution.uncalibrated", low=low, high=high, law=law.name))
     if law.exponent != FLUIDITY_EXPONENT:
-        flags.append(
-            f"creep exponent {law.exponent:g}: a(D) and b(D) were fitted for 3 and "
-            "their branches do not meet for another"
-        )
+        flags.append(say("solution.exponent", exponent=law.exponent))
     return flags
 
 
-def _list_history_flags(history: History | None) -> list[str]:
+def _list_history_flags(history: History | None) -> list[Message]:
     if history is None:
         return []
-    flags = []
+    flags: list[Message] = []
     plateau = history.plateau
     if plateau.was_left:
         flags.append(
-            "no plateau: the forces came to rest, but drifted on as the snow settled "
-            f"and gathered at the net, by {plateau.drift:+.0%} per e-fold of time; the "
-            "pulls are those of the scene's own snow, until it had crept by "
-            f"{COUNTED_STRAIN:.0%}"
+            say(
+                "solution.plateau_left",
+                drift=float(plateau.drift or 0.0),
+                strain=COUNTED_STRAIN,
+            )
         )
     elif not plateau.reached:
-        flags.append(
-            "no plateau: the forces still change at the end of the history; nothing is "
-            "proven by it"
-        )
+        flags.append(say("solution.plateau_not_reached"))
     if history.ended:
-        flags.append(f"the history ended before its horizon: {history.ended}")
+        flags.append(say("solution.ended_early", reason=history.ended))
     if history.fallen_share > _NOTED_LOSS:
-        flags.append(
-            f"{history.fallen_share:.1%} of the snow's mass flowed over the net's head"
-        )
+        flags.append(say("solution.fell_over", share=float(history.fallen_share)))
     return flags

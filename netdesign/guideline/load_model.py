@@ -9,6 +9,7 @@ from netdesign.checks.loader import Standard
 from netdesign.errors import StandardError
 from netdesign.guards import require_positive, require_within
 from netdesign.structure.row_position import EndEffectRule
+from netdesign.words.message import say
 
 Point = tuple[float, float]
 
@@ -90,7 +91,9 @@ def read_load_model(standard: Standard) -> LoadModel:
     def read(name: str) -> float:
         value = standard.find(f"snow.{name}")
         if value is None:
-            raise StandardError(f"profile {standard.id}: has no value snow.{name}")
+            raise StandardError(
+                say("standard.no_value", profile=standard.id, value=f"snow.{name}")
+            )
         return value.value
 
     return LoadModel(

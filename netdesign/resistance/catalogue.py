@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache
@@ -11,6 +10,7 @@ from importlib.resources import files
 from typing import Any
 
 from netdesign.errors import ModelError
+from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,31 +35,33 @@ def load_catalogue() -> dict[str, Any]:
 def find_bond_stress(ground: str, grouting: str) -> Datum:
     """Least ultimate bond stress of grout on a ground [kPa], by type A to D."""
     bond = load_catalogue()["bond"]
-    ranges = pick("ground", ground, bond["ground"])
+    ranges = pick(say("catalogue.ground"), ground, bond["ground"])
     types = {name: value for name, value in ranges.items() if name != "text"}
-    least, _ = pick(f"grouting in {ground}", grouting, types)
+    least, _ = pick(say("catalogue.grouting_in", ground=ground), grouting, types)
     return Datum(value=float(least), status=bond["status"], source=bond["source"])
 
 
 def find_enlargement(soil: str) -> Datum:
     """Least ratio of the grouted to the drilled diameter [-]."""
     table = load_catalogue()["enlargement"]
-    least, _ = pick("soil", soil, table["soil"])
+    least, _ = pick(say("catalogue.soil"), soil, table["soil"])
     return Datum(value=float(least), status=table["status"], source=table["source"])
 
 
 def find_rope_factor(construction: str, factor: str) -> Datum:
     """Factor "K" of the breaking force or "C" of the metallic area of a rope [-]."""
     rope = load_catalogue()["rope"]
-    factors = pick("rope construction", construction, rope["construction"])
-    value = pick("rope factor", factor, factors)
+    factors = pick(
+        say("catalogue.rope_construction"), construction, rope["construction"]
+    )
+    value = pick(say("catalogue.rope_factor"), factor, factors)
     return Datum(value=value, status=rope["status"], source=rope["source"])
 
 
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
     table = load_catalogue()["termination"]
-    value = pick("termination", kind, list_terminations())
+    value = pick(say("catalogue.termination"), kind, list_terminations())
     return Datum(value=value, status=table["status"], source=table["source"])
 
 
@@ -72,19 +74,21 @@ def list_terminations() -> dict[str, float]:
 def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
     table = load_catalogue()["buckling"]
-    value = pick("buckling curve", curve, table["curve"])
+    value = pick(say("catalogue.buckling_curve"), curve, table["curve"])
     return Datum(value=value, status=table["status"], source=table["source"])
 
 
-def pick(what: str, name: str, known: dict[str, Any]) -> Any:
+def pick(what: Message, name: str, known: dict[str, Any]) -> Any:
     """Entry of a table; an unknown name is refused with the nearest ones."""
     if name in known:
         return known[name]
-    raise ModelError(f"{what} = {name!r}: must be one of {_list(name, known)}")
-
-
-def _list(name: str, known: Iterable[str]) -> str:
-    names = list(known)
-    near = get_close_matches(name, names, n=2)
-    nearest = f" (nearest: {', '.join(near)})" if near else ""
-    return f"{', '.join(names)}{nearest}"
+    near = tuple(get_close_matches(name, list(known), n=2))
+    raise ModelError(
+        say(
+            "catalogue.one_of",
+            what=what,
+            value=name,
+            accepted=tuple(known),
+            nearest=say("catalogue.nearest", near=near) if near else "",
+        )
+    )

@@ -8,9 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
-from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
+from netdesign.site.cells.findings import Finding, Refusal, quote
 from netdesign.site.cells.numbers import parse_number
 from netdesign.site.columns.fields import (
+    LANGUAGES,
     Field,
     Language,
     SheetPlan,
@@ -24,6 +25,7 @@ from netdesign.site.columns.unit_names import (
     normalise_unit,
 )
 from netdesign.site.readings import refuse_stored
+from netdesign.words.message import Message, say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
@@ -109,8 +111,9 @@ def find_headings(
     """
     row = _find_row(sheet, plan)
     if row is None:
-        wanted = ", ".join(quote(field.heading) for field in plan.fields[:3])
-        refusal = Refusal("has no row of headings", f"a row such as {wanted}, ...")
+        wanted = tuple(quote_title(field) for field in plan.fields[:3])
+        accepted = say("heading.such_as", headings=wanted)
+        refusal = Refusal(say("heading.no_row"), accepted)
         findings.append(sheet.finding(refusal))
         return None
     units_row = _find_units_row(sheet, plan, row, findings)
@@ -213,7 +216,8 @@ def _find_units_row(
         return None
     for cell in strangers:
         if normalise(str(cell.value)) not in _UNITS_WORDS:
-            refusal = Refusal("stands in the row of units", "units, or an empty cell")
+            rule = say("heading.in_units_row")
+            refusal = Refusal(rule, say("heading.units_or_empty"))
             findings.append(cell.finding(refusal))
     return heading_row + 1
 
@@ -252,16 +256,18 @@ def _find_columns(
         cell, field = title.cell, _match_field(title, plan)
         unclear = plan.find_unclear(title.names[-1])
         if field is None and unclear:
-            readings = " or ".join(quote(one.heading) for one in unclear)
-            refusal = Refusal(f"is ambiguous: {readings}", "one of these headings")
+            readings = tuple(quote_title(one) for one in unclear)
+            rule = say("heading.ambiguous", readings=readings)
+            refusal = Refusal(rule, say("heading.one_of_these"))
             findings.append(cell.finding(refusal))
             claimed |= {one.key for one in unclear}
         elif field is None:
             unknown.append(cell)
         elif field.key in columns:
             first = name_column(columns[field.key].number)
-            rule = f'names "{field.label}" again, after column {first}'
-            findings.append(cell.finding(Refusal(rule, "one column for each quantity")))
+            rule = say("heading.twice", name=field.name, column=first)
+            refusal = Refusal(rule, say("heading.one_column"))
+            findings.append(cell.finding(refusal))
         else:
             below = sheet.cell(units_row, cell.column) if units_row else None
             example = sheet.cell(first_data_row, cell.column)
@@ -281,13 +287,31 @@ def _judge_unknown(cell: Cell, plan: SheetPlan, missing: list[Field]) -> Finding
     names = {known: field for field in missing for known in field.names}
     close = difflib.get_close_matches(name, names, n=1, cutoff=_MISSPELT)
     if close:
-        meant = quote(names[close[0]].heading)
-        rule = f"is no known heading, but close to {meant}, which is missing"
-        return cell.finding(Refusal(rule, f"{meant}, or a name quite unlike it"))
-    headings = [field.heading for field in plan.fields]
-    accepted = add_nearest("a known heading", str(cell.value), headings)
-    refusal = Refusal("is no known heading: the column is not read", accepted)
+        meant = quote_title(names[close[0]])
+        rule = say("heading.close_to_missing", meant=meant)
+        return cell.finding(Refusal(rule, say("heading.or_unlike", meant=meant)))
+    refusal = Refusal(say("heading.unknown"), _name_nearest(str(cell.value), plan))
     return cell.finding(refusal, severity="note")
+
+
+def quote_title(field: Field) -> Message:
+    """Heading of a field in quotes."""
+    return say("finding.in_quotes", text=field.title)
+
+
+def _name_nearest(text: str, plan: SheetPlan) -> Message:
+    """A known heading, with those whose names in any language are near to a text."""
+    known = {
+        field.heading_for(language): field
+        for language in LANGUAGES
+        for field in plan.fields
+    }
+    near = difflib.get_close_matches(text, known, n=3)
+    titles = {known[name].key: quote_title(known[name]) for name in near}
+    accepted = say("heading.known")
+    if not titles:
+        return accepted
+    return say("finding.nearest", accepted=accepted, near=tuple(titles.values()))
 
 
 def _find_unit(
@@ -304,8 +328,8 @@ def _find_unit(
     if below is not None and not below.is_blank:
         unit_below, _ = _read_unit(below)
         if unit not in ("", unit_below):
-            rule = f"is another unit than that of the heading, {quote(cell.text)}"
-            findings.append(below.finding(Refusal(rule, "one unit")))
+            rule = say("heading.other_unit", heading=quote(cell.text))
+            findings.append(below.finding(Refusal(rule, say("accepted.one_unit"))))
             return None
         unit, cell = unit_below, below
     if not unit and "-" in field.units:
@@ -315,39 +339,52 @@ def _find_unit(
     rule = _describe_missing_unit(example, field)
     if unit:
         unclear = UNCLEAR_UNITS.get(unit)
-        rule = f"is ambiguous: {unclear}" if unclear else "has an unknown unit"
-    accepted = " or ".join(f"[{unit}]" for unit in field.units)
-    findings.append(cell.finding(Refusal(rule, accepted), field.label))
+        rule = (
+            say("heading.unclear_unit", readings=unclear)
+            if unclear
+            else say("heading.unknown_unit")
+        )
+    refusal = Refusal(rule, name_units(field))
+    findings.append(cell.finding(refusal, field.name))
     return None
 
 
-def _describe_missing_unit(example: Cell, field: Field) -> str:
+def name_units(field: Field) -> Message:
+    """Units that a column may have, in brackets."""
+    units = tuple(f"[{unit}]" for unit in field.units)
+    return say("accepted.units", units=units)
+
+
+def _describe_missing_unit(example: Cell, field: Field) -> Message:
     """Say that a column has no unit, and what its first number could be in each."""
     number = parse_number(example.value, example.decimal_mark)
     if isinstance(number, Refusal):
-        return "has no unit"
-    readings = []
+        return say("heading.no_unit")
+    readings: list[str] = []
     for unit in field.units:
         value = convert_unit(number, unit, field.unit)
         if field.bounds[0] <= value <= field.bounds[1]:
             same = "" if unit == field.unit else f" ({value:.4g} {field.unit})"
             readings.append(f"{number:g} {unit}{same}")
     if len(readings) < 2:
-        return "has no unit"
-    return f"has no unit: {example.address} could be {' or '.join(readings)}"
+        return say("heading.no_unit")
+    return say(
+        "heading.no_unit_could_be", cell=example.address, readings=tuple(readings)
+    )
 
 
 def _report_missing(
     sheet: Sheet, plan: SheetPlan, found: set[str], findings: list[Finding]
 ) -> None:
     missing = [
-        f'lacks the heading "{field.heading}"'
+        say("heading.lacks", heading=field.title)
         for field in plan.fields
         if field.required and field.key not in found
     ]
     if plan.one_of and found.isdisjoint(plan.one_of):
-        labels = [field.heading for field in plan.fields if field.key in plan.one_of]
-        missing.append("lacks a heading: " + " or ".join(map(quote, labels)))
+        fields = [field for field in plan.fields if field.key in plan.one_of]
+        headings = tuple(map(quote_title, fields))
+        missing.append(say("heading.lacks_one_of", headings=headings))
     findings.extend(sheet.finding(Refusal(rule)) for rule in missing)
 
 

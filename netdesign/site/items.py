@@ -14,6 +14,7 @@ from netdesign.site.columns.fields import (
 )
 from netdesign.site.readings import Reading, refuse
 from netdesign.site.tables import Table
+from netdesign.words.message import Message, say
 
 _MARKS = re.compile(r"[;,|:=\t]")  # what may stand between an item and its value
 
@@ -42,17 +43,22 @@ def match_item(
     return found
 
 
-def _explain(text: str, table: Table, what: str) -> tuple[str, str]:
-    """Rule and what is accepted, in the language of the table's headings."""
+def _explain(text: str, table: Table, what: str) -> tuple[Message, Message]:
+    """Rule and what is accepted, with names in the language of the table's headings."""
     start, language = _MARKS.split(text)[0], table.language
     both = find_item(start, table.plan.items)
     if both and start != text:
-        rule = f"holds the {what} and what belongs to it in one cell"
-        return rule, f"{quote(_label(both, language))} alone, the rest in other cells"
-    labels = [_label(field, language) for field in table.plan.items]
+        is_item = what == "item"
+        rule = say("item.in_one_cell" if is_item else "item.quantity_in_one_cell")
+        return rule, say("item.alone", name=quote(_label(both, language)))
+    rule = say("item.unknown" if what == "item" else "item.unknown_quantity")
+    names = tuple(_label(field, language) for field in table.plan.items)
     near = _find_nearest(start, table.plan.items)
-    guess = f"; did you mean {quote(_label(near, language))}?" if near else ""
-    return f"is no known {what}", f"{', '.join(labels)}{guess}"
+    if near is None:
+        return rule, say("item.accepted", names=names)
+    return rule, say(
+        "item.accepted_near", names=names, near=quote(_label(near, language))
+    )
 
 
 def _label(field: Field, language: Language) -> str:

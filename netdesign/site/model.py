@@ -13,6 +13,7 @@ from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
+from netdesign.words.message import Message
 
 # What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[str, str], ...] = (
@@ -159,7 +160,7 @@ class Site:
     rows: tuple[NetRow, ...]
     file_name: str
     sha256: str
-    notes: tuple[str, ...] = ()  # e.g. columns that were not understood
+    notes: tuple[Message, ...] = ()  # e.g. columns that were not understood
     findings: tuple[Finding, ...] = ()  # the same, with their cells
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)

@@ -10,6 +10,7 @@ from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.model import MonitoringSeries
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows
+from netdesign.words.message import say
 
 
 def read_monitoring(
@@ -33,19 +34,19 @@ def read_monitoring(
         name, member = line["row"], line["member"]
         if row_ids and name.word not in {"", *row_ids, *unknown}:
             unknown.add(name.word)
-            accepted = add_nearest("an id of sheet Nets", name.word, row_ids)
-            refuse(name, "is no id of sheet Nets", accepted, findings)
+            sheet = say("sheet.Nets")
+            accepted = say("accepted.id_of_sheet", sheet=sheet)
+            accepted = add_nearest(accepted, name.word, row_ids)
+            refuse(name, say("nets.no_id", sheet=sheet), accepted, findings)
         time = _read_time(line, findings)
         if time is None or not name.word or not member.word:
             continue
         if line["tension"].state == line["temperature"].state == "blank":
-            refuse(name, "begins a line without a measurement", _MEASURED, findings)
+            rule = say("measured.no_measurement")
+            refuse(name, rule, say("measured.accepted"), findings)
         key = (name.word, member.word.replace(" ", "_"))
         series.setdefault(key, []).append((time, line))
     return tuple(_build(key, lines, findings) for key, lines in series.items())
-
-
-_MEASURED = "a tension, an air temperature, or both"
 
 
 def _build(
@@ -55,7 +56,8 @@ def _build(
     for (before, _), (after, line) in pairwise(lines):
         if after <= before:
             place = line["time"] if line["time"].state == "given" else line["date"]
-            refuse(place, "is not after the line before", "times ascending", findings)
+            rule = say("measured.not_after")
+            refuse(place, rule, say("measured.ascending"), findings)
     return MonitoringSeries(
         row_id=key[0],
         member=key[1],
@@ -76,15 +78,16 @@ def _read_time(line: Row, findings: list[Finding]) -> float | None:
     if "faulty" in (time.state, date.state):
         return None
     if (time.state == "given") == (date.state == "given"):
-        rule = "is given beside a date" if date.state == "given" else "has no time"
+        is_double = date.state == "given"
+        rule = say("measured.beside_date" if is_double else "measured.no_time")
         place = time if time.state == "given" else line["row"]
-        refuse(place, rule, "one of time [d] and date and time", findings)
+        refuse(place, rule, say("measured.time_or_date"), findings)
         return None
     if time.state == "given":
         return time.si
     try:
         moment = datetime.fromisoformat(date.word)
     except ValueError:
-        refuse(date, "is no date", "such as 2003-02-18 06:00", findings)
+        refuse(date, say("measured.no_date"), say("measured.such_as"), findings)
         return None
     return (moment.replace(tzinfo=None) - datetime(1970, 1, 1)).total_seconds()

@@ -36,6 +36,7 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
+from netdesign.words.message import Message, say
 
 Types = Mapping[str, Row]  # the lines of one type sheet, by id
 # By name of the sheet; None without a sheet whose ids can be read.
@@ -74,7 +75,7 @@ def build_net_rows(
     """
     rows = list(read_rows(table, findings))
     if not rows:
-        refusal = Refusal("has no net row", "one line for each net row")
+        refusal = Refusal(say("nets.no_row"), say("nets.one_line"))
         findings.append(table.sheet.finding(refusal))
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
@@ -95,9 +96,8 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
             continue
         if reading.word in by_id:
             first = by_id[reading.word]["id"].place
-            refuse(
-                reading, f"is used twice: also in {first}", "ids used once", findings
-            )
+            rule = say("nets.used_twice", place=first)
+            refuse(reading, rule, say("nets.ids_once"), findings)
         else:
             by_id[reading.word] = row
     return by_id
@@ -121,23 +121,32 @@ def _refuse_missing_sheets(
         named = _list_references(rows, name)
         if not named:
             continue
+        sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
         ids = list(dict.fromkeys(one.word for one in named))
-        rule = (
-            f"lacks the sheet {quote(name)}: {_count(ids)} of sheet "
-            f"{table.sheet.name} cannot be found"
+        findings.append(
+            Finding(
+                file=table.sheet.file,
+                rule=_refuse_ids(ids, sheet, table.sheet.name),
+                accepted=_ask_for_sheet([one.place for one in named], sheet),
+            )
         )
-        places = ", ".join(one.place for one in named[:_MOST_PLACES])
-        accepted = f"a sheet {quote(name)} with these ids, or empty cells in {places}"
-        more = len(named) - _MOST_PLACES
-        accepted += f" and {more} more" if more > 0 else ""
-        findings.append(Finding(file=table.sheet.file, rule=rule, accepted=accepted))
 
 
-def _count(ids: list[str]) -> str:
-    shown = ", ".join(map(quote, ids[:_MOST_PLACES]))
+def _refuse_ids(ids: list[str], sheet: Message, nets: str) -> Message:
+    shown = tuple(map(quote, ids[:_MOST_PLACES]))
     if len(ids) == 1:
-        return f"the id {shown}"
-    return f"{len(ids)} ids ({shown}{', ...' if len(ids) > _MOST_PLACES else ''})"
+        return say("nets.lacks_sheet_one", sheet=sheet, id=shown[0], nets=nets)
+    more = ("...",) if len(ids) > _MOST_PLACES else ()
+    return say(
+        "nets.lacks_sheet", sheet=sheet, count=len(ids), ids=(*shown, *more), nets=nets
+    )
+
+
+def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
+    shown, more = tuple(places[:_MOST_PLACES]), len(places) - _MOST_PLACES
+    if more <= 0:
+        return say("nets.sheet_or_empty", sheet=sheet, places=shown)
+    return say("nets.sheet_or_empty_more", sheet=sheet, places=shown, count=more)
 
 
 def _build_net_row(
@@ -203,8 +212,8 @@ def _understand_thickness(
     if "faulty" in (thickness.state, height.state):
         return None
     if thickness.state == height.state == "given":
-        rule = f"is given beside the snow thickness in {thickness.place}"
-        refuse(height, rule, "one of the two, the other empty", findings)
+        rule = say("nets.beside_thickness", place=thickness.place)
+        refuse(height, rule, say("accepted.one_of_two"), findings)
         return None
     is_normal = thickness.state == "given"
     given = thickness if is_normal else height
@@ -214,7 +223,7 @@ def _understand_thickness(
         return thickness.si
     if height.state == "blank":
         empty = thickness if thickness.cell is not None else height
-        rule = "is empty: neither snow thickness nor vertical height is given"
+        rule = say("nets.no_snow_size")
         refuse(empty, rule, empty.field.accepted, findings)
         return None
     if slope_angle.state == "faulty":
@@ -231,14 +240,14 @@ def _understand_ground(
     given = [reading for reading in (slip, glide) if reading.state == "given"]
     if law.word != "sliding":
         for reading in given:
-            rule = f'does not go with the ground law "{law.word}" in {law.place}'
-            refuse(reading, rule, "an empty cell, or the law sliding", findings)
+            name = law.field.name_word(law.word)
+            rule = say("nets.not_with_law", law=name, place=law.place)
+            refuse(reading, rule, say("nets.empty_or_sliding"), findings)
         kind = next(kind for kind in GROUND_KINDS if kind == law.word)
         return None if given else GroundLaw(kind=kind)
     if len(given) != 1:
-        count = "both" if given else "neither"
-        rule = f"needs a slip length or a glide factor: {count} given"
-        refuse(law, rule, "exactly one of the two", findings)
+        rule = say("nets.both_given") if given else say("nets.neither_given")
+        refuse(law, rule, say("accepted.exactly_one"), findings)
         return None
     if slip.state == "given":
         return GroundLaw(kind="sliding", slip_length=slip.si)
@@ -253,7 +262,7 @@ def _build_sliding_ground(
     try:
         return build_ground_from_glide_factor(glide.number, thickness)
     except ModelError as error:  # between 1 and the least factor above it
-        refuse(glide, "has no slip length", str(error), findings)
+        refuse(glide, say("nets.no_slip_length"), error.message, findings)
         return None
 
 
@@ -263,10 +272,11 @@ def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> 
         sheet = reading.field.refers_to
         types = type_sheets[sheet]
         if types is not None and reading.word and reading.word not in types:
-            accepted = f"an id defined in sheet {sheet}, or an empty cell"
+            title = say(f"sheet.{sheet}")
+            accepted = say("nets.id_or_empty", sheet=title)
             places = {name: line["id"].place for name, line in types.items()}
             accepted = add_nearest(accepted, reading.word, types, places)
-            refuse(reading, f"is no id of sheet {sheet}", accepted, findings)
+            refuse(reading, say("nets.no_id", sheet=title), accepted, findings)
 
 
 def _build_layout(row: Row) -> SupportLayout:
@@ -336,15 +346,19 @@ def _echo_inputs(
     for key, reading in row.items():
         echoes.append(reading.echo())
         if key == "snow_height" and reading.state == "given":
-            echoes.append(_echo_derived("snow thickness", thickness, reading))
+            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading))
         if key == "glide_factor" and reading.state == "given":
-            echoes.append(_echo_derived("slip length", ground.slip_length, reading))
+            echoes.append(
+                _echo_derived(row["slip_length"], ground.slip_length, reading)
+            )
     return tuple(echoes)
 
 
-def _echo_derived(label: str, value: float, reading: Reading) -> InputEcho:
+def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
+    name, given = what.field.name, reading.field.name
+    label = say("column.derived_from", name=name, given=given)
     return InputEcho(
-        label=f"{label}, from the {reading.field.label}",
+        label=str(label),  # seam: records keep English so far
         unit="m",
         text=reading.text,
         value=value,

@@ -13,10 +13,12 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import Field, split_heading
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
+from netdesign.site.headings import name_units, quote_title
 from netdesign.site.items import match_item
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
+from netdesign.words.message import say
 
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 
@@ -51,7 +53,7 @@ def build_ranges(
         if field.key in found:
             continue
         if field.required:
-            rule = f"lacks the quantity {quote(field.heading)}"
+            rule = say("range.lacks", heading=field.title)
             findings.append(table.sheet.finding(Refusal(rule, field.accepted)))
         else:
             found[field.key] = _default_inclination(field)
@@ -75,7 +77,7 @@ def _read_line(
     if field is None:
         return
     if field.key in found:
-        refuse(name, "is given twice", "one line for each quantity", findings)
+        refuse(name, say("range.twice"), say("range.one_line"), findings)
     else:
         found[field.key] = None
         settled = _settle_unit(name, unit, field, findings)
@@ -94,16 +96,17 @@ def _settle_unit(
     _, in_brackets = split_heading(name.word)
     in_column = normalise_unit(unit.word.strip(" []()"))
     given, place = (in_column, unit) if in_column else (in_brackets, name)
-    accepted = " or ".join(f"[{one}]" for one in field.units)
+    accepted = name_units(field)
     if in_column and in_brackets and in_column != in_brackets:
-        rule = f"is another unit than that of {quote(name.word)}"
-        refuse(unit, rule, "one unit", findings)
+        rule = say("range.other_unit", name=quote(name.word))
+        refuse(unit, rule, say("accepted.one_unit"), findings)
     elif not given:
-        refuse(name, "has no unit", f"{quote(field.heading)}", findings)
+        refuse(name, say("heading.no_unit"), quote_title(field), findings)
     elif given in UNCLEAR_UNITS:
-        refuse(place, f"is ambiguous: {UNCLEAR_UNITS[given]}", accepted, findings)
+        rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[given])
+        refuse(place, rule, accepted, findings)
     elif given not in field.units:
-        refuse(place, "has an unknown unit", accepted, findings)
+        refuse(place, say("heading.unknown_unit"), accepted, findings)
     else:
         return given
     return ""
@@ -126,8 +129,8 @@ def _read_range(
         return _default_inclination(field)
     for reading, other in ((low, high), (high, low)):
         if reading.state == "blank":
-            rule = f"is empty beside {other.place}"
-            refuse(reading, rule, "both ends of the range, or none", findings)
+            rule = say("range.empty_beside", place=other.place)
+            refuse(reading, rule, say("range.both_ends"), findings)
             return None
     samples = _settle_samples(low, high, samples, findings)
     if samples.state == "faulty":
@@ -146,8 +149,13 @@ def _read_end(
     cell = table.cell(row, key)
     if cell is None:  # the missing heading is a finding already
         return None
-    end = replace(field, label=f"{field.label}, {key}")
+    end = _name_end(field, key)
     return read_cell(cell, end, unit, findings)
+
+
+def _name_end(field: Field, key: str) -> Field:
+    """The low or the high end of a range, as a field of its own name."""
+    return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
 def _settle_samples(
@@ -156,14 +164,15 @@ def _settle_samples(
     """Check order and count of a range; an empty count means a search."""
     is_single = low.number == high.number
     if low.number > high.number:
-        refuse(high, f"is below the low end in {low.place}", "low to high", findings)
+        rule = say("range.below_low", place=low.place)
+        refuse(high, rule, say("range.low_to_high"), findings)
     elif samples.state == "blank":
         value = 1.0 if is_single else SEARCHED
         return replace(samples, state="default", value=value)
     elif is_single and samples.number != 1:
-        refuse(samples, "is too many for a single value", "1", findings)
+        refuse(samples, say("range.many_for_single"), "1", findings)
     elif samples.number == 1 and not is_single:
-        refuse(samples, "is too few for a range", "2 or more", findings)
+        refuse(samples, say("range.few"), say("range.two_or_more"), findings)
     else:
         return samples
     return replace(samples, state="faulty")
@@ -172,13 +181,13 @@ def _settle_samples(
 def _default_inclination(field: Field) -> _Range:
     low, high = (
         Reading(
-            field=replace(field, label=f"{field.label}, {key}"),
+            field=_name_end(field, key),
             state="default",
             value=value,
         )
         for key, value in zip(("low", "high"), DEFAULT_INCLINATION_DEG, strict=True)
     )
-    samples_field = Field(key="samples", label="samples", kind="count")
+    samples_field = Field(key="samples", kind="count", table="Ranges")
     samples = Reading(field=samples_field, state="default", value=SEARCHED)
     return _build_range(field, (low, high, samples))
 
@@ -187,7 +196,6 @@ def _build_range(field: Field, line: _Line) -> _Range:
     low, high, samples = line
     count = None if samples.value == SEARCHED else int(samples.number)
     interval = Interval(low=low.si, high=high.si, count=count)
-    labelled = replace(
-        samples, field=replace(samples.field, label=f"{field.label}, samples")
-    )
+    named = say("column.samples_of", name=field.name)
+    labelled = replace(samples, field=replace(samples.field, named=named))
     return _Range(interval=interval, inputs=(low.echo(), high.echo(), labelled.echo()))

@@ -38,6 +38,7 @@ from netdesign.site.tables import (
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.words.message import say
 
 _TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
 
@@ -89,7 +90,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         rows=net_rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=tuple(str(finding) for finding in findings),
+        notes=tuple(finding.message for finding in findings),
         findings=tuple(findings),
         range_inputs=built_ranges[1],
         project_cells=project_cells,
@@ -122,7 +123,7 @@ def _is_name(text: str) -> bool:
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
-    rule = "has no part in the check: it is not read"
+    rule = say("table.not_read")
     told = {finding.sheet for finding in findings}
     return [
         note_file(workbook.file, rule, name)
@@ -145,8 +146,8 @@ def _read_project(
         if field is None or value.state != "given":
             continue
         if field.key in values:
-            rule = f"is given twice: also for {cells[field.key]}"
-            refuse(item, rule, "one line for each item", findings)
+            rule = say("item.twice", place=cells[field.key])
+            refuse(item, rule, say("item.one_line"), findings)
         else:
             values[field.key], cells[field.key] = value.word, value.place
     return Project(**values), cells
@@ -169,7 +170,7 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] 
     for row in rows:
         basis = row.get("basis")
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
-            rule = f"is empty beside the pull-out resistance in {row['pull_out'].place}"
+            rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
         check_tests(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]

@@ -14,6 +14,7 @@ from netdesign.site.cells.numbers import parse_number
 from netdesign.site.columns.fields import Field, normalise
 from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
 from netdesign.site.model import InputEcho
+from netdesign.words.message import Message, say
 
 State = Literal["given", "blank", "default", "faulty"]
 
@@ -54,7 +55,7 @@ class Reading:
     def number(self) -> float:
         """The value in the field's first unit; an error unless it is a number."""
         if not isinstance(self.value, float):
-            raise ModelError(f"{self.field.label}: no number was read")
+            raise ModelError(say("cell.no_number_read", name=self.field.name))
         return self.value
 
     @property
@@ -70,7 +71,7 @@ class Reading:
     def echo(self) -> InputEcho:
         """Give the input as the report shows it."""
         return InputEcho(
-            label=self.field.label,
+            label=str(self.field.name),  # seam: records keep English so far
             unit=self.field.unit,
             text=self.text,
             value="" if self.value is None else self.value,
@@ -102,7 +103,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     """
     understood = _understand(cell, field, unit)
     if isinstance(understood, Refusal):
-        findings.append(cell.finding(understood, field.heading_in(unit)))
+        findings.append(cell.finding(understood, field.title_in(unit)))
         return Reading(field=field, state="faulty", text=cell.text, cell=cell)
     if understood is None:
         return read_nothing(field, cell)
@@ -132,8 +133,8 @@ def read_nothing(field: Field, cell: Cell | None) -> Reading:
 
 def refuse(
     reading: Reading,
-    rule: str,
-    accepted: str,
+    rule: Message,
+    accepted: Message | str,
     findings: list[Finding],
     *,
     severity: Severity = "error",
@@ -144,7 +145,7 @@ def refuse(
     """
     if reading.cell is not None:
         finding = reading.cell.finding(
-            Refusal(rule, accepted), reading.field.heading, severity=severity
+            Refusal(rule, accepted), reading.field.title, severity=severity
         )
         findings.append(finding)
 
@@ -152,33 +153,34 @@ def refuse(
 def refuse_stored(cell: Cell) -> Refusal | None:
     """Reason why what the file stores in a cell is of no use, if there is one."""
     if cell.is_error:
-        return Refusal("is an error value", "a value, or a formula without error")
+        return Refusal(say("cell.error_value"), say("cell.value_or_formula"))
     if cell.formula and cell.value is None:
-        return Refusal(
-            "is a formula without a stored result",
-            "a value; or open and save the file in a spreadsheet program",
-        )
+        return Refusal(say("cell.formula_without_result"), say("cell.open_and_save"))
     return None
 
 
 def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
     """Read a cell whose column has no usable unit: only what no unit can mend."""
     if cell.is_blank:
-        refusal = Refusal("is empty", field.accepted) if field.required else None
+        refusal = _refuse_blank(field)
     else:
         # a percentage is a number, whether or not it can be one in this column
         number = refuse_stored(cell) or _take_number(replace(cell, shown_unit=""), "%")
         refusal = number if isinstance(number, Refusal) else None
     if refusal:
-        findings.append(cell.finding(refusal, field.label))
+        findings.append(cell.finding(refusal, field.name))
     return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+
+
+def _refuse_blank(field: Field) -> Refusal | None:
+    return Refusal(say("cell.empty"), field.accepted) if field.required else None
 
 
 def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | None:
     if refusal := refuse_stored(cell):
         return refusal
     if cell.is_blank:
-        return Refusal("is empty", field.accepted) if field.required else None
+        return _refuse_blank(field)
     if field.kind in ("number", "count"):
         return _understand_number(cell, field, unit)
     if field.kind == "word":
@@ -194,10 +196,12 @@ def _understand_number(cell: Cell, field: Field, unit: str) -> float | Refusal:
     low, high = field.bounds
     if not low <= value <= high:
         is_other = bool(cell.formula) or unit != field.unit
-        gives = f"gives {value:g} {field.unit}, which " if is_other else ""
-        return Refusal(f"{gives}is out of range", field.accepted)
+        rule = say("cell.out_of_range")
+        if is_other:
+            rule = say("cell.gives_out_of_range", value=value, unit=field.unit)
+        return Refusal(rule, field.accepted)
     if field.kind == "count" and not value.is_integer():
-        return Refusal("is not a whole number", field.accepted)
+        return Refusal(say("cell.not_whole"), field.accepted)
     return value
 
 
@@ -221,11 +225,10 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
         shown = f"{number / 1000:g} {cell.shown_unit}".strip()
     elif not cell.shown_unit or normalise_unit(cell.shown_unit) == unit:
         return number
-    return Refusal(
-        f"is ambiguous: its format shows {shown}, the file holds {number:g}"
-        + (f", the unit of the column is {unit}" if unit else ""),
-        "a plain number in the unit of the heading",
-    )
+    rule = say("cell.format_ambiguous", shown=shown, number=number)
+    if unit:
+        rule = say("cell.format_other_unit", shown=shown, number=number, unit=unit)
+    return Refusal(rule, say("accepted.plain_number"))
 
 
 def _is_percentage(cell: Cell) -> bool:
@@ -243,8 +246,8 @@ def _take_typed_percentage(cell: Cell, unit: str) -> float | Refusal:
         return number
     if unit == "-":
         return _shift(number, -2)
-    rule = f"is a percentage, the unit of the column is {unit or 'none'}"
-    return Refusal(rule, "a plain number in the unit of the heading")
+    rule = say("cell.percentage", unit=unit) if unit else say("cell.percentage_no_unit")
+    return Refusal(rule, say("accepted.plain_number"))
 
 
 def _shift(number: float, digits: int) -> float:
@@ -257,7 +260,7 @@ def _understand_word(cell: Cell, field: Field) -> str | Refusal:
     word = spellings.get(normalise(str(cell.value)))
     if word is None:
         accepted = add_nearest(field.accepted, str(cell.value), field.spellings)
-        return Refusal("is not a known word", accepted)
+        return Refusal(say("cell.unknown_word"), accepted)
     return word
 
 
@@ -266,10 +269,12 @@ def _understand_text(cell: Cell, field: Field) -> str | Refusal:
     if field.kind == "id" and (
         isinstance(value, bool) or not isinstance(value, str | int | float)
     ):
-        return Refusal("is not a name", "text or a number; no date or truth value")
+        return Refusal(say("cell.not_a_name"), say("cell.name_accepted"))
     if isinstance(value, float) and value.is_integer():
         value = int(value)  # a program may store the name 7 as 7.0
     text = str(value).strip().removesuffix(" 00:00:00")  # a date is no time of day
     if len(text) > _LONGEST_TEXT:
-        return Refusal("is too long", f"at most {_LONGEST_TEXT} characters")
+        return Refusal(
+            say("cell.too_long"), say("cell.most_characters", most=_LONGEST_TEXT)
+        )
     return text

@@ -12,6 +12,7 @@ from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
 from netdesign.snow.snowpack import THINNEST_LAYER, Layer
+from netdesign.words.message import say
 
 LayersByRow = Mapping[str, tuple[Row, ...]]  # lines from the ground up, by net row
 
@@ -39,8 +40,11 @@ def refuse_unknown_rows(
     places = {name: row["id"].place for name, row in net_rows.items()}
     for name, lines in snow.items():
         if name not in net_rows:
-            accepted = add_nearest("an id of sheet Nets", name, net_rows, places)
-            refuse(lines[0]["row"], "is no id of sheet Nets", accepted, findings)
+            sheet = say("sheet.Nets")
+            accepted = say("accepted.id_of_sheet", sheet=sheet)
+            accepted = add_nearest(accepted, name, net_rows, places)
+            rule = say("nets.no_id", sheet=sheet)
+            refuse(lines[0]["row"], rule, accepted, findings)
 
 
 def build_layers(
@@ -74,8 +78,8 @@ def build_layers(
     total = sum(layer.thickness for layer in layers)
     for line, layer in zip(lines, layers, strict=True):
         if layer.thickness < THINNEST_LAYER * total:
-            rule = f"is below {THINNEST_LAYER:.0%} of the snowpack of {total:g} m"
-            refuse(_size_of(line), rule, "layers put together", findings)
+            rule = say("layer.too_thin", least=THINNEST_LAYER, total=total)
+            refuse(_size_of(line), rule, say("layer.put_together"), findings)
     return tuple(layers)
 
 
@@ -106,8 +110,8 @@ def settle_thickness(
     is_vertical = given.field.key == "snow_height"
     factor = math.cos(slope_angle.si) if is_vertical else 1.0
     if abs(total - given.si * factor) > _SUM_TOLERANCE:
-        rule = f"differs from the sum of the layers in sheet Snow, {total / factor:.3g}"
-        refuse(given, f"{rule} m", "the sum, or an empty cell", findings)
+        rule = say("layer.other_sum", sum=total / factor)
+        refuse(given, rule, say("layer.sum_or_empty"), findings)
         return None
     return total
 
@@ -139,12 +143,12 @@ def check_densities(
         mean = row.mean_density
         densest = max(layer.density for layer in row.layers) * high / mean
         if not low <= mean <= high:
-            rule = f"begins layers of mean density {mean:.4g} kg/m3, outside the range"
-            accepted = f"a mean of {low:g} to {high:g} kg/m3, or a wider range"
+            rule = say("layer.mean_outside", mean=mean)
+            accepted = say("layer.mean_or_wider", low=low, high=high)
             refuse(place, rule, accepted, findings)
         elif densest > DENSEST_SNOW * ICE_DENSITY:
-            rule = f"begins layers that the range makes as dense as {densest:.4g} kg/m3"
-            accepted = f"at most {DENSEST_SNOW * ICE_DENSITY:.0f} kg/m3"
+            rule = say("layer.too_dense", density=densest)
+            accepted = say("layer.at_most_density", most=DENSEST_SNOW * ICE_DENSITY)
             refuse(place, rule, accepted, findings)
 
 
@@ -157,8 +161,8 @@ def echo_layers(lines: tuple[Row, ...]) -> tuple[InputEcho, ...]:
             reading = line[key]
             if reading.state != "given":
                 continue
-            label = f"layer {number}, {reading.field.label}"
-            named = replace(reading, field=replace(reading.field, label=label))
+            name = say("column.of_layer", layer=number, name=reading.field.name)
+            named = replace(reading, field=replace(reading.field, named=name))
             echoes.append(named.echo())
     return tuple(echoes)
 
@@ -176,8 +180,8 @@ def _understand_thickness(
     if thickness.state == height.state:
         is_both = thickness.state == "given"
         place = height if is_both or thickness.cell is None else thickness
-        rule = "is given beside the thickness" if is_both else "is empty"
-        refuse(place, rule, "one of thickness and vertical height", findings)
+        rule = say("layer.beside_thickness") if is_both else say("cell.empty")
+        refuse(place, rule, say("layer.thickness_or_height"), findings)
         return None
     if thickness.state == "given":
         return thickness.si
@@ -188,8 +192,9 @@ def _check_numbers(lines: list[Row], findings: list[Finding]) -> None:
     """Refuse gaps and doubles: 1 lies on the ground, then 2, and so on."""
     for expected, line in enumerate(lines, start=1):
         if line["layer"].number != expected:
-            rule = f"is not layer {expected} of net row {line['row'].word}"
-            refuse(line["layer"], rule, "1 on the ground, 2, 3 ... once each", findings)
+            row = line["row"].word
+            rule = say("layer.wrong_number", expected=expected, row=row)
+            refuse(line["layer"], rule, say("layer.numbers"), findings)
             return
 
 
@@ -199,5 +204,5 @@ def _check_temperatures(lines: list[Row], findings: list[Finding]) -> None:
     if "given" not in states or "blank" not in states:
         return
     empty = next(line for line in lines if line["temperature"].state == "blank")
-    rule = "is empty beside layers with a temperature"
-    refuse(empty["temperature"], rule, "a temperature for all layers or none", findings)
+    rule = say("layer.temperature_lacks")
+    refuse(empty["temperature"], rule, say("layer.all_or_none"), findings)

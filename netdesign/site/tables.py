@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
-from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.columns.fields import (
     Field,
     Language,
@@ -25,6 +25,7 @@ from netdesign.site.readings import (
     read_nothing,
     read_without_unit,
 )
+from netdesign.words.message import say
 
 # What makes a single text below a table a note and not the start of another line.
 _NOTE_WORD = (
@@ -128,7 +129,9 @@ def _find_sheet(
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
     for double in sheets[1:]:
-        refusal = Refusal(f'is a second sheet "{plan.name}", after {sheets[0].name}')
+        refusal = Refusal(
+            say("table.second_sheet", name=plan.title, first=sheets[0].name)
+        )
         findings.append(double.finding(refusal))
     return sheets[0] if sheets else None
 
@@ -153,17 +156,17 @@ def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
     near = [name for name in workbook.unread if is_near(name, plan)]
-    wanted = quote(plan.name)
+    wanted = say("finding.in_quotes", text=plan.title)
     if near:
-        rule = f"is no known sheet, but its name is close to {wanted}, which is missing"
-        accepted = f"{wanted}, or a name quite unlike it"
+        rule = say("table.close_to_missing", wanted=wanted)
+        accepted = say("heading.or_unlike", meant=wanted)
         return [
             Finding(file=workbook.file, sheet=near[0], rule=rule, accepted=accepted)
         ]
     if not plan.required:
         return []
-    names = " or ".join((plan.name, *plan.aliases))
-    rule, accepted = f"lacks the sheet {wanted}", f"the name {names}"
+    rule = say("table.lacks_sheet", wanted=wanted)
+    accepted = say("table.name_accepted", names=(plan.title, *plan.aliases))
     return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
 
 
@@ -175,12 +178,12 @@ def _find_data_rows(
     width = 0 if plan.items else len(headings.columns)
     filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
     while filled and _is_note(sheet.row(filled[-1]), width):
-        refusal = Refusal("is a note below the table: it is not read")
+        refusal = Refusal(say("table.note_below"))
         cell = sheet.row(filled.pop())[0]
         findings.append(cell.finding(refusal, severity="note"))
     for above, row in pairwise((first_row - 1, *filled)):
         if row > above + 1:
-            refusal = Refusal("is in an empty row", "lines without gaps: delete it")
+            refusal = Refusal(say("table.empty_row"), say("table.without_gaps"))
             findings.append(sheet.cell(above + 1, 1).finding(refusal))
     return tuple(filled)
 
@@ -209,19 +212,20 @@ def _inspect_layout(table: Table, headings: Headings, findings: list[Finding]) -
     for merged in sheet.merged:
         if headings.first_data_row <= merged.last_row and merged.row <= last_row:
             cell = sheet.cell(merged.row, merged.column)
-            refusal = Refusal(f"is merged over {merged.text}", "single cells")
+            rule = say("table.merged", range=merged.text)
+            refusal = Refusal(rule, say("accepted.single_cells"))
             findings.append(cell.finding(refusal))
     if sheet.is_hidden:
-        refusal = Refusal("is hidden; it was read all the same")
+        refusal = Refusal(say("table.hidden_sheet"))
         findings.append(sheet.finding(refusal, severity="note"))
     for row in table.rows:
         if row in sheet.hidden_rows:
-            refusal = Refusal("is in a hidden row; it was read all the same")
+            refusal = Refusal(say("table.hidden_row"))
             findings.append(sheet.row(row)[0].finding(refusal, severity="note"))
     for column in table.columns.values():
         if column.number in sheet.hidden_columns:
             cell = sheet.cell(headings.row, column.number)
-            refusal = Refusal("is in a hidden column; it was read all the same")
+            refusal = Refusal(say("table.hidden_column"))
             findings.append(cell.finding(refusal, severity="note"))
     findings.extend(_note_lines_above(table, headings))
     _judge_columns_without_heading(table, headings, findings)
@@ -235,8 +239,8 @@ def _note_lines_above(table: Table, headings: Headings) -> Iterator[Finding]:
             continue
         item = find_item(str(cells[0].value), table.plan.items)
         refusal = Refusal(
-            "stands above the headings: the line is not read",
-            "lines below the headings" if item else "",
+            say("table.above_headings"),
+            say("table.below_headings") if item else "",
         )
         yield cells[0].finding(refusal, severity="error" if item else "note")
 
@@ -253,16 +257,14 @@ def _judge_columns_without_heading(
             known.add(cell.column)
             cover = find_cover(table.sheet, headings.row, cell.column)
             if cover:
-                rule = f"stands below a heading merged over {cover.text}"
-                findings.append(
-                    cell.finding(Refusal(rule, "a heading for each column"))
-                )
+                rule = say("table.below_merged", range=cover.text)
+                refusal = Refusal(rule, say("table.heading_each"))
+                findings.append(cell.finding(refusal))
             elif table.sheet.is_delimited or table.plan.items:
                 # a delimiter too many: what stands here may belong to the left of it
-                accepted = "as many cells as headings, or a heading for each column"
-                findings.append(
-                    cell.finding(Refusal("stands below no heading", accepted))
-                )
+                rule = say("table.no_heading")
+                refusal = Refusal(rule, say("table.as_many_cells"))
+                findings.append(cell.finding(refusal))
             else:
-                refusal = Refusal("stands below no heading: the column is not read")
+                refusal = Refusal(say("table.no_heading_unread"))
                 findings.append(cell.finding(refusal, severity="note"))

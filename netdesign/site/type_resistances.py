@@ -22,6 +22,7 @@ from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resi
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import say
 
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
 DERIVED = "from dimensions: "  # before the text of a resistance that was computed
@@ -76,11 +77,11 @@ def check_tests(row: Row, findings: list[Finding]) -> None:
         return
     count = row["test_count"]
     if row["pull_out"].state == "given":
-        rule = f"is given beside the pull-out resistance in {row['pull_out'].place}"
-        refuse(count, rule, "one of the two, the other empty", findings)
+        rule = say("type.beside_pull_out", place=row["pull_out"].place)
+        refuse(count, rule, say("accepted.one_of_two"), findings)
     if row["test_least"].si > row["test_mean"].si:
-        rule = f"exceeds the mean in {row['test_mean'].place}"
-        refuse(row["test_least"], rule, "at most the mean", findings)
+        rule = say("type.exceeds_mean", place=row["test_mean"].place)
+        refuse(row["test_least"], rule, say("type.at_most_mean"), findings)
 
 
 def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
@@ -90,18 +91,14 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
     if any(row[key].state == "faulty" for key in rule.optional):
         return row
     if row[rule.key].state == "given":
-        place = row[rule.key].place
-        refuse(
-            first,
-            f"is given beside the {row[rule.key].field.label} in {place}",
-            "one of the two, the other empty",
-            findings,
-        )
+        given = row[rule.key]
+        beside = say("type.beside", name=given.field.name, place=given.place)
+        refuse(first, beside, say("accepted.one_of_two"), findings)
         return row
     try:
         value, text = rule.compute(row)
     except ModelError as error:
-        refuse(first, "gives no resistance", str(error), findings)
+        refuse(first, say("type.no_resistance"), error.message, findings)
         return row
     computed = replace(
         row[rule.key],
@@ -121,11 +118,10 @@ def _is_ready(row: Row, keys: tuple[str, ...], findings: list[Finding]) -> bool:
         return False
     lacking = [key for key in keys if key not in row or row[key].state == "blank"]
     if lacking:
-        labels = ", ".join(
-            row[key].field.label if key in row else key.replace("_", " ")
-            for key in lacking
-        )
-        refuse(given[0], f"needs more beside it: {labels}", "all or none", findings)
+        table = given[0].field.table
+        names = tuple(say(f"column.{table}.{key}") for key in lacking)
+        rule = say("type.needs_more", names=names)
+        refuse(given[0], rule, say("type.all_or_none"), findings)
     return not lacking
 
 

@@ -17,15 +17,13 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import NET_REACH, Floats, Ints, MeshTemplate, place_nodes
+from netdesign.words.message import say
 
 _UPSTREAM_REACH = 1.0  # the mesh follows the upstream end over this many thicknesses
 _LARGEST_SWEEP = 0.5  # share of a triangle that one part of a remap may take
 _MOST_PARTS = 64
 _LEAST_HEIGHT = 1e-15  # of a triangle's corner over another: no division by 0
 # What to change where the snow cannot be followed.
-_WAY_OUT = "take the steady method, a shorter horizon, or more friction on the net"
-_LESS_BULGE = "less slack, less inclination or a stiffer net is needed"
-_MORE_NET = "take the steady method, a higher net, or more friction on it"
 # Snow that leans over the head falls off: the angle between its surface and the net
 # may not exceed this, nor may its edge lean further upslope than the second angle.
 _OVERHANG = np.radians(135.0)
@@ -126,9 +124,7 @@ def build_body(law: FlowLaw, template: MeshTemplate, net_curve: Floats) -> SnowB
     vertices = place_nodes(template, net_curve)[:, : template.n_vertices]
     areas = compute_areas(topology, vertices)
     if not areas.min() > 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, f"the start's mesh folds over: {_LESS_BULGE}"
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("snow.start_folds"))
     shares = _share_layers(law, vertices[1, topology.triangles])
     density = shares @ np.array([layer.density for layer in law.layers])
     heat = shares @ np.array([layer.density * layer.warmth for layer in law.layers])
@@ -193,14 +189,10 @@ def move_body(
     """
     topology = body.topology
     if not compute_areas(topology, displaced).min() > 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, f"the snow's mesh folds over: {_WAY_OUT}"
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("snow.mesh_folds"))
     vertices = _place_vertices(topology, displaced, net, head)
     if not compute_areas(topology, vertices).min() > 0.0:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, f"the snow's mesh cannot be mended: {_WAY_OUT}"
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("snow.mesh_not_mended"))
     carried = np.array([body.mass, body.mass * body.warmth])
     remapped = _remap(topology, displaced, vertices, carried)
     mass, heat = remapped
@@ -266,9 +258,7 @@ def _trim_surface(surface: Floats, net: Floats, head: Floats) -> Floats:
         return np.column_stack([top, surface[:, 1:]])
     last_gone = int(gone[-1])
     if last_gone + 1 >= surface.shape[1]:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, f"the snow flows over the net's head: {_MORE_NET}"
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("snow.over_the_head"))
     part = beyond[last_gone] / (beyond[last_gone] - beyond[last_gone + 1])
     step = surface[:, last_gone + 1] - surface[:, last_gone]
     crossing = surface[:, last_gone] + part * step
@@ -303,9 +293,7 @@ def _remap(topology: Topology, old: Floats, new: Floats, carried: Floats) -> Flo
     smallest = np.minimum(compute_areas(topology, old), compute_areas(topology, new))
     parts = max(1, int(np.ceil(float((taken / smallest).max()) / _LARGEST_SWEEP)))
     if parts > _MOST_PARTS:
-        raise SolveError(
-            Outcome.OUT_OF_VALIDITY, f"the snow's mesh moves too far: {_WAY_OUT}"
-        )
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("snow.mesh_moves"))
     fields, start = carried.copy(), old
     for part in range(1, parts + 1):
         end = old + (new - old) * (part / parts)

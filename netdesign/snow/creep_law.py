@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive, require_within
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -205,9 +206,13 @@ def require_admissible(law: CreepLaw, relative_density: float) -> None:
     bulk = compute_bulk_factor(law, relative_density)
     if not 3 * shear >= 2 * bulk:
         raise ModelError(
-            f"relative density = {relative_density:g}: the creep law {law.name} has "
-            f"3a = {3 * shear:.4g} < 2b = {2 * bulk:.4g} there; snow compressed along "
-            "one axis would shrink sideways: use another set or denser snow"
+            say(
+                "snow.law_shrinks",
+                density=relative_density,
+                law=law.name,
+                shear=3 * shear,
+                bulk=2 * bulk,
+            )
         )
 
 
@@ -215,8 +220,12 @@ def _require_snow(law: CreepLaw, relative_density: float) -> float:
     """Density at which the coefficients are taken; refuses what is not snow."""
     if not 0 < relative_density <= DENSEST_SNOW:
         raise ModelError(
-            f"relative density = {relative_density!r}: must lie above 0 and at most "
-            f"{DENSEST_SNOW:g}, that is {DENSEST_SNOW * ICE_DENSITY:.0f} kg/m3"
+            say(
+                "snow.relative_density_limit",
+                density=relative_density,
+                most=DENSEST_SNOW,
+                densest=DENSEST_SNOW * ICE_DENSITY,
+            )
         )
     return max(relative_density, law.clamp)
 

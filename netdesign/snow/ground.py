@@ -13,6 +13,7 @@ import numpy as np
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_one_of, require_within
+from netdesign.words.message import say
 
 GroundKind = Literal["free", "no-slip", "sliding"]
 GROUND_KINDS: tuple[GroundKind, ...] = ("free", "no-slip", "sliding")
@@ -45,14 +46,14 @@ class GroundLaw:
         require_one_of("ground law", self.kind, GROUND_KINDS)
         if self.kind == "sliding":
             if not (math.isfinite(self.slip_length) and self.slip_length > 0):
-                raise ModelError(
-                    f"slip length = {self.slip_length!r}: a sliding ground needs a "
-                    "finite slip length above 0 m"
-                )
+                raise ModelError(say("ground.slip_needed", slip=self.slip_length))
         elif self.slip_length != 0.0:
             raise ModelError(
-                f"slip length = {self.slip_length!r}: only a sliding ground has one, "
-                f"this one is {self.kind}"
+                say(
+                    "ground.slip_foreign",
+                    slip=self.slip_length,
+                    kind=say(f"ground_kind.{self.kind}"),
+                )
             )
 
 
@@ -114,10 +115,7 @@ def compute_slip_length(
     """
     tables = load_glide_tables()
     if creep_law not in tables:
-        raise ModelError(
-            f"glide factor: the creep law {creep_law!r} has no table of slip lengths; "
-            f"give a slip length, or use one of {', '.join(tables)}"
-        )
+        raise ModelError(say("ground.no_table", law=creep_law, known=tuple(tables)))
     table = tables[creep_law]
     largest = table.glide_factors[-1]
     require_within("glide factor", glide_factor, _SMALLEST_GLIDE_FACTOR, largest)

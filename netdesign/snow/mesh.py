@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from netdesign.errors import SolveError
 from netdesign.guards import require_positive, require_within
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -421,8 +422,7 @@ def _connect(points: Floats) -> Ints:
         # found while solving, on a mesh that the refinement asked for: an outcome
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the mesh is too fine: its smallest triangles vanish by rounding; allow a "
-            "larger error, or join thin layers",
+            say("snow.mesh_too_fine"),
         )
     return np.asarray(triangles, dtype=np.int64)
 

@@ -7,8 +7,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from netdesign.errors import ModelError
-from netdesign.guards import require_one_of, require_positive, require_within
+from netdesign.guards import (
+    name_quantity,
+    require_one_of,
+    require_positive,
+    require_within,
+)
 from netdesign.snow.creep_law import DENSEST_SNOW, ICE_DENSITY
+from netdesign.words.message import say
 
 GRAVITY = 9.81  # [m/s2]
 STEEPEST_SLOPE = math.radians(80.0)  # beyond it no snowpack of this shape stands
@@ -89,7 +95,12 @@ class Snowpack:
         ):
             if not abs(total - given) <= _LAYER_SUM_TOLERANCE * given:
                 raise ModelError(
-                    f"{name}: add up to {total:g}, the snowpack has {given:g}"
+                    say(
+                        "snow.layers_add_up",
+                        name=name_quantity(name),
+                        total=total,
+                        given=given,
+                    )
                 )
         thinnest = min(layer.thickness for layer in self.layers)
         require_within(
@@ -125,7 +136,7 @@ def build_layered_snowpack(
 ) -> Snowpack:
     """Snowpack of the given layers, from the ground up; at least one."""
     if not layers:
-        raise ModelError("layers: at least one is needed")
+        raise ModelError(say("snow.no_layer"))
     return Snowpack(
         slope_angle=slope_angle,
         thickness=_sum_thickness(layers),
@@ -150,8 +161,13 @@ def _require_snow_density(name: str, density: float) -> None:
     densest = DENSEST_SNOW * ICE_DENSITY
     if not 0 < density <= densest:
         raise ModelError(
-            f"{name} = {density!r}: must lie above 0 and at most {densest:.0f} kg/m3, "
-            f"below ice of {ICE_DENSITY:g} kg/m3"
+            say(
+                "snow.density_limit",
+                name=name_quantity(name),
+                density=density,
+                densest=densest,
+                ice=ICE_DENSITY,
+            )
         )
 
 

@@ -9,6 +9,7 @@ from netdesign.guards import require_positive
 from netdesign.outcome import Outcome
 from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
 from netdesign.structure.layout import Point, SupportPoints
+from netdesign.words.message import say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +127,7 @@ def compute_anchor_forces(
     foot = _scale(foot_pull_per_m, post_spacing)
     if not all(math.isfinite(part) for part in foot):
         return FailedSupport(
-            outcome=Outcome.NONFINITE, reason="the pull on the net's foot is no number"
+            outcome=Outcome.NONFINITE, reason=say("support.foot_no_number")
         )
     head = compute_head_forces(_scale(head_pull_per_m, post_spacing), points)
     if isinstance(head, FailedSupport):

@@ -11,6 +11,7 @@ from typing import ClassVar
 from netdesign.guards import require_within
 from netdesign.outcome import Outcome
 from netdesign.structure.layout import Point, SupportPoints
+from netdesign.words.message import Message, say
 
 # A guy nearer to the post's line than this holds nothing sideways. Choice of this
 # program: it bounds the forces at 57 times the pull, and so their rounding error.
@@ -27,14 +28,14 @@ class HeadForces:
     ----------
     post_compression, uphill_guy_tension, downhill_guy_tension : float
         Size of each member's force, at least 0; a slack guy has 0 [N].
-    reason : str
+    reason : Message
         Which members carry.
     """
 
     post_compression: float
     uphill_guy_tension: float = 0.0
     downhill_guy_tension: float = 0.0
-    reason: str
+    reason: Message
     outcome: ClassVar[Outcome] = Outcome.CONVERGED
 
     def __post_init__(self) -> None:
@@ -49,7 +50,7 @@ class FailedSupport:
     """A support that cannot hold its net: an outcome and a reason, no forces."""
 
     outcome: Outcome
-    reason: str
+    reason: Message
 
 
 def compute_head_forces(
@@ -80,13 +81,13 @@ def compute_head_forces(
     if not _is_finite(pull, points):
         return FailedSupport(
             outcome=Outcome.NONFINITE,
-            reason="the pull on the post head or a point of the support is no number",
+            reason=say("support.head_no_number"),
         )
     post = _direction(points.head, points.post_base)
     if post == (0.0, 0.0):
         return FailedSupport(
             outcome=Outcome.OUT_OF_VALIDITY,
-            reason="the post has no length: its head lies on its base",
+            reason=say("support.no_length"),
         )
     if abs(_cross(pull, post)) <= _ROUNDING * math.hypot(*pull):
         return _carry_by_post_alone(pull, post)
@@ -131,12 +132,9 @@ def _carry_by_post_alone(pull: Point, post: Point) -> HeadForces | FailedSupport
     if compression < 0.0:
         return FailedSupport(
             outcome=Outcome.NO_EQUILIBRIUM,
-            reason="the net pulls along the post, away from its base: "
-            "the post would be in tension",
+            reason=say("support.post_in_tension"),
         )
-    return HeadForces(
-        post_compression=compression, reason="the post carries, both guys are slack"
-    )
+    return HeadForces(post_compression=compression, reason=say("support.post_alone"))
 
 
 def _carry_by_pair(
@@ -144,38 +142,37 @@ def _carry_by_pair(
 ) -> HeadForces | FailedSupport:
     """Try the post with the uphill guy, else with the downhill guy."""
     uphill = _resolve(pull, post, _direction(points.head, points.uphill_anchor))
-    if not isinstance(uphill, str):
+    if not isinstance(uphill, Message):
         return HeadForces(
             post_compression=uphill[0],
             uphill_guy_tension=uphill[1],
-            reason="post and uphill guy carry, the downhill guy is slack",
+            reason=say("support.post_and_uphill"),
         )
     downhill = _resolve(pull, post, _direction(points.head, points.downhill_anchor))
-    if not isinstance(downhill, str):
+    if not isinstance(downhill, Message):
         return HeadForces(
             post_compression=downhill[0],
             downhill_guy_tension=downhill[1],
-            reason="post and downhill guy carry, the uphill guy is slack",
+            reason=say("support.post_and_downhill"),
         )
     return FailedSupport(
         outcome=Outcome.NO_EQUILIBRIUM,
-        reason=f"the post head has no equilibrium: with the uphill guy {uphill}; "
-        f"with the downhill guy {downhill}",
+        reason=say("support.no_equilibrium", uphill=uphill, downhill=downhill),
     )
 
 
-def _resolve(pull: Point, post: Point, guy: Point) -> tuple[float, float] | str:
+def _resolve(pull: Point, post: Point, guy: Point) -> tuple[float, float] | Message:
     """Eq. (S2): compression of the post and tension of the guy, or why not."""
     sine = _cross(post, guy)
     if abs(sine) < math.sin(MIN_GUY_ANGLE):
-        return "nothing holds sideways, since the guy lies along the post"
+        return say("support.guy_along_post")
     compression = _cross(pull, guy) / sine
     tension = _cross(pull, post) / sine
     if tension < 0.0:
-        return "the guy would have to push"
+        return say("support.guy_pushes")
     # A pull along the guy's own line leaves a post force of rounding size.
     if compression < -_ROUNDING * math.hypot(*pull) / abs(sine):
-        return "the post would be in tension"
+        return say("support.post_pulls")
     return max(compression, 0.0), tension
 
 

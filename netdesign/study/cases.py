@@ -33,6 +33,7 @@ from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.study.probe import build_scene
 from netdesign.study.record_monitoring import follow_monitoring
 from netdesign.study.records import MonitoringRecord
+from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
 # has a limit of its own, and a row so many members. Beside the envelope a row that
@@ -90,26 +91,31 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
         _plan_envelope(site, run),
         Phase(
             key="histories",
-            words="histories of the governing cases",
+            words=say("phase.histories"),
             cases=histories * _HISTORIES[0],
             most=histories * _HISTORIES[1],
             cost=HISTORY / run.jobs,
         ),
         Phase(
             key="measured",
-            words="histories beside measured series",
+            words=say("phase.measured"),
             cases=measured,
             most=measured,
             cost=HISTORY,
         ),
         Phase(
             key="checks",
-            words="other creep laws, and what would turn a check",
+            words=say("phase.checks"),
             cases=profiles * rows * _BESIDE[0],
             most=profiles * rows * _BESIDE[1],
             pieces=profiles * checks,
         ),
-        Phase(key="reports", words="reports", cases=0, seconds=_REPORTS_S * profiles),
+        Phase(
+            key="reports",
+            words=say("phase.reports"),
+            cases=0,
+            seconds=_REPORTS_S * profiles,
+        ),
     ]
     return [one for one in phases if one.most or one.seconds]
 
@@ -118,9 +124,9 @@ def _plan_envelope(site: Site, run: CheckRun) -> Phase:
     """The grid, or the search with its confirmations."""
     cases, cost = count_cases(site), 1.0 / run.jobs
     if site.ranges.is_grid:
-        words, most = "cases of the grid", cases
+        words, most = say("phase.grid_cases"), cases
     else:
-        words = "largest forces and their confirmation"
+        words = say("phase.search_cases")
         most = len(site.rows) * _SEARCH[1]
     return Phase(key="envelope", words=words, cases=cases, most=most, cost=cost)
 
@@ -196,14 +202,15 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
         If it refuses every corner.
     """
     spans = (ranges.density, ranges.friction_angle, ranges.inclination)
-    refusals: dict[str, None] = {}
+    refusals: dict[Message, None] = {}
     for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
         case = Case(density=density, friction_angle=friction, inclination=inclination)
         try:
             return build_scene(row, case, law)
         except ModelError as error:
-            refusals.setdefault(f"net row {row.id}: {error}")
-    raise ModelError("\n".join(refusals))
+            refused = say("study.net_row", row=row.id, reason=error.message)
+            refusals.setdefault(refused)
+    raise ModelError(say("text.lines", lines=tuple(refusals)))
 
 
 def solve_site(

@@ -12,18 +12,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import repeat
 from types import MappingProxyType
+from typing import Protocol
 
 from netdesign import __version__
 from netdesign.checks import Standard
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import RowEnvelope
+from netdesign.envelope.runner import Runner
+from netdesign.envelope.search import RowEnvelope, Wave
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.layout import place_support
-from netdesign.study.cases import CheckRun
+from netdesign.study.cases import CheckRun, follow_site, search_site, solve_site
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.members import RowTask, check_row, record_point
 from netdesign.study.probe import Probe
@@ -58,6 +60,90 @@ from netdesign.words.names import name, name_check, name_member, read_reason
 REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
+
+
+class Watch(Protocol):
+    """Who is told how far a check has come; ``edge.progress.RunProgress`` is one."""
+
+    def enter(self, key: str) -> None:
+        """Tell that a phase of ``cases.list_phases`` begins."""
+
+    def tell_wave(self, wave: Wave) -> None:
+        """Tell that a wave of the search is over."""
+
+    def count_piece(self) -> None:
+        """Tell that a check of a force is finished."""
+
+
+class _Nobody:
+    """Watch of a check whose progress nobody asks for."""
+
+    def enter(self, key: str) -> None: ...
+    def tell_wave(self, wave: Wave) -> None: ...
+    def count_piece(self) -> None: ...
+
+
+def check_site(
+    site: Site,
+    standards: Sequence[Standard],
+    run: CheckRun,
+    runner: Runner | None = None,
+    watch: Watch | None = None,
+) -> list[Study]:
+    """Check a site against limit profiles; its cases are solved once.
+
+    Parameters
+    ----------
+    site : Site
+        What the engineer gives.
+    standards : sequence of Standard
+        Limit profiles.
+    run : CheckRun
+        Settings and identity of the run.
+    runner : Runner, optional
+        Where cases are solved and kept; this process unless told otherwise. It
+        remembers the faults of the program.
+    watch : Watch, optional
+        Told of every phase, wave and check.
+
+    Returns
+    -------
+    list of Study
+        One for each profile.
+    """
+    runner, watch = runner or Runner(), watch or _Nobody()
+    envelopes: list[RowEnvelope] | None = None
+    if site.ranges.is_grid:
+        results = solve_site(site, run, runner)
+    else:
+        envelopes = search_site(site, run, runner, watch.tell_wave)
+        results = [list(one.results) for one in envelopes]
+    watch.enter("measured")
+    measured = follow_site(site, run, runner)
+    watch.enter("checks")
+    probe = Probe(run.settings, run.creep_law, runner)
+    count = watch.count_piece
+    studies = [
+        judge_site(site, results, one, run, probe, measured, envelopes, count)
+        for one in standards
+    ]
+    _keep_faults(site, results, envelopes or (), runner)
+    return studies
+
+
+def _keep_faults(
+    site: Site,
+    results: Sequence[Sequence[CaseResult]],
+    envelopes: Sequence[RowEnvelope],
+    runner: Runner,
+) -> None:
+    """Tell the runner which net rows the faults in their cases befell."""
+    for row, of_row in zip(site.rows, results, strict=True):
+        for result in of_row:
+            runner.keep_fault(result.fault, row.id)
+    for row, envelope in zip(site.rows, envelopes, strict=False):
+        for one in envelope.confirmations:
+            runner.keep_fault(one.confirmed.fault, row.id)
 
 
 def judge_site(

@@ -118,10 +118,10 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
         return _Modelled(times_d=[], forces_kN=[], reason=read_reason(task.refusal))
     reason: Message | None
     if task.layout is None or isinstance(task.settings, StaggeredSettings):
-        reason = say("monitoring.needs_support")
+        reason = say("measured.needs_support")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if not series.times[-1] > 0.0:
-        reason = say("monitoring.single_reading")
+        reason = say("measured.single_reading")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     clock = build_clock(series, task.scene)
     settings = TransientSettings(
@@ -132,7 +132,7 @@ def _follow(task: CaseTask, series: MonitoringSeries) -> _Modelled:
         reason = read_reason(solution.reason)
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     if solution.history is None:
-        reason = say("monitoring.no_history")
+        reason = say("measured.no_history")
         return _Modelled(times_d=[], forces_kN=[], reason=reason)
     return _read_member(task.layout, solution, solution.history.moments, series.member)
 

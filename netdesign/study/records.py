@@ -14,13 +14,14 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
+from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_bounded
 from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
-from netdesign.errors import StudyError
+from netdesign.errors import ContentError, StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.words.catalogue import render
-from netdesign.words.message import Message
+from netdesign.words.message import Message, say
 
 if TYPE_CHECKING:
     from pydantic_core import CoreSchema
@@ -500,23 +501,26 @@ def read_document(text: str) -> Study:
     from pydantic import ValidationError
 
     if _OLD_SCHEMA in text[:_HOW_FAR]:
-        raise StudyError(
-            f"the study has schema {_OLD_SCHEMA}, this version reads {SCHEMA} only: "
-            "run 'netdesign check' on its site again"
-        )
+        raise StudyError(say("study_file.old_schema", old=_OLD_SCHEMA, new=SCHEMA))
     try:
         study: Study = read_json(Study, text)
         _require_sense(study)
     except ValidationError as error:
         faults = [
-            f"{'.'.join(str(part) for part in fault['loc']) or 'document'}: "
-            f"{fault['msg']}"
+            say(
+                "text.at_place",
+                place=".".join(map(str, fault["loc"])) or say("study.document"),
+                text=explain_shape(fault),
+            )
             for fault in error.errors(include_input=False, include_url=False)
         ]
-        message = f"not a study of schema {SCHEMA}:\n{list_faults(faults)}"
-        raise StudyError(message) from None
+        raise StudyError(
+            say("study.faults", schema=SCHEMA, faults=list_faults(faults))
+        ) from None
     except ValueError as error:
-        raise StudyError(f"not a study of schema {SCHEMA}: {error}") from None
+        raise StudyError(
+            say("study.fault", schema=SCHEMA, fault=explain(error))
+        ) from None
     return study
 
 
@@ -525,12 +529,12 @@ def _require_sense(study: Study) -> None:
     counts = Counter(row.id for row in study.rows)
     twice = [name for name, count in counts.items() if count > 1]
     if twice:
-        raise ValueError(f"rows: the id {twice[0]!r:.60} is used twice")
+        raise ContentError(say("study.id_twice", id=f"{twice[0]!r:.60}"))
     started = study.provenance.started
     try:
         datetime.fromisoformat(started or "1980-01-01")
     except ValueError:
-        raise ValueError(f"provenance.started: {started!r:.60} is no date") from None
+        raise ContentError(say("study.no_date", started=f"{started!r:.60}")) from None
 
 
 def load_study(path: Path) -> Study:
@@ -544,5 +548,7 @@ def load_study(path: Path) -> Study:
     try:
         text = read_bounded(path, MAX_JSON_BYTES).decode()
     except (OSError, ValueError) as error:
-        raise StudyError(f"{path}: cannot be read: {error}") from None
+        raise StudyError(
+            say("study.unreadable", path=str(path), cause=explain(error))
+        ) from None
     return read_document(text)

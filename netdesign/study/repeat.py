@@ -11,6 +11,7 @@ from netdesign.study.cases import CheckRun, read_method
 from netdesign.study.check_site import name_law
 from netdesign.study.records import Study
 from netdesign.study.values import Difference, compare_values, list_values
+from netdesign.words.message import say
 
 _LOG = re.compile(r"rows\..*\.envelope\.log\.\d+\.\w+(\.\w+)?")
 
@@ -40,11 +41,14 @@ def build_run(study: Study, jobs: int) -> CheckRun:
             started=made.started,
         )
     except (KeyError, ValueError) as error:
-        raise StudyError(f"provenance.settings: cannot be had again: {error}") from None
+        raise StudyError(say("study.settings", cause=str(error))) from None
     if given.get("creep_law") != name_law(run.creep_law):
         raise StudyError(
-            f"provenance.settings: creep law {given.get('creep_law')!r:.120}: this "
-            f"version solves with {name_law(run.creep_law)!r}"
+            say(
+                "study.other_law",
+                given=f"{given.get('creep_law')!r:.120}",
+                own=repr(name_law(run.creep_law)),
+            )
         )
     return run
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
@@ -50,6 +50,38 @@ class Message:
 def say(key: str, /, **arguments: Argument) -> Message:
     """Message with the arguments that the text of this key asks for."""
     return Message(key, MappingProxyType(arguments))
+
+
+def dump(message: Message) -> dict[str, Any]:
+    """Plain values of a message, for JSON."""
+    arguments = {name: _dump(value) for name, value in message.arguments.items()}
+    return {"key": message.key, "arguments": arguments}
+
+
+def _dump(value: Argument) -> Any:
+    if isinstance(value, Message):
+        return dump(value)
+    return [_dump(one) for one in value] if isinstance(value, tuple) else value
+
+
+def restore(plain: Mapping[str, Any]) -> Message:
+    """Message from its plain values.
+
+    Raises
+    ------
+    KeyError, TypeError, AttributeError
+        If they are none.
+    """
+    given = plain["arguments"].items()
+    return say(str(plain["key"]), **{name: _read(value) for name, value in given})
+
+
+def _read(value: Any) -> Argument:
+    if isinstance(value, Mapping):
+        return restore(value)
+    if isinstance(value, list):
+        return tuple(_read(one) for one in value)  # type: ignore[misc]
+    return value  # type: ignore[no-any-return]
 
 
 def _restore(key: str, arguments: dict[str, Argument]) -> Message:

@@ -49,7 +49,10 @@ def test_a_file_elsewhere_is_not_read(jobs, tmp_path):
         ("[check]\njobbs = 2\n", "[check] jobbs: is not known; did you mean 'jobs'?"),
         ("[chek]\njobs = 2\n", "[chek]: is not known; did you mean 'check'?"),
         ("[report]\nout = 'x'\n", "[report]: is not known"),
-        ("[check]\njobs = 0\n", "[check] jobs = 0: 0 is not in the range"),
+        (
+            "[check]\njobs = 0\n",
+            "[check] jobs = 0: Invalid value for '--jobs'; accepted: 1 to 256",
+        ),
         ("[check]\naccuracy = 'fine'\n", "[check] accuracy = 'fine'"),
         ("[check]\naccuracy = []\n", "[check] accuracy = []: no such value fits"),
         ("[check]\ncache = {}\n", "[check] cache = {}: no such value fits"),

@@ -109,7 +109,7 @@ def history_faults(a_scene, grid, start, level=0):
                 scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale
             )
         except SolveError as failure:  # a sagged net may lie on the ground
-            if "touches the ground" not in failure.reason:
+            if "touches the ground" not in str(failure.reason):
                 wrong[key] = failure.reason
             continue
         if not max(moment.residual for moment in run.moments) < 1e-8:

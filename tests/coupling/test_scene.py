@@ -53,7 +53,7 @@ def test_fluidity_is_guarded(a_scene, fluidity):
 
 @pytest.mark.parametrize("field", ["ground_contact", "net_contact"])
 def test_contact_word_is_guarded(a_scene, field):
-    with pytest.raises(ModelError, match=f"{field} = 'glued'"):
+    with pytest.raises(ModelError, match=f"{field.replace('_', ' ')} = 'glued'"):
         replace(a_scene(), **{field: "glued"})
 
 

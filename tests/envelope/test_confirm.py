@@ -76,14 +76,14 @@ def test_a_history_without_plateau_leaves_its_row_unproven(monkeypatch):
     lost = CaseResult(
         case=GRID[0].case,
         outcome=Outcome.PLATEAU_NOT_REACHED,
-        reason=Outcome.PLATEAU_NOT_REACHED.sentence,
+        reason=Outcome.PLATEAU_NOT_REACHED.message,
         member_forces={},
     )
     monkeypatch.setattr(confirm, "run_cases", lambda tasks, **_: [lost] * len(tasks))
     tasks = [[build_task(replace_case) for replace_case in GRID]]
     (row,) = confirm_rows(tasks, [GRID], TransientSettings())
-    assert "came to no plateau" in describe_gap(row)
-    assert "2 of 2 cases failed" in describe_gap(row)
+    assert "came to no plateau" in str(describe_gap(row))
+    assert "2 of 2 cases failed" in str(describe_gap(row))
 
 
 def build_task(of, scene=None, settings=None):

@@ -10,6 +10,7 @@ from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import solve_job
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 
 AXES = ("density", "friction_angle")
 LOW, MIDDLE, HIGH = (0.3, 0.0), (0.3, 0.5), (0.3, 1.0)
@@ -82,7 +83,10 @@ def test_sliding_snow_answers_for_nothing(end):
 
 def test_another_line_and_a_failed_case_answer_for_nothing(end):
     skip = after_two_tests(end)
-    skip.learn(LOW, CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt"))
+    skip.learn(
+        LOW,
+        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")),
+    )
     skip.learn((0.4, 0.0), sticking(end))
     assert needs_solve(skip, HIGH)
 

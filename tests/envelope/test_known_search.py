@@ -20,6 +20,7 @@ from netdesign.envelope.store import CaseStore, name_search
 from netdesign.envelope.surrogate import Surrogate
 from netdesign.envelope.workers import OwnProcess
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 from tests.envelope.made_up_workers import Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 from tests.envelope.synthetic import drive, smooth
@@ -243,7 +244,7 @@ def test_a_damaged_search_is_told_and_made_anew(row, change):
     row.edit(f"UPDATE searches SET {change}")
     second, counts = row.search(OPEN)
     assert (row.searches, counts.solved) == (2, 0)
-    assert "is damaged, made anew" in row.said[0]
+    assert "is damaged, made anew" in str(row.said[0])
     assert_same_row(first, second)
     row.search(OPEN)
     assert row.searches == 2
@@ -252,19 +253,21 @@ def test_a_damaged_search_is_told_and_made_anew(row, change):
 def test_an_open_gap_stays_open(row):
     for _ in range(2):
         found, _ = row.search(OPEN)
-        assert "could still exceed" in found.gap
+        assert "could still exceed" in str(found.gap)
     assert row.searches == 1
 
 
 def lose_rough(job, end):
-    lost = CaseEnd(outcome=Outcome.WORKER_FAILED, reason="lost")
+    lost = CaseEnd(
+        outcome=Outcome.WORKER_FAILED, reason=say("text.as_given", text="lost")
+    )
     return lost if job.scene.net.friction_angle > 0.7 else end
 
 
 def test_cases_that_were_lost_and_are_solved_now_are_searched_anew(row):
     first, _ = row.search(workers=Spoiling(lose_rough))
     second, _ = row.search()
-    assert "failed (lost)" in first.gap
+    assert "failed (lost)" in str(first.gap)
     assert row.searches == 2
     (fresh,) = search_rows([TASK], Runner())
     assert_same_row(second, fresh)

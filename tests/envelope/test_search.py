@@ -24,6 +24,7 @@ from netdesign.envelope.state import CaseEnd
 from netdesign.envelope.workers import ProcessPool
 from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 from tests.envelope.made_up_workers import Recording, Spoiling
 from tests.envelope.small_scene import COARSE, LAYOUT, build_scene
 
@@ -65,7 +66,7 @@ def grid():
 
 
 def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
-    assert found.gap == ""
+    assert found.gap is None
     for result in grid:
         for member, band in result.member_forces.items():
             assert band.value <= found.bound(member).high
@@ -113,9 +114,10 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
         one.confirmed, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
     )
     lost = replace(found, confirmations=(replace(one, confirmed=failed),))
-    assert found.gap == ""
-    assert lost.gap == (
-        f"the governing case of {one.member} could not be solved again (spoilt)"
+    assert found.gap is None
+    assert str(lost.gap) == (
+        f"the governing case of {one.member.replace('_', ' ')} could not be solved "
+        "again (spoilt)"
     )
 
 
@@ -140,18 +142,22 @@ def test_rows_together_end_as_each_alone(found):
 
 def spoil_rough_dense(job, end):
     spoilt = job.scene.net.friction_angle > 0.7 and job.scene.snowpack.density > 390.0
-    return CaseEnd(outcome=Outcome.DIVERGED, reason="spoilt") if spoilt else end
+    return (
+        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt"))
+        if spoilt
+        else end
+    )
 
 
 def test_a_failed_case_leaves_a_gap_by_name():
     (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil_rough_dense)))
-    assert "failed (spoilt)" in found.gap
+    assert "failed (spoilt)" in str(found.gap)
     assert all(found.governing(m).is_converged for m in found.members)
 
 
 def test_an_open_gap_is_told(found):
     opened = replace(found, maxima=replace(found.maxima, is_closed=False))
-    assert "could still exceed the largest one" in opened.gap
+    assert "could still exceed the largest one" in str(opened.gap)
 
 
 def test_no_gap_is_closed_beyond_the_accuracy_of_the_cases():
@@ -195,14 +201,14 @@ def refuses(monkeypatch):
 def test_a_grid_of_refused_cases_says_why():
     results = run_grid(TASK, {"density": 2, "friction_angle": 2}, Runner()).results
     assert [result.outcome for result in results] == 4 * [Outcome.OUT_OF_VALIDITY]
-    assert {result.reason for result in results} == {"refused"}
+    assert {str(result.reason) for result in results} == {"refused"}
 
 
 @pytest.mark.usefixtures("refuses")
 def test_a_search_of_refused_cases_is_not_closed():
     (found,) = search_rows([TASK], Runner())
     assert not found.maxima.is_closed
-    assert {result.reason for result in found.results} == {"refused"}
+    assert {str(result.reason) for result in found.results} == {"refused"}
 
 
 # --- a grid in lines of ascending friction -------------------------------------------

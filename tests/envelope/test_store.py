@@ -14,6 +14,7 @@ from netdesign.envelope.state import CaseEnd, SolvedState, decode_end, encode_en
 from netdesign.envelope.store import CaseStore, StoreError, find_store, name_case
 from netdesign.envelope.workers import Job, solve_job
 from netdesign.outcome import Outcome
+from netdesign.words.message import say
 from tests.envelope.small_scene import COARSE, build_scene
 
 CASE = Case(density=300.0, friction_angle=math.radians(30), inclination=0.5)
@@ -53,7 +54,10 @@ def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
 
 
 def test_a_failure_survives_too():
-    failed = CaseEnd(outcome=Outcome.NO_EQUILIBRIUM, reason="the post ü would pull")
+    failed = CaseEnd(
+        outcome=Outcome.NO_EQUILIBRIUM,
+        reason=say("text.as_given", text="the post ü would pull"),
+    )
     assert decode_end(*encode_end(failed)) == failed or (
         decode_end(*encode_end(failed)).reason == failed.reason
     )
@@ -70,7 +74,7 @@ def test_what_is_kept_is_found_by_a_later_run(opened, said):
 
 
 def test_many_names_are_looked_up_at_once(opened):
-    failed = CaseEnd(outcome=Outcome.DIVERGED, reason="x")
+    failed = CaseEnd(outcome=Outcome.DIVERGED, reason=say("worker.died"))
     with opened() as one:
         for k in range(1203):
             one.keep(str(k), failed)
@@ -80,7 +84,7 @@ def test_many_names_are_looked_up_at_once(opened):
 @pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
 def test_a_case_lost_with_its_worker_or_by_a_fault_is_not_kept(opened, lost):
     with opened() as one:
-        one.keep("a", CaseEnd(outcome=lost, reason="died"))
+        one.keep("a", CaseEnd(outcome=lost, reason=say("worker.died")))
         assert one.find(["a"]) == {}
 
 
@@ -111,7 +115,7 @@ def test_a_store_of_another_version_is_set_aside_and_said_so(
     with opened() as other:
         assert other.find(["a"]) == {}
         other.keep("a", solve_one())
-    (text,) = said
+    text = str(said[0])
     assert "belongs to version" in text
     assert "9.9+feed" in text
     assert "cases.sqlite.aside-1" in text
@@ -129,7 +133,7 @@ def test_a_damaged_store_is_set_aside_and_rebuilt(opened, said, tmp_path, conten
         one.keep("a", solve_one())
         assert set(one.find(["a"])) == {"a"}
     assert len(said) == 1
-    assert "set aside as cases.sqlite.aside-1" in said[0]
+    assert "set aside as cases.sqlite.aside-1" in str(said[0])
     assert (tmp_path / "cases.sqlite.aside-1").read_bytes() == content
 
 
@@ -140,7 +144,7 @@ def test_a_database_of_something_else_is_left_as_it_was(opened, said, tmp_path):
     base.close()
     with opened() as one:
         assert one.find(["a"]) == {}
-    assert "is no store of cases" in said[0]
+    assert "is no store of cases" in str(said[0])
     kept = sqlite3.connect(tmp_path / "cases.sqlite.aside-1")
     assert kept.execute("SELECT name FROM sqlite_master").fetchall() == [("mine",)]
     kept.close()
@@ -155,7 +159,7 @@ def test_a_store_that_does_not_say_whose_it_is_is_set_aside(opened, said, tmp_pa
     base.close()
     with opened() as other:
         assert other.find(["a"]) == {}
-    assert "belongs to version ? of the solver" in said[0]
+    assert "belongs to version ? of the solver" in str(said[0])
 
 
 def test_a_case_that_holds_no_number_is_solved_anew(opened, said):
@@ -164,7 +168,7 @@ def test_a_case_that_holds_no_number_is_solved_anew(opened, said):
     with opened() as one:
         one.keep("a", replace(end, state=spoilt))
         assert one.find(["a"]) == {}
-    assert "case a is damaged" in said[0]
+    assert "case a is damaged" in str(said[0])
 
 
 def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
@@ -181,7 +185,7 @@ def test_a_damaged_entry_is_told_and_solved_anew(opened, said, tmp_path):
     with opened() as other:
         assert set(other.find(["a", "b"])) == {"b"}
     assert len(said) == 1
-    assert "case a is damaged" in said[0]
+    assert "case a is damaged" in str(said[0])
 
 
 def test_no_file_possible_is_an_error_that_names_the_place(tmp_path, said):
@@ -218,8 +222,8 @@ def test_a_runner_solves_equal_cases_once_and_known_ones_never(opened):
 def test_a_store_that_breaks_under_way_costs_its_use_not_the_run(opened, said):
     with opened() as kept:
         kept._base.close()
-        runner = Runner(store=kept, say=said.append)
+        runner = Runner(store=kept, tell=said.append)
         (end,) = runner.solve([JOB])
     assert end.outcome is Outcome.CONVERGED
     assert runner.store is None
-    assert "going on without it" in said[0]
+    assert "going on without it" in str(said[0])

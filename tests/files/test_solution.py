@@ -57,7 +57,9 @@ def test_refused_net_says_what_to_change_and_what_it_stays_below():
     scene = build_tables(TOUCHING)
     refused = solve_scene(scene, ROUGH)
     assert isinstance(refused, FailedSolution)
-    assert "less slack, less inclination or a stiffer net is needed" in refused.reason
+    assert "less slack, less inclination or a stiffer net is needed" in str(
+        refused.reason
+    )
     bound = bound_by_less_slack(scene, ROUGH)
     assert bound is not None
     written = write_solution_document(refused, ROUGH, 0.0, bound)["upper_bound"]

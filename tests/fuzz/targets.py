@@ -44,6 +44,7 @@ from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.workbook import write_site_workbook
 from netdesign.study.records import read_document, write_document
+from netdesign.words.message import say
 from tests.full_scene import FULL_SCENE
 from tests.report.build_study import build_study
 
@@ -554,7 +555,9 @@ def try_config(content: bytes) -> None:
     assert is_shown_only(err), err
 
 
-END = CaseEnd(outcome=Outcome.DIVERGED, reason="residual grew")
+END = CaseEnd(
+    outcome=Outcome.DIVERGED, reason=say("text.as_given", text="residual grew")
+)
 
 
 @cache
@@ -578,7 +581,7 @@ def try_store(content: bytes) -> None:
         CaseStore(folder / "cases.sqlite", lambda _: None) as store,
     ):
         for end in store.find(["0", "1", "2"]).values():
-            assert (end.outcome, end.reason) == (END.outcome, END.reason)
+            assert (end.outcome, str(end.reason)) == (END.outcome, str(END.reason))
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,10 @@ def build_sheets(sheets):
         [f"R{number}" if f.key == "id" else TYPED.get(f.key) for f in NETS.fields]
         for number in range(ROWS)
     ]
-    return {**sheets, "Nets": [[field.heading for field in NETS.fields], *lines]}
+    return {
+        **sheets,
+        "Nets": [[field.heading_for("en") for field in NETS.fields], *lines],
+    }
 
 
 def write_xlsx(path, sheets):

@@ -167,8 +167,8 @@ def test_type_that_no_sheet_defines_names_cell_and_near_matches(sheets, save, re
     sheets["Nets"][1][12] = "H1"
     first, second = refused(save(sheets))
     assert (first.cell, second.cell) == ("L2", "M2")
-    assert 'nearest: "A1"' in first.accepted
-    assert "an id defined in sheet Ropes" in second.accepted
+    assert 'nearest: "A1"' in str(first.accepted)
+    assert "an id defined in sheet Ropes" in str(second.accepted)
 
 
 def test_place_in_the_row_is_read(sheets, save):

@@ -36,7 +36,7 @@ def test_pull_downslope_is_held_by_the_uphill_guy():
     assert forces.post_compression == pytest.approx(40 * KN, rel=1e-14)
     assert forces.downhill_guy_tension == 0.0
     assert forces.outcome is Outcome.CONVERGED
-    assert forces.reason == "post and uphill guy carry, the downhill guy is slack"
+    assert str(forces.reason) == "post and uphill guy carry, the downhill guy is slack"
 
 
 def test_pull_upslope_is_held_by_the_downhill_guy():
@@ -44,7 +44,7 @@ def test_pull_upslope_is_held_by_the_downhill_guy():
     assert forces.downhill_guy_tension == pytest.approx(50 * KN, rel=1e-14)
     assert forces.post_compression == pytest.approx(50 * KN, rel=1e-14)
     assert forces.uphill_guy_tension == 0.0
-    assert forces.reason == "post and downhill guy carry, the uphill guy is slack"
+    assert str(forces.reason) == "post and downhill guy carry, the uphill guy is slack"
 
 
 @pytest.mark.parametrize("across", [0.0, 1e-14, -1e-14])
@@ -52,7 +52,7 @@ def test_pull_down_the_post_leaves_both_guys_slack(across):
     forces = compute_head_forces((across * 70 * KN, -70 * KN), some_points())
     assert forces.post_compression == pytest.approx(70 * KN, rel=1e-15)
     assert (forces.uphill_guy_tension, forces.downhill_guy_tension) == (0.0, 0.0)
-    assert forces.reason == "the post carries, both guys are slack"
+    assert str(forces.reason) == "the post carries, both guys are slack"
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -67,8 +67,9 @@ def test_more_than_rounding_across_the_post_tightens_one_guy(sign):
 
 def test_slack_net_loads_nothing():
     forces = compute_head_forces((0.0, 0.0), some_points())
-    assert dataclasses.astuple(forces)[:3] == (0.0, 0.0, 0.0)
-    assert forces.reason == "the post carries, both guys are slack"
+    assert forces.post_compression == 0.0
+    assert (forces.uphill_guy_tension, forces.downhill_guy_tension) == (0.0, 0.0)
+    assert str(forces.reason) == "the post carries, both guys are slack"
 
 
 def test_the_size_of_a_support_does_not_matter_its_angles_do():
@@ -116,7 +117,7 @@ def test_lifting_pull_has_no_equilibrium_and_no_number():
     failed = compute_head_forces((0.0, 10 * KN), some_points())
     assert isinstance(failed, FailedSupport)
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert failed.reason == (
+    assert str(failed.reason) == (
         "the net pulls along the post, away from its base: the post would be in tension"
     )
 
@@ -124,15 +125,15 @@ def test_lifting_pull_has_no_equilibrium_and_no_number():
 def test_lifting_pull_aside_names_both_pairs():
     failed = compute_head_forces((1 * KN, 10 * KN), some_points())
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert "uphill guy the post would be in tension" in failed.reason
-    assert "downhill guy the guy would have to push" in failed.reason
+    assert "uphill guy the post would be in tension" in str(failed.reason)
+    assert "downhill guy the guy would have to push" in str(failed.reason)
 
 
 def test_guy_along_the_post_holds_nothing():
     points = some_points(downhill_anchor=(0.0, 0.0))
     failed = compute_head_forces((-1 * KN, -10 * KN), points)
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert "downhill guy nothing holds sideways" in failed.reason
+    assert "downhill guy nothing holds sideways" in str(failed.reason)
 
 
 def test_guy_along_the_post_does_not_disturb_the_other():
@@ -153,13 +154,13 @@ def test_guy_without_length_holds_nothing():
     points = some_points(uphill_anchor=(0.0, 4.0))
     failed = compute_head_forces((1 * KN, 0.0), points)
     assert failed.outcome is Outcome.NO_EQUILIBRIUM
-    assert "uphill guy nothing holds sideways" in failed.reason
+    assert "uphill guy nothing holds sideways" in str(failed.reason)
 
 
 def test_post_without_length_is_refused():
     failed = compute_head_forces((1 * KN, 0.0), some_points(post_base=(0.0, 4.0)))
     assert failed.outcome is Outcome.OUT_OF_VALIDITY
-    assert failed.reason == "the post has no length: its head lies on its base"
+    assert str(failed.reason) == "the post has no length: its head lies on its base"
 
 
 def test_foot_at_the_uphill_anchor_changes_nothing_at_the_head():
@@ -173,7 +174,7 @@ def test_what_is_no_number_gives_no_forces(bad):
     for pull in ((bad, 0.0), (0.0, bad)):
         failed = compute_head_forces(pull, some_points())
         assert failed.outcome is Outcome.NONFINITE
-        assert failed.reason == (
+        assert str(failed.reason) == (
             "the pull on the post head or a point of the support is no number"
         )
     for place in ("head", "post_base", "uphill_anchor", "downhill_anchor"):

@@ -16,14 +16,17 @@ PACKAGE = Path(netdesign.__file__).parent
 TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
 FAMILIES: tuple[str, ...] = (
+    *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
+    *("envelope_member.", "os_error.", "shape."),
+    *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
     *("method.", "method_used.", "setting.", "start.", "end.", "input_end."),
-    *("profile_title.", "profile_text.", "profile_source.", "solve_method."),
+    *("profile_title.", "profile_text.", "profile_source.", "solved_method."),
     *(
-        "solve_caption.",
-        "solve.foot",
-        "solve.head",
+        "solved_caption.",
+        "solved.foot",
+        "solved.head",
         "diff_value.",
         "diff_check.",
         "diff_project.",

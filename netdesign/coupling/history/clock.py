@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from netdesign.errors import ModelError
 from netdesign.guards import require_positive
 from netdesign.snow.fluidity import compute_fluidity
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -65,8 +66,11 @@ class Clock:
         ascending = times.size > 0 and times[0] == 0.0 and (np.diff(times) > 0).all()
         if not ascending or temperatures.shape != times.shape:
             raise ModelError(
-                f"temperatures: {temperatures.size} readings at {times.size} times; "
-                "times must ascend from 0 s, one reading each"
+                say(
+                    "history.temperatures",
+                    readings=temperatures.size,
+                    times=times.size,
+                )
             )
         fine = np.interp(
             np.arange((times.size - 1) * _PARTS + 1) / _PARTS,

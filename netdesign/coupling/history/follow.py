@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.instant import Instant
-from netdesign.coupling.history.net_start import TOUCHES_GROUND
 from netdesign.coupling.history.state import (
     HEAD_GAP,
     Top,
@@ -20,6 +19,7 @@ from netdesign.errors import SolveError
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Signs = NDArray[np.int8]
@@ -45,7 +45,7 @@ def follow(
     """
     net = _spread_nodes(problem, state, _move_top(problem, state, instant))
     if not net.vertices[1, 1:].min() > 0.0:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("net.touches_ground"))
     body, fallen = move_body(state.body, instant.displaced, net.vertices, problem.head)
     following = TransientState(
         time=state.time + step,

@@ -32,6 +32,7 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.law import squared_size
 from netdesign.snow.straight_mesh import unfold_velocity
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -142,7 +143,7 @@ def advance(
             instant = _finish(equations, state, iterate, response, iteration)
             if instant.residual < _ROUNDING_SHARE * balance_tolerance:
                 return instant
-    raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow and net")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("history.step"))
 
 
 def advance_under(
@@ -170,7 +171,7 @@ def advance_under(
         change = _require_finite(measure_change(equations, last, iterate.stress))
         if change < tolerance:
             return _finish(equations, state, iterate, response, iteration)
-    raise SolveError(Outcome.MAX_ITERATIONS, "a step of snow under the net's forces")
+    raise SolveError(Outcome.MAX_ITERATIONS, say("history.step_under_forces"))
 
 
 def _iterate(
@@ -216,7 +217,7 @@ def _slips_over(equations: StepEquations, iterate: SnowIterate) -> bool:
 
 def _require_finite(change: float) -> float:
     if not np.isfinite(change):
-        raise SolveError(Outcome.NONFINITE, "the snow's stress is not finite")
+        raise SolveError(Outcome.NONFINITE, say("history.stress_not_finite"))
     return change
 
 

@@ -20,11 +20,11 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.body import build_body
 from netdesign.snow.mesh import MeshSize, MeshTemplate
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Start = Literal["steady", "straight", "sagged"]
 
-TOUCHES_GROUND = "the net touches the ground: less slack or less inclination is needed"
 _BISECTIONS = 60
 _LARGEST_SAG = 0.6  # over the chord
 
@@ -44,8 +44,7 @@ def find_start(scene: Scene, size: MeshSize, start: Start) -> Start | NetAtRest:
     except SolveError as failure:
         raise SolveError(
             failure.outcome,
-            f"no steady state to start from ({failure.reason.rstrip('.')}): choose "
-            "the start sagged or straight",
+            say("history.no_start", reason=failure.reason),
         ) from None
 
 
@@ -83,7 +82,7 @@ def build_start(
         curve = _hang_parabola(problem, template, start)
         lengths = _spread_length(problem, curve)
     if not curve[1, 1:].min() > 0.0:
-        raise SolveError(Outcome.OUT_OF_VALIDITY, TOUCHES_GROUND)
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("net.touches_ground"))
     body = build_body(problem.law, template, curve)
     return TransientState(
         time=0.0,

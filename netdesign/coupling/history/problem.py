@@ -7,6 +7,7 @@ from netdesign.coupling.history.state import TransientProblem
 from netdesign.coupling.scene import Scene
 from netdesign.errors import ModelError
 from netdesign.snow.settling import Settling
+from netdesign.words.message import say
 
 
 def build_problem(
@@ -15,12 +16,9 @@ def build_problem(
     """The scene's snow and net, dimensionless."""
     net = scene.net
     if not isinstance(net, Net):
-        raise ModelError("a history needs a net; a rigid wall has a steady state only")
+        raise ModelError(say("history.needs_net"))
     if "one-sided" in (scene.ground_contact, scene.net_contact):
-        raise ModelError(
-            "contact = 'one-sided': a history takes two-sided contacts only; use the "
-            "steady method"
-        )
+        raise ModelError(say("history.two_sided_only"))
     thickness = scene.snowpack.thickness
     return TransientProblem(
         law=scene.flow_law,

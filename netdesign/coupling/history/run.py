@@ -17,6 +17,7 @@ from netdesign.coupling.moments import (
     select_counted,
 )
 from netdesign.snow.settling import largest_density
+from netdesign.words.message import Message
 
 Floats = NDArray[np.float64]
 
@@ -37,8 +38,8 @@ class Run:
         At the end.
     fallen : float
         Share of the snow's mass that fell over the head.
-    ended : str
-        Why the run ended before its horizon; empty if it did not.
+    ended : Message or None
+        Why the run ended before its horizon; None if it did not.
     linear_solves, rejected : int
         Solves taken; steps that were repeated.
     is_guessed : bool
@@ -51,7 +52,7 @@ class Run:
     state: TransientState
     instant: Instant
     fallen: float
-    ended: str
+    ended: Message | None
     linear_solves: int
     rejected: int
     is_guessed: bool

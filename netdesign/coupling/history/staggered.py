@@ -43,6 +43,7 @@ from netdesign.guards import require_count, require_positive, require_within
 from netdesign.outcome import Outcome
 from netdesign.snow.body import move_body
 from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -55,7 +56,6 @@ _STABLE_SHARE = 0.3
 _FRICTION_TOLERANCE = 1e-2
 # Creep time that a run follows at most: its steps are short.
 LONGEST_EXCHANGE = 0.1
-_ADVICE = "the method transient has no such limit of explicit steps"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,12 +122,12 @@ def solve_staggered(
 
     Verified by
     -----------
-    tests/coupling/test_staggered.py, ``netdesign verify``
+    tests/coupling/history/test_staggered.py, ``netdesign verify``
     """
     try:
         return _solve(scene, settings or StaggeredSettings())
     except SolveError as failure:
-        reason = f"{failure.reason.rstrip('.')}; {_ADVICE}"
+        reason = say("staggered.advice", reason=failure.reason)
         if on_failure == "raise":
             raise SolveError(failure.outcome, reason) from None
         return FailedSolution(outcome=failure.outcome, reason=reason)
@@ -157,10 +157,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
         If a step fails: the net would have to push, or the mesh folds.
     """
     if scene.ground.kind == "no-slip":
-        raise ModelError(
-            "ground law = 'no-slip': the staggered exchange has its own base drag; "
-            "take a free ground, or another method"
-        )
+        raise ModelError(say("staggered.base_drag"))
     problem = build_problem(scene, densifies=True, base_drag=settings.base_drag)
     aspect = scene.snowpack.upslope_length / scene.snowpack.thickness
     template = build_template(aspect, settings.size, scene.layer_tops)
@@ -193,7 +190,7 @@ def run_exchange(scene: Scene, settings: StaggeredSettings) -> Run:
         state=state,
         instant=instant,
         fallen=1.0 - float(state.body.mass.sum()) / mass,
-        ended="",
+        ended=None,
         linear_solves=solves,
         rejected=0,
         is_guessed=settings.start != "steady",
@@ -256,7 +253,6 @@ def _follow(
     if increment.outcome is not Outcome.CONVERGED:
         raise SolveError(
             increment.outcome,
-            f"staggered exchange at creep time {moved.time:.3g}: the increments of "
-            "the cable have no solution; a shorter step may",
+            say("staggered.no_increment", time=float(moved.time)),
         )
     return moved, increment.state

@@ -45,6 +45,7 @@ from netdesign.snow.linear import (
 )
 from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -181,8 +182,7 @@ def assemble_step(
     if not mesh.is_valid:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the snow's mesh folds over within the step: take the steady method or a "
-            "shorter horizon",
+            say("history.mesh_folds_in_step"),
         )
     moved = replace(body, vertices=vertices)
     material = build_material(problem.settling, law, moved)
@@ -313,9 +313,7 @@ def _solve(equations: StepEquations, blocks: Sequence[Blocks], force: Floats) ->
             ordering, blocks, force, equations.free, friction, is_definite=not is_mixed
         )
     except SingularError:
-        raise SolveError(
-            Outcome.NONFINITE, "nothing holds the snow: a singular step"
-        ) from None
+        raise SolveError(Outcome.NONFINITE, say("history.nothing_holds")) from None
 
 
 def _nodal_weight(

@@ -39,6 +39,7 @@ from netdesign.errors import ModelError, SolveError
 from netdesign.guards import require_count, require_positive, require_within
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -122,7 +123,7 @@ class TransientSettings:
         require_count("steps", self.max_steps)
         require_count("iterations", self.max_iterations)
         if len(self.levels) < 2:
-            raise ModelError("an error estimate needs at least two mesh levels")
+            raise ModelError(say("scene.two_levels"))
 
 
 def solve_transient(
@@ -155,7 +156,7 @@ def solve_transient(
 
     Verified by
     -----------
-    tests/coupling/test_transient.py, ``netdesign verify``
+    tests/coupling/history/test_transient.py, ``netdesign verify``
     """
     settings = settings or TransientSettings()
     clock = clock or Clock()
@@ -282,7 +283,9 @@ class _Walk:
         """The run; one that failed ends where its last step was in balance."""
         if self.instant is None:
             failure = self.failure or SolveError(Outcome.MAX_ITERATIONS)
-            raise SolveError(failure.outcome, f"first step: {failure.reason}")
+            raise SolveError(
+                failure.outcome, say("history.first_step", reason=failure.reason)
+            )
         total = float(self.state.body.mass.sum()) + self.fallen
         return Run(
             problem=self.problem,
@@ -291,7 +294,7 @@ class _Walk:
             state=self.state,
             instant=self.instant,
             fallen=self.fallen / total,
-            ended="" if self.failure is None else self.failure.reason,
+            ended=None if self.failure is None else self.failure.reason,
             linear_solves=self.solves,
             rejected=self.rejected,
             is_guessed=self.settings.start != "steady",

@@ -19,6 +19,7 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -177,7 +178,7 @@ def _find_parts(
     if found is None:
         raise SolveError(
             Outcome.NO_EQUILIBRIUM,
-            "the net's contact with the snow's surface and layers was not found",
+            say("steady.contact_not_found"),
         )
     return found
 

@@ -31,6 +31,7 @@ from netdesign.snow.flow import FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowLaw
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.words.message import say
 
 Floats = NDArray[np.float64]
 
@@ -138,7 +139,9 @@ def _press(scene: Scene, size: MeshSize, settings: SolverSettings) -> _Pressed:
         max_iterations=settings.max_iterations,
     )
     if flow.outcome is not Outcome.CONVERGED:
-        raise SolveError(flow.outcome, f"snow flow: {flow.outcome.sentence}")
+        raise SolveError(
+            flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
+        )
     state, forces = find_support_forces(law, mesh, flow.state)
     return _Pressed(
         law=law,

@@ -59,6 +59,7 @@ from netdesign.snow.flow import FlowResult, FlowState, solve_flow
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
 from netdesign.snow.transfer import transfer_state
+from netdesign.words.message import Message, say
 
 Floats = NDArray[np.float64]
 
@@ -126,7 +127,7 @@ def solve_steady(
 
     Verified by
     -----------
-    tests/coupling/test_steady.py, tests/verification/test_reference_scene.py
+    tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
     """
     try:
         return _solve(scene, settings or SolverSettings())
@@ -170,7 +171,7 @@ def find_hanging(
 
 def _require_net(scene: Scene) -> Net:
     if not isinstance(scene.net, Net):
-        raise ModelError("net: a steady net needs a Net; a Wall goes to solve_rigid")
+        raise ModelError(say("steady.needs_net"))
     return scene.net
 
 
@@ -355,8 +356,7 @@ def _couple(
     raise _fail(
         problem,
         Outcome.MAX_ITERATIONS,
-        f"snow and net: the net still moves by {moved:.1e} of the snow thickness "
-        f"after {tried} rounds",
+        say("steady.still_moves", moved=float(moved), rounds=tried),
     )
 
 
@@ -420,32 +420,28 @@ def _flow_along(
         step=settings.step,
     )
     if flow.outcome is not Outcome.CONVERGED:
-        raise _fail(problem, flow.outcome, f"snow flow: {flow.outcome.sentence}")
+        raise _fail(
+            problem, flow.outcome, say("snow.flow_failed", outcome=flow.outcome.message)
+        )
     return flow
 
 
-def _fail(problem: SteadyProblem, outcome: Outcome, what: str) -> SolveError:
+def _fail(problem: SteadyProblem, outcome: Outcome, what: Message) -> SolveError:
     """The failure, with what in the scene is known to leave no steady state."""
     law, causes = problem.law, []
     if "one-sided" in (law.ground_contact, law.net_contact):
-        causes.append(
-            "snow lifts off a one-sided support and settles again; a two-sided "
-            "contact, or more friction on the net, is accepted"
-        )
+        causes.append(say("steady.lifts_off"))
     rates = [layer.fluidity for layer in law.layers]
     if max(rates) > _LAYER_CONTRAST * min(rates):
         contrast = max(rates) / min(rates)
-        causes.append(f"creep rates of layers differ by a factor of {contrast:.0e}")
+        causes.append(say("steady.layers_contrast", contrast=contrast))
     if problem.slack > _MUCH_SLACK:
-        causes.append(
-            f"a net with a slack of {problem.slack:.3g} may come to lie on the ground; "
-            "less slack, less inclination or a stiffer net is needed"
-        )
+        causes.append(say("steady.much_slack", slack=float(problem.slack)))
     if outcome is not Outcome.MAX_ITERATIONS or not causes:
         return SolveError(outcome, what)
     return SolveError(
         Outcome.NO_EQUILIBRIUM,
-        f"no steady state was found ({what.rstrip('.')}): {' and '.join(causes)}",
+        say("steady.not_found", what=what, causes=tuple(causes)),
     )
 
 
@@ -472,8 +468,7 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
     if curve[1, 1:].min() <= 0.0:
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the net would touch the ground: less slack, less inclination or a stiffer "
-            "net is needed",
+            say("net.would_touch_ground"),
         )
     nodes = place_nodes(problem.template, curve)
     mesh = build_placed_mesh(problem.template, nodes, problem.law.element)
@@ -481,9 +476,7 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
         above = np.degrees(np.arctan2(curve[1, 1], curve[0, 1]))
         raise SolveError(
             Outcome.OUT_OF_VALIDITY,
-            "the net bulges so far that the snow's mesh folds over (it leaves its "
-            f"foot at {above:.0f} degrees from the ground): less slack, less "
-            "inclination or a stiffer net is needed",
+            say("net.bulges", angle=float(above)),
         )
     return mesh
 

@@ -120,7 +120,7 @@ def judge_scene(number: int, scene: Scene, settings: SolverSettings) -> Finding:
     if isinstance(solution, FailedSolution):
         return Finding(
             number=number,
-            missing=solution.reason,
+            missing=str(solution.reason),
             is_refused=solution.outcome is Outcome.OUT_OF_VALIDITY,
         )
     truth = solve_truth(scene, find_level(solution, settings.levels), settings)

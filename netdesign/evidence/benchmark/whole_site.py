@@ -16,9 +16,8 @@ from netdesign.evidence.benchmark.clock import Clock
 from netdesign.site.model import NetRow, Site
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import write_site_workbook
-from netdesign.study.cases import CheckRun, search_site
-from netdesign.study.check_site import judge_site
-from netdesign.study.probe import Probe
+from netdesign.study.cases import CheckRun
+from netdesign.study.check_site import check_site
 from netdesign.study.records import Study
 
 _STANDARD = "nf-p-95-304-style"
@@ -80,12 +79,15 @@ def measure_site(count: int, render: Render, processes: int) -> tuple[Pass, Pass
 
 
 def _run_once(site: Site, render: Render, path: Path, processes: int) -> Pass:
+    run = CheckRun(settings=SolverSettings(accuracy=0.01))
+    standard = load_standard(_STANDARD)
     with Clock() as clock:
         workers = build_workers("", processes)
         try:
             with CaseStore(path, lambda _: None) as store:
                 runner = Runner(workers=workers, store=store)
-                render(_judge(site, runner))
+                (study,) = check_site(site, [standard], run, runner)
+                render(study)
         finally:
             workers.close()
     return Pass(
@@ -93,17 +95,4 @@ def _run_once(site: Site, render: Render, path: Path, processes: int) -> Pass:
         cpu_s=clock.cpu_s,
         solved=runner.counts.solved,
         reused=runner.counts.reused,
-    )
-
-
-def _judge(site: Site, runner: Runner) -> Study:
-    run = CheckRun(settings=SolverSettings(accuracy=0.01))
-    envelopes = search_site(site, run, runner)
-    return judge_site(
-        site,
-        [one.results for one in envelopes],
-        load_standard(_STANDARD),
-        run,
-        Probe(run.settings, run.creep_law, runner),
-        envelopes=envelopes,
     )

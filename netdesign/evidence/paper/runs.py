@@ -124,13 +124,13 @@ def run_case(case: PaperCase, settings: PaperSettings) -> PaperRun:
             return _run_one_mesh(case, settings)
         return _run_history(case, settings)
     except SolveError as failure:
-        return PaperRun(case=case, failure=failure.reason)
+        return PaperRun(case=case, failure=str(failure.reason))
 
 
 def _run_steady(case: PaperCase) -> PaperRun:
     solution = solve_steady(case.scene, SolverSettings(accuracy=0.01))
     if not isinstance(solution, Solution):
-        return PaperRun(case=case, failure=solution.reason)
+        return PaperRun(case=case, failure=str(solution.reason))
     return PaperRun(
         case=case,
         foot=solution.foot.size,
@@ -153,7 +153,9 @@ def _run_history(case: PaperCase, settings: PaperSettings) -> PaperRun:
         ),
     )
     if isinstance(solution, FailedSolution) or solution.history is None:
-        reason = solution.reason if isinstance(solution, FailedSolution) else "none"
+        reason = (
+            str(solution.reason) if isinstance(solution, FailedSolution) else "none"
+        )
         return PaperRun(case=case, failure=reason)
     track = _track_of(solution.history, solution.net_curve[1, 1:])
     return PaperRun(
@@ -213,7 +215,7 @@ def _track_of(history: History, heights: Floats) -> Track:
         heights=(float(heights[lower]), float(heights[upper])),
         density=np.array([moment.max_relative_density for moment in moments]),
         plateau=history.plateau.index,
-        ended=history.ended,
+        ended=str(history.ended or ""),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from netdesign.errors import NetDesignError
+from netdesign.words.message import say
 
 
 def require_pdf() -> None:
@@ -16,10 +17,7 @@ def require_pdf() -> None:
         If the library is not installed.
     """
     if find_spec("weasyprint") is None:
-        raise NetDesignError(
-            "a PDF needs WeasyPrint: pip install 'netdesign[pdf]', or print "
-            "report.html from a browser"
-        )
+        raise NetDesignError(say("program.no_weasyprint"))
 
 
 def render_pdf(page: str) -> bytes:

@@ -140,7 +140,7 @@ def _draw(solution: Solution | WallSolution, words: Words) -> list[Drawn]:
         "mesh": draw_meshes([picture_mesh(solution, "")], "mesh", words),
     }
     return [
-        Drawn(name=name, caption=words(f"solve_caption.{name}"), svg=svg)
+        Drawn(name=name, caption=words(f"solved_caption.{name}"), svg=svg)
         for name, svg in svgs.items()
         if svg
     ]
@@ -159,11 +159,11 @@ def _draw_history(solution: Solution, words: Words) -> str:
     marks = (
         []
         if begin is None
-        else [Mark(x=begin / 86_400.0, label=words("solve.plateau_from"))]
+        else [Mark(x=begin / 86_400.0, label=words("solved.plateau_from"))]
     )
     lines = [
         Line(
-            label=words(f"solve.{end}"),
+            label=words(f"solved.{end}"),
             x=times,
             y=sizes,
             style=place,
@@ -172,14 +172,14 @@ def _draw_history(solution: Solution, words: Words) -> str:
         for place, (end, sizes) in enumerate(pulls.items())
     ]
     panel = Panel(
-        title=words("solve.pull_title"), lines=lines, marks=marks, from_zero=True
+        title=words("solved.pull_title"), lines=lines, marks=marks, from_zero=True
     )
     return draw_panels(
         [panel],
         "history",
-        words("solve.force_history"),
+        words("solved.force_history"),
         panel_in=2.3,
-        time_label=words("solve.time"),
+        time_label=words("solved.time"),
     )
 
 
@@ -199,7 +199,7 @@ def _render_page(
         language=words.language,
         css=load_style("report.css", "study.css"),
         title=show_text(scene_file),
-        method=words(f"solve_method.{document['method']}") if proven else "",
+        method=words(f"solved_method.{document['method']}") if proven else "",
         headline=_list_headlines(document, words) if proven else [],
         without_plateau=without_plateau,
         outcome=words(f"ended.{document['outcome']}").replace("_", " "),
@@ -219,7 +219,7 @@ def _render_page(
 def _describe_criterion(words: Words) -> str:
     """What counts as a plateau."""
     return words(
-        "solve.criterion",
+        "solved.criterion",
         strain=LEAST_STRAIN,
         pull=PULL_DRIFT,
         node=NODE_DRIFT,
@@ -234,22 +234,24 @@ def _list_headlines(document: dict[str, Any], words: Words) -> list[Headline]:
     plateau = document.get("plateau")
     shown = [_show_pull(document, end, words) for end in ("foot", "head")]
     sag = Headline(
-        label=words("solve.sag"),
+        label=words("solved.sag"),
         value=show_number("sag_m", document["sag_m"]),
         unit="m",
-        note=words("solve.normal_to_chord_end" if plateau else "solve.normal_to_chord"),
+        note=words(
+            "solved.normal_to_chord_end" if plateau else "solved.normal_to_chord"
+        ),
     )
     return [*shown, sag]
 
 
 def _list_wall_headlines(wall: dict[str, Any], words: Words) -> list[Headline]:
     error = show_number("error_kN_per_m", wall["error_kN_per_m"])
-    note = words("solve.error", error=error)
+    note = words("solved.error", error=error)
     moment = wall["moment_about_foot_kN"]
     return [
-        _headline(words("solve.force_along"), wall["force_x_kN_per_m"], note),
-        _headline(words("solve.force_normal"), wall["force_y_kN_per_m"], note),
-        _headline(words("solve.moment"), moment, "", unit="kN"),
+        _headline(words("solved.force_along"), wall["force_x_kN_per_m"], note),
+        _headline(words("solved.force_normal"), wall["force_y_kN_per_m"], note),
+        _headline(words("solved.moment"), moment, "", unit="kN"),
     ]
 
 
@@ -257,13 +259,13 @@ def _show_pull(document: dict[str, Any], end: str, words: Words) -> Headline:
     """Pull on one end: its largest, and on the plateau of a history."""
     pull, plateau = document["anchor_forces"][end], document.get("plateau")
     error = show_number("error_kN_per_m", pull["error_kN_per_m"])
-    note = words("solve.error", error=error)
-    label = words("solve.pull_on_foot" if end == "foot" else "solve.pull_on_head")
+    note = words("solved.error", error=error)
+    label = words("solved.pull_on_foot" if end == "foot" else "solved.pull_on_head")
     if plateau:
-        label = words("solve.largest_of_scene", pull=label)
+        label = words("solved.largest_of_scene", pull=label)
     if plateau and plateau["reached"]:
         size = show_number("foot_size_kN_per_m", plateau[f"{end}_kN_per_m"])
-        note = words("solve.on_plateau", note=note, size=size)
+        note = words("solved.on_plateau", note=note, size=size)
     return _headline(label, pull["size_kN_per_m"], note)
 
 
@@ -274,12 +276,12 @@ def _headline(label: str, value: float, note: str, unit: str = "kN/m") -> Headli
 
 def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
     columns: tuple[Column, ...] = (
-        Column(heading=words("solve.node"), is_number=True),
+        Column(heading=words("solved.node"), is_number=True),
         number_column("sag_m", "x [m]"),
         number_column("sag_m", "y [m]"),
         quantity_column(words, "force_x_kN_per_m"),
         quantity_column(words, "force_y_kN_per_m"),
-        Column(heading=words("solve.snow")),
+        Column(heading=words("solved.snow")),
     )
     rows = tuple(
         (
@@ -288,12 +290,12 @@ def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
             number_cell("sag_m", node["y_m"]),
             number_cell("force_x_kN_per_m", node["force_x_kN_per_m"]),
             number_cell("force_y_kN_per_m", node["force_y_kN_per_m"]),
-            text_cell(words("solve.slips" if node["sliding"] else "solve.sticks")),
+            text_cell(words("solved.slips" if node["sliding"] else "solved.sticks")),
         )
         for place, node in enumerate(document["nodes"])
     )
     return Table(
-        caption=words("solve.nodes_caption"),
+        caption=words("solved.nodes_caption"),
         columns=columns,
         rows=rows,
     )
@@ -302,30 +304,30 @@ def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
 def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
     balance, cost = document["balance"], document["cost"]
     pairs = {
-        "solve.weight": show_with_unit(
+        "solved.weight": show_with_unit(
             "foot_size_kN_per_m", balance["weight_along_slope_kN_per_m"]
         ),
-        "solve.missing": show_number("balance_residual", balance["relative_residual"]),
-        "solve.ground_tension": show_number(
+        "solved.missing": show_number("balance_residual", balance["relative_residual"]),
+        "solved.ground_tension": show_number(
             "utilisation", balance["ground_tension_share"]
         ),
-        "solve.suction": show_number("utilisation", balance["suction_share"]),
-        "solve.triangles": show_given(cost["elements"]),
-        "solve.linear_solves": show_given(cost["linear_solves"]),
-        "solve.creep_law": document["provenance"]["creep_law"],
-        "solve.settings": ", ".join(
+        "solved.suction": show_number("utilisation", balance["suction_share"]),
+        "solved.triangles": show_given(cost["elements"]),
+        "solved.linear_solves": show_given(cost["linear_solves"]),
+        "solved.creep_law": document["provenance"]["creep_law"],
+        "solved.settings": ", ".join(
             f"{key.replace('_', ' ')} {value}"
             for key, value in document["provenance"]["settings"].items()
         ),
-        "solve.program": f"netdesign {document['provenance']['version']}",
+        "solved.program": f"netdesign {document['provenance']['version']}",
     }
     rows = tuple(
         (text_cell(words(key)), text_cell(value)) for key, value in pairs.items()
     )
     return Table(
-        caption=words("solve.quality_caption"),
+        caption=words("solved.quality_caption"),
         columns=name_columns(
-            (words("solve.quantity"), words("solve.value")), numbers=()
+            (words("solved.quantity"), words("solved.value")), numbers=()
         ),
         rows=rows,
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from netdesign.site.cells.findings import Finding, Refusal, Severity
 from netdesign.site.cells.numbers import DecimalMark
+from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +72,11 @@ class Cell:
         return not self.text.strip()
 
     def finding(
-        self, refusal: Refusal, field: str = "", *, severity: Severity = "error"
+        self,
+        refusal: Refusal,
+        field: Message | str = "",
+        *,
+        severity: Severity = "error",
     ) -> Finding:
         """Say what is wrong with this cell."""
         return Finding(

@@ -22,6 +22,7 @@ from netdesign.site.cells.limits import (
     require_width,
 )
 from netdesign.site.columns.unit_names import KNOWN_UNITS, normalise_unit
+from netdesign.words.message import Message, say
 
 DELIMITERS = (";", ",", "\t", "|")
 _DEFAULT_SHEET = "Nets"
@@ -73,8 +74,9 @@ def read_delimited(
         require_rows(file, name, len(records))
         for record in records:
             require_width(file, name, len(record))
-        shown = _NAMES.get(delimiter, f'"{delimiter}"')
-        rule = f"was read with the delimiter {shown} and the encoding {encoding}"
+        rule = say(
+            "csv.read_with", delimiter=_name_delimiter(delimiter), encoding=encoding
+        )
         remarks.append(note_file(file, rule))
         for sheet in _cut_sheets(file, name, records, is_wanted, is_name, text_format):
             if is_wanted(sheet.name):
@@ -99,8 +101,7 @@ def _decode(file: str, content: bytes) -> tuple[str, str]:
             continue
         if "\0" not in text:
             return text, encoding.removesuffix("-sig")
-    accepted = "csv text in UTF-8 or Windows-1252"
-    raise refuse_file(file, "is no text file", accepted)
+    raise refuse_file(file, say("csv.no_text"), say("csv.encodings"))
 
 
 def _split(file: str, text: str, delimiter: str) -> _Records:
@@ -110,8 +111,8 @@ def _split(file: str, text: str, delimiter: str) -> _Records:
         reader = csv.reader(source, delimiter=delimiter, strict=True)
         return [_cut_end(record) for record in islice(reader, MAX_ROWS + 1)]
     except csv.Error as error:
-        accepted = "quotes in pairs, and another delimiter inside numbers"
-        raise refuse_file(file, f"cannot be read as csv ({error})", accepted) from None
+        rule = say("csv.unreadable", cause=str(error))
+        raise refuse_file(file, rule, say("csv.quotes")) from None
 
 
 def _cut_end(record: list[str]) -> list[str]:
@@ -128,9 +129,12 @@ def _find_delimiter(file: str, text: str, is_heading: Callable[[str], bool]) -> 
     best = [mark for mark, count in counts.items() if count == most]
     if most and len(best) == 1:
         return best[0]
-    accepted = "known headings in one line; or declare it: --delimiter ';'"
-    names = " or ".join(_NAMES[mark] for mark in (best if most else DELIMITERS))
-    raise refuse_file(file, f"has no clear delimiter: {names}", accepted)
+    names = tuple(_name_delimiter(mark) for mark in (best if most else DELIMITERS))
+    raise refuse_file(file, say("csv.no_delimiter", names=names), say("csv.declare"))
+
+
+def _name_delimiter(mark: str) -> Message | str:
+    return say(f"delimiter.{_NAMES[mark]}") if mark in _NAMES else f'"{mark}"'
 
 
 def _count_headings(

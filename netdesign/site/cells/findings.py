@@ -9,6 +9,7 @@ from typing import Literal
 
 from netdesign.edge.given_files import make_printable
 from netdesign.errors import SiteDataError
+from netdesign.words.message import Message, say
 
 Severity = Literal["error", "note"]
 
@@ -21,14 +22,14 @@ class Refusal:
 
     Attributes
     ----------
-    rule : str
+    rule : Message
         What is wrong; reads after the text in question: ``is not a number``.
-    accepted : str
+    accepted : Message or str
         What is accepted or what to do; may be empty.
     """
 
-    rule: str
-    accepted: str = ""
+    rule: Message
+    accepted: Message | str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,11 +40,11 @@ class Finding:
     ----------
     file, sheet, cell : str
         Place; ``sheet`` and ``cell`` are empty where the fault has none.
-    field : str
+    field : Message or str
         Heading of the quantity, with its unit; may be empty.
     text : str
         Exactly what the cell holds; empty for an empty cell.
-    rule, accepted : str
+    rule, accepted : Message
         As in `Refusal`.
     severity : str
         ``error`` refuses the workbook, ``note`` only ends up in the report.
@@ -52,35 +53,47 @@ class Finding:
     file: str
     sheet: str = ""
     cell: str = ""
-    field: str = ""
+    field: Message | str = ""
     text: str = ""
-    rule: str
-    accepted: str = ""
+    rule: Message
+    accepted: Message | str = ""
     severity: Severity = "error"
 
-    def __str__(self) -> str:
+    @property
+    def message(self) -> Message:
         """``site.xlsx › Nets › C14: "0,45O" is not a number (...); accepted: ...``."""
         place = " › ".join(part for part in (self.file, self.sheet, self.cell) if part)
-        quantity = f" ({self.field})" if self.field else ""
-        accepted = f"; accepted: {self.accepted}" if self.accepted else ""
-        sentence = f"{place}: {self._subject()} {self.rule}{quantity}{accepted}"
-        return make_printable(sentence.replace("\n", " "))
+        accepted = say("finding.accepted", accepted=self.accepted)
+        return say(
+            "finding.line",
+            place=make_printable(place.replace("\n", " ")),
+            subject=self._subject(),
+            rule=self.rule,
+            field=say("finding.field", field=self.field) if self.field else "",
+            accepted=accepted if self.accepted else "",
+        )
 
-    def _subject(self) -> str:
+    def __str__(self) -> str:
+        """The message in English."""
+        return str(self.message)
+
+    def _subject(self) -> Message | str:
         if self.text:
             return quote(self.text)
         if self.cell:
-            return "the cell"
-        return "the sheet" if self.sheet else "the file"
+            return say("finding.the_cell")
+        return say("finding.the_sheet" if self.sheet else "finding.the_file")
 
 
-def refuse_file(file: str, rule: str, accepted: str, sheet: str = "") -> SiteDataError:
+def refuse_file(
+    file: str, rule: Message, accepted: Message, sheet: str = ""
+) -> SiteDataError:
     """Error for a file, or one sheet of it, that cannot be read as a whole."""
     finding = Finding(file=file, sheet=sheet, rule=rule, accepted=accepted)
     return SiteDataError([finding])
 
 
-def note_file(file: str, rule: str, sheet: str = "") -> Finding:
+def note_file(file: str, rule: Message, sheet: str = "") -> Finding:
     """Remark on a file, or one sheet of it, that is read all the same."""
     return Finding(file=file, sheet=sheet, rule=rule, severity="note")
 
@@ -95,21 +108,24 @@ def quote(text: str) -> str:
 
 
 def add_nearest(
-    accepted: str,
+    accepted: Message,
     word: str,
     known: Iterable[str],
     places: Mapping[str, str] | None = None,
-) -> str:
+) -> Message:
     """Add near matches of a word to what is accepted, with their cells if given.
 
-    >>> add_nearest("an id of sheet Ropes", "G81", ["G18"], {"G18": "Ropes!A2"})
+    >>> accepted = say("accepted.id_of_sheet", sheet="Ropes")
+    >>> str(add_nearest(accepted, "G81", ["G18"], {"G18": "Ropes!A2"}))
     'an id of sheet Ropes (nearest: "G18" in Ropes!A2)'
     """
     near = difflib.get_close_matches(word, list(known), n=3)
     if not near:
         return accepted
-    shown = [
-        f"{quote(match)} in {places[match]}" if places else quote(match)
+    shown = tuple(
+        say("finding.near_at", word=quote(match), place=places[match])
+        if places
+        else quote(match)
         for match in near
-    ]
-    return f"{accepted} (nearest: {', '.join(shown)})"
+    )
+    return say("finding.nearest", accepted=accepted, near=shown)

@@ -10,6 +10,7 @@ from io import BytesIO
 from netdesign.errors import SiteDataError
 from netdesign.site.cells.cells import Cell, name_column
 from netdesign.site.cells.findings import refuse_file
+from netdesign.words.message import say
 
 # A site workbook has tens of kilobytes; whatever is far larger is not one.
 MAX_FILE_BYTES = 8 * 2**20
@@ -50,15 +51,15 @@ def guard_archive(file: str, content: bytes) -> None:
     with zipfile.ZipFile(BytesIO(content)) as archive:
         entries = archive.infolist()
         if len(entries) > MAX_ENTRIES:
-            rule = f"is an archive of {len(entries)} parts"
-            raise refuse_file(file, rule, f"at most {MAX_ENTRIES} parts")
+            rule = say("book.many_parts", count=len(entries))
+            raise refuse_file(file, rule, say("book.most_parts", most=MAX_ENTRIES))
         if len({entry.filename for entry in entries}) < len(entries):
-            raise refuse_file(file, "holds two parts of the same name", "each once")
+            raise refuse_file(file, say("book.same_name"), say("book.each_once"))
         if sum(entry.file_size for entry in entries) > MAX_EXPANDED_BYTES:
             raise _refuse_expansion(file)
         if any(entry.compress_type not in _METHODS for entry in entries):
-            rule = "is packed in a way that spreadsheet programs do not use"
-            raise refuse_file(file, rule, "parts stored or deflated")
+            rule = say("book.odd_packing")
+            raise refuse_file(file, rule, say("book.stored_or_deflated"))
         remaining, marks = MAX_EXPANDED_BYTES, 0
         for entry in entries:
             size, marks_here = _expand(archive, entry, remaining, file)
@@ -87,18 +88,21 @@ def _expand(
 def _refuse_expansion(file: str) -> SiteDataError:
     return refuse_file(
         file,
-        "expands beyond what a site workbook needs",
-        f"at most {MAX_EXPANDED_BYTES / 2**20:g} MiB expanded, no part packed more "
-        f"than {MAX_RATIO:g} to 1, and {MAX_MARKS} elements and attributes; remove "
-        "sheets and formats that are not needed",
+        say("book.expands"),
+        say(
+            "book.expansion_limits",
+            size=MAX_EXPANDED_BYTES / 2**20,
+            ratio=MAX_RATIO,
+            marks=MAX_MARKS,
+        ),
     )
 
 
 def require_rows(file: str, sheet: str, last_row: int) -> None:
     """Refuse a sheet that is filled far down."""
     if last_row > MAX_ROWS:
-        rule = f"has cells filled down to row {last_row}"
-        raise refuse_file(file, rule, f"at most {MAX_ROWS} rows", sheet)
+        rule = say("book.filled_down", row=last_row)
+        raise refuse_file(file, rule, say("book.most_rows", most=MAX_ROWS), sheet)
 
 
 def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:
@@ -109,5 +113,6 @@ def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:
 def require_width(file: str, sheet: str, last_column: int) -> None:
     """Refuse a last column far to the right."""
     if last_column > MAX_COLUMNS:
-        rule = f"has cells filled beyond column {name_column(MAX_COLUMNS)}"
-        raise refuse_file(file, rule, f"at most {MAX_COLUMNS} columns", sheet)
+        rule = say("book.filled_right", column=name_column(MAX_COLUMNS))
+        accepted = say("book.most_columns", most=MAX_COLUMNS)
+        raise refuse_file(file, rule, accepted, sheet)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from netdesign.site.cells.findings import Refusal
+from netdesign.words.message import say
 
 DecimalMark = Literal["", ",", "."]
 
@@ -22,7 +23,7 @@ _GROUPED = re.compile(
     r"(?:([.,])([0-9]+))?"
 )
 
-_ACCEPTED = "a number cell, or text such as 2.5 or 2,5 without unit"
+_ACCEPTED = say("accepted.number_cell")
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,21 +71,19 @@ def parse_number(value: object, decimal_mark: DecimalMark = "") -> float | Refus
         was declared.
     """
     if isinstance(value, bool):
-        return Refusal("is a truth value, not a number", _ACCEPTED)
+        return Refusal(say("number.truth_value"), _ACCEPTED)
     if isinstance(value, int | float):
         return _check_size(value)
     if isinstance(value, str):
         return _parse_text(value.strip(), decimal_mark)
-    return Refusal(
-        "is a date or time, not a number", "a number; give the cell a number format"
-    )
+    return Refusal(say("number.date"), say("accepted.number_format"))
 
 
 def _check_size(value: float) -> float | Refusal:
     # Written in the positive, so that NaN fails; integers may exceed any float.
     if -_LARGEST < value < _LARGEST:
         return float(value)
-    return Refusal("is not a usable number", _ACCEPTED)
+    return Refusal(say("number.unusable"), _ACCEPTED)
 
 
 def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
@@ -92,19 +91,17 @@ def _parse_text(text: str, declared: DecimalMark) -> float | Refusal:
     readings = [one for one in possible if not declared or one.goes_with(declared)]
     if len(readings) > 1:
         return Refusal(
-            f"is ambiguous: {' or '.join(reading.text for reading in readings)}",
-            "a number cell, or text with another count of decimals; or declare the "
-            "decimal mark of the file",
+            say("number.ambiguous", readings=tuple(one.text for one in readings)),
+            say("accepted.other_decimals"),
         )
     if possible and not readings:
-        rule = f'is not a number with the decimal mark "{declared}"'
-        return Refusal(rule, _ACCEPTED)
+        return Refusal(say("number.not_with_mark", mark=declared), _ACCEPTED)
     if readings and readings[0].is_short:
         return float(readings[0].text)
     if readings:
-        rule = f"has more than {_MOST_DIGITS} digits in a row"
-        return Refusal(rule, "a number cell, or text with fewer digits")
-    return Refusal("is not a number", _ACCEPTED)
+        rule = say("number.many_digits", most=_MOST_DIGITS)
+        return Refusal(rule, say("accepted.fewer_digits"))
+    return Refusal(say("number.not_a_number"), _ACCEPTED)
 
 
 def _list_readings(text: str) -> list[_Reading]:

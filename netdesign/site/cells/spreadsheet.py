@@ -8,6 +8,7 @@ from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 
+from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.delimited import read_delimited
@@ -21,10 +22,11 @@ from netdesign.site.cells.limits import (
 )
 from netdesign.site.cells.ods import read_ods
 from netdesign.site.cells.xlsx import read_xlsx
+from netdesign.words.message import say
 
 _OLE_MAGIC = b"\xd0\xcf\x11\xe0"
 _ZIP_MAGIC = b"PK"
-_ACCEPTED_FILE = "a workbook saved as .xlsx, .xlsm or .ods without password, or csv"
+_ACCEPTED_FILE = say("accepted.file")
 _TEXT_SUFFIXES = (".csv", ".tsv", ".txt")
 _MACRO_PARTS = ("xl/vbaProject.bin", "Basic/", "Scripts/")
 
@@ -70,7 +72,7 @@ def read_workbook(
     if is_folder or path.suffix.casefold() in _TEXT_SUFFIXES:
         paths = sorted(path.glob("*.csv")) if is_folder else [path]
         if not paths:
-            raise refuse_file(path.name, "is a folder without csv files", "Nets.csv")
+            raise refuse_file(path.name, say("book.no_csv"), say("book.nets_csv"))
         contents = _read_texts(path.name, paths)
         read = read_delimited(
             contents,
@@ -97,7 +99,7 @@ def _is_folder(path: Path) -> bool:
     try:
         return path.is_dir()
     except OSError as error:  # no file can have that name, or nobody may look there
-        rule = f"cannot be looked for at {path} ({error.strerror})"
+        rule = say("book.not_looked_for", path=str(path), cause=explain(error))
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
 
 
@@ -113,7 +115,7 @@ def _read_archive(
         with zipfile.ZipFile(BytesIO(content)) as archive:
             parts = archive.namelist()
         if "xl/workbook.bin" in parts:
-            raise refuse_file(file, "is a binary .xlsb workbook", _ACCEPTED_FILE)
+            raise refuse_file(file, say("book.binary"), _ACCEPTED_FILE)
         is_ods = "content.xml" in parts
         read = (read_ods if is_ods else read_xlsx)(
             file, content, is_wanted, text_format.decimal_mark
@@ -122,18 +124,18 @@ def _read_archive(
         cause = error.__cause__ or error  # openpyxl wraps what the parser says
         detail = quote(f"{type(cause).__name__}: {cause}")
         raise refuse_file(
-            file, f"cannot be read as a workbook ({detail})", _ACCEPTED_FILE
+            file, say("book.unreadable", detail=detail), _ACCEPTED_FILE
         ) from error
     has_macros = any(part.startswith(_MACRO_PARTS) for part in parts)
-    note = note_file(file, "holds macros: they are ignored")
+    note = note_file(file, say("book.macros"))
     return *read, (note,) if has_macros else ()
 
 
 def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
     """Contents of csv files by name; all together are not larger than one may be."""
     if len(paths) > MAX_ENTRIES:
-        rule = f"is a folder of {len(paths)} csv files"
-        raise refuse_file(name, rule, f"at most {MAX_ENTRIES} files")
+        rule = say("book.many_csv", count=len(paths))
+        raise refuse_file(name, rule, say("book.most_files", most=MAX_ENTRIES))
     contents: dict[str, bytes] = {}
     remaining = MAX_TEXT_BYTES
     for path in paths:
@@ -145,28 +147,31 @@ def _read_texts(name: str, paths: list[Path]) -> dict[str, bytes]:
 def _read_file(path: Path, most: int) -> bytes:
     try:
         if not path.is_file():
-            raise refuse_file(path.name, f"does not exist at {path}", _ACCEPTED_FILE)
+            raise refuse_file(
+                path.name, say("book.not_there", path=str(path)), _ACCEPTED_FILE
+            )
         return read_bounded(path, most)
     except OSError as error:
-        rule = f"cannot be opened ({error.strerror})"
+        rule = say("book.not_opened", cause=explain(error))
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
     except ValueError:
         raise refuse_file(
             path.name,
-            "is too large for a site workbook",
-            f"at most {MAX_FILE_BYTES / 2**20:g} MiB, of csv files "
-            f"{MAX_TEXT_BYTES / 2**20:g} MiB together; remove pictures and sheets that "
-            "are not needed",
+            say("book.too_large"),
+            say(
+                "book.most_size",
+                most=MAX_FILE_BYTES / 2**20,
+                text=MAX_TEXT_BYTES / 2**20,
+            ),
         ) from None
 
 
 def _refuse_other_kinds(file: str, content: bytes) -> None:
     if content.startswith(_OLE_MAGIC):
-        rule = "is an old .xls workbook or has a password"
+        rule = say("book.old_or_password")
         raise refuse_file(file, rule, _ACCEPTED_FILE)
     if not content.startswith(_ZIP_MAGIC) and _looks_like_text(content):
-        rule = "is a text file"
-        raise refuse_file(file, rule, "the ending .csv for text with delimiters")
+        raise refuse_file(file, say("book.text_file"), say("book.csv_ending"))
 
 
 def _looks_like_text(content: bytes) -> bool:

@@ -26,6 +26,7 @@ from netdesign.site.cells.number_formats import (
     show_thousands,
 )
 from netdesign.site.cells.numbers import DecimalMark
+from netdesign.words.message import say
 
 if TYPE_CHECKING:  # openpyxl is slow to import and only needed to open a file
     from openpyxl import Workbook as OpenWorkbook
@@ -35,8 +36,7 @@ def _open(content: bytes, *, stored_results: bool) -> OpenWorkbook:
     import openpyxl
 
     if not openpyxl.DEFUSEDXML:
-        message = "openpyxl runs without defusedxml: install defusedxml"
-        raise NetDesignError(message)
+        raise NetDesignError(say("program.no_defusedxml"))
     return openpyxl.load_workbook(
         BytesIO(content), read_only=True, data_only=stored_results, keep_links=False
     )
@@ -63,9 +63,9 @@ def open_for_editing(path: Path) -> OpenWorkbook:
             layout = _scan_layout(sheet)
             require_rows(path.name, sheet.title, layout.last_row)
             if sum(merged.size for merged in layout.merged) > _MOST_MERGED:
-                accepted = f"at most {_MOST_MERGED} cells"
+                accepted = say("book.most_cells", most=_MOST_MERGED)
                 raise refuse_file(
-                    path.name, "has too many merged cells", accepted, sheet.title
+                    path.name, say("book.many_merged"), accepted, sheet.title
                 )
         return openpyxl.load_workbook(BytesIO(content), keep_links=False)
 
@@ -119,8 +119,9 @@ def _read_sheet(
 ) -> Sheet:
     require_rows(file, stored.title, layout.last_row)
     if len(layout.merged) > MAX_ROWS:
-        rule = f"has {len(layout.merged)} merged ranges"
-        raise refuse_file(file, rule, f"at most {MAX_ROWS}", stored.title)
+        rule = say("book.merged_ranges", count=len(layout.merged))
+        accepted = say("book.at_most", most=MAX_ROWS)
+        raise refuse_file(file, rule, accepted, stored.title)
     # First the formulas alone; those with a stored result are then replaced.
     cells = {
         (row, column): Cell(

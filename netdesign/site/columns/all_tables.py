@@ -1,9 +1,12 @@
 """The site workbook as one table: sheets, headings, units, bounds, defaults.
 
-English here; French and German texts stand in ``words/*.toml``.
+Names of sheets and columns stand in ``netdesign/words``; other headings and notes in
+English here, in French and German in ``words/*.toml``.
 """
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 from netdesign.site.columns.dimension_columns import (
     ANCHOR_DIMENSIONS,
@@ -27,6 +30,8 @@ from netdesign.site.columns.unit_names import (
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.layout import DEFAULT_POST_TILT
 from netdesign.units import degree_from_radian
+from netdesign.words.catalogue import LANGUAGES, Language, render
+from netdesign.words.message import say
 
 # Chosen low: a tauter net pulls harder on its anchors.
 DEFAULT_SLACK = 0.02
@@ -39,10 +44,9 @@ _ANY_ANCHOR = ("foot_anchor", "uphill_anchor", "downhill_anchor")
 _ANY_GUY = ("uphill_guy", "downhill_guy")
 
 
-def _reference(key: str, label: str, sheet: str) -> Field:
+def _reference(key: str, sheet: str) -> Field:
     return Field(
         key=key,
-        label=label,
         kind="id",
         refers_to=sheet,
         note=f"id of sheet {sheet}; left empty, the checks of this member are "
@@ -50,10 +54,9 @@ def _reference(key: str, label: str, sheet: str) -> Field:
     )
 
 
-def _resistance(key: str, label: str, *aliases: str) -> Field:
+def _resistance(key: str, *aliases: str) -> Field:
     return Field(
         key=key,
-        label=label,
         aliases=aliases,
         units=FORCES,
         bounds=(1.0, 5000.0),
@@ -80,7 +83,6 @@ NETS = word_plan(
         fields=(
             Field(
                 key="id",
-                label="id",
                 aliases=("net row", "row"),
                 kind="id",
                 required=True,
@@ -88,7 +90,6 @@ NETS = word_plan(
             ),
             Field(
                 key="slope_angle",
-                label="slope angle",
                 aliases=("slope",),
                 units=SLOPES,
                 bounds=(10.0, 75.0),
@@ -97,7 +98,6 @@ NETS = word_plan(
             ),
             Field(
                 key="snow_thickness",
-                label="snow thickness",
                 aliases=("snow thickness normal to slope",),
                 units=LENGTHS,
                 bounds=(0.1, 10.0),
@@ -105,7 +105,6 @@ NETS = word_plan(
             ),
             Field(
                 key="snow_height",
-                label="snow height vertical",
                 aliases=("snow height", "vertical snow height"),
                 units=LENGTHS,
                 bounds=(0.1, 15.0),
@@ -113,7 +112,6 @@ NETS = word_plan(
             ),
             Field(
                 key="upslope_length",
-                label="upslope length",
                 units=LENGTHS,
                 bounds=(1.0, 200.0),
                 required=True,
@@ -122,7 +120,6 @@ NETS = word_plan(
             ),
             Field(
                 key="ground_law",
-                label="ground law",
                 aliases=("ground",),
                 kind="word",
                 required=True,
@@ -136,7 +133,6 @@ NETS = word_plan(
             ),
             Field(
                 key="slip_length",
-                label="slip length",
                 aliases=("stagnation depth",),
                 units=LENGTHS,
                 bounds=(0.001, 200.0),
@@ -144,7 +140,6 @@ NETS = word_plan(
             ),
             Field(
                 key="glide_factor",
-                label="glide factor",
                 aliases=("glide factor N",),
                 units=("-",),
                 bounds=(1.0, LARGEST_GLIDE_FACTOR),
@@ -153,7 +148,6 @@ NETS = word_plan(
             ),
             Field(
                 key="net_height",
-                label="net height",
                 aliases=("net height normal to slope",),
                 units=LENGTHS,
                 bounds=(0.5, 10.0),
@@ -162,7 +156,6 @@ NETS = word_plan(
             ),
             Field(
                 key="net_stiffness",
-                label="net stiffness",
                 units=FORCES_PER_LENGTH,
                 bounds=(100.0, 1_000_000.0),
                 required=True,
@@ -170,7 +163,6 @@ NETS = word_plan(
             ),
             Field(
                 key="slack",
-                label="slack",
                 units=SHARES,
                 bounds=(0.0, 0.3),
                 default=DEFAULT_SLACK,
@@ -178,7 +170,6 @@ NETS = word_plan(
             ),
             Field(
                 key="post_spacing",
-                label="post spacing",
                 units=LENGTHS,
                 bounds=(0.5, 15.0),
                 required=True,
@@ -186,7 +177,6 @@ NETS = word_plan(
             ),
             Field(
                 key="post_tilt",
-                label="post tilt",
                 units=ANGLES,
                 bounds=(-30.0, 45.0),
                 default=degree_from_radian(DEFAULT_POST_TILT),
@@ -194,7 +184,6 @@ NETS = word_plan(
             ),
             Field(
                 key="uphill_anchor_distance",
-                label="uphill anchor distance",
                 units=LENGTHS,
                 bounds=(0.0, 50.0),
                 note="upslope of the net's foot, along the slope; left empty, it "
@@ -202,18 +191,17 @@ NETS = word_plan(
             ),
             Field(
                 key="downhill_anchor_distance",
-                label="downhill anchor distance",
                 units=LENGTHS,
                 bounds=(0.0, 50.0),
                 note="downslope of the post's base, along the slope; left empty, it "
                 "follows from the net height",
             ),
-            _reference("foot_anchor", "foot anchor", "Anchors"),
-            _reference("uphill_anchor", "uphill anchor", "Anchors"),
-            _reference("downhill_anchor", "downhill anchor", "Anchors"),
-            _reference("uphill_guy", "uphill guy", "Ropes"),
-            _reference("downhill_guy", "downhill guy", "Ropes"),
-            _reference("post", "post", "Posts"),
+            _reference("foot_anchor", "Anchors"),
+            _reference("uphill_anchor", "Anchors"),
+            _reference("downhill_anchor", "Anchors"),
+            _reference("uphill_guy", "Ropes"),
+            _reference("downhill_guy", "Ropes"),
+            _reference("post", "Posts"),
             *ROW_POSITION,
         ),
     )
@@ -227,7 +215,6 @@ SNOW = word_plan(
         fields=(
             Field(
                 key="row",
-                label="net row",
                 aliases=("row",),
                 kind="id",
                 required=True,
@@ -236,7 +223,6 @@ SNOW = word_plan(
             ),
             Field(
                 key="layer",
-                label="layer",
                 aliases=("layer number",),
                 kind="count",
                 bounds=(1.0, 40.0),
@@ -245,7 +231,6 @@ SNOW = word_plan(
             ),
             Field(
                 key="thickness",
-                label="thickness",
                 aliases=("layer thickness",),
                 units=LENGTHS,
                 bounds=(0.01, 10.0),
@@ -253,7 +238,6 @@ SNOW = word_plan(
             ),
             Field(
                 key="height",
-                label="height vertical",
                 aliases=("vertical height",),
                 units=LENGTHS,
                 bounds=(0.01, 15.0),
@@ -261,7 +245,6 @@ SNOW = word_plan(
             ),
             Field(
                 key="density",
-                label="density",
                 aliases=("snow density",),
                 units=DENSITIES,
                 bounds=(100.0, 900.0),
@@ -271,7 +254,6 @@ SNOW = word_plan(
             ),
             Field(
                 key="temperature",
-                label="temperature",
                 aliases=("snow temperature",),
                 units=TEMPERATURES,
                 bounds=(-60.0, 0.0),
@@ -283,7 +265,6 @@ SNOW = word_plan(
 
 _TYPE_ID = Field(
     key="id",
-    label="id",
     aliases=("type",),
     kind="id",
     required=True,
@@ -296,11 +277,10 @@ ANCHORS = word_plan(
         name="Anchors",
         fields=(
             _TYPE_ID,
-            _resistance("tendon", "tendon resistance", "tendon"),
-            _resistance("pull_out", "pull-out resistance", "pull-out"),
+            _resistance("tendon", "tendon"),
+            _resistance("pull_out", "pull-out"),
             Field(
                 key="basis",
-                label="basis",
                 kind="word",
                 words={"tested": ("test",), "computed": ("calculated",)},
                 note="how the pull-out resistance is known",
@@ -315,7 +295,7 @@ ROPES = word_plan(
         aliases=("Guys", "Haubans", "Abspannseile"),
         fields=(
             _TYPE_ID,
-            _resistance("rope", "minimum breaking force", "breaking force"),
+            _resistance("rope", "breaking force"),
             *ROPE_DIMENSIONS,
         ),
     )
@@ -325,7 +305,7 @@ POSTS = word_plan(
         name="Posts",
         fields=(
             _TYPE_ID,
-            _resistance("compression", "compression resistance", "compression"),
+            _resistance("compression", "compression"),
             *POST_DIMENSIONS,
         ),
     )
@@ -336,7 +316,6 @@ RANGE_QUANTITIES: tuple[Field, ...] = tuple(
     for field in (
         Field(
             key="density",
-            label="density",
             aliases=("snow density",),
             units=DENSITIES,
             bounds=(100.0, 900.0),
@@ -344,7 +323,6 @@ RANGE_QUANTITIES: tuple[Field, ...] = tuple(
         ),
         Field(
             key="friction_angle",
-            label="friction angle",
             aliases=("friction",),
             units=ANGLES,
             bounds=(0.0, 45.0),
@@ -352,7 +330,6 @@ RANGE_QUANTITIES: tuple[Field, ...] = tuple(
         ),
         Field(
             key="inclination",
-            label="net inclination",
             aliases=("inclination",),
             units=ANGLES,
             bounds=(0.0, 60.0),
@@ -368,7 +345,6 @@ RANGES = word_plan(
         fields=(
             Field(
                 key="quantity",
-                label="quantity",
                 kind="text",
                 required=True,
                 note="density, friction angle or net inclination (default 25 to 35 "
@@ -376,28 +352,24 @@ RANGES = word_plan(
             ),
             Field(
                 key="unit",
-                label="unit",
                 aliases=("units",),
                 kind="text",
                 note="may stand in brackets behind the quantity instead",
             ),
             Field(
                 key="low",
-                label="low",
                 aliases=("minimum", "min"),
                 required=True,
                 note="least value, in the unit of the row",
             ),
             Field(
                 key="high",
-                label="high",
                 aliases=("maximum", "max"),
                 required=True,
                 note="largest value, in the unit of the row",
             ),
             Field(
                 key="samples",
-                label="samples",
                 aliases=("count",),
                 kind="count",
                 bounds=(1.0, 25.0),
@@ -409,7 +381,7 @@ RANGES = word_plan(
 )
 
 PROJECT_ITEMS: tuple[Field, ...] = tuple(
-    word_field(Field(key=key, label=key, kind="text"), "items")
+    word_field(Field(key=key, kind="text"), "items")
     for key in ("name", "number", "author", "checker", "revision", "standard")
 )
 PROJECT = word_plan(
@@ -419,13 +391,12 @@ PROJECT = word_plan(
         fields=(
             Field(
                 key="item",
-                label="item",
                 aliases=("name",),
                 kind="text",
                 required=True,
                 note="identification printed on every output",
             ),
-            Field(key="value", label="value", kind="text"),
+            Field(key="value", kind="text"),
         ),
     )
 )
@@ -437,7 +408,6 @@ MONITORING = word_plan(
         fields=(
             Field(
                 key="row",
-                label="net row",
                 kind="id",
                 required=True,
                 refers_to="Nets",
@@ -445,7 +415,6 @@ MONITORING = word_plan(
             ),
             Field(
                 key="member",
-                label="member",
                 kind="word",
                 required=True,
                 words={
@@ -457,21 +426,18 @@ MONITORING = word_plan(
             ),
             Field(
                 key="time",
-                label="time",
                 units=TIMES,
                 bounds=(0.0, 3650.0),
                 note="or date and time in a column of its own",
             ),
             Field(
                 key="date",
-                label="date and time",
                 aliases=("date",),
                 kind="text",
                 note="such as 2003-02-18 06:00, instead of a time",
             ),
             Field(
                 key="tension",
-                label="tension",
                 aliases=("force",),
                 units=FORCES,
                 bounds=(0.0, 5000.0),
@@ -479,7 +445,6 @@ MONITORING = word_plan(
             ),
             Field(
                 key="temperature",
-                label="air temperature",
                 aliases=("temperature",),
                 units=TEMPERATURES,
                 bounds=(-60.0, 50.0),
@@ -492,7 +457,13 @@ SHEETS: tuple[SheetPlan, ...] = (
     *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
     MONITORING,
 )
-# The sheet that an annotated copy lists its findings on.
-FINDINGS_SHEET = "netdesign findings"
+# The sheet that an annotated copy lists its findings on, by language.
+FINDINGS_SHEETS: Mapping[Language, str] = {
+    language: render(say("annotated.findings_sheet"), language)
+    for language in LANGUAGES
+}
 # Sheets of the program's own that hold nothing to read.
-QUIET_SHEETS: tuple[str, ...] = ("Notes", "Notice", "Hinweise", FINDINGS_SHEET)
+QUIET_SHEETS: tuple[str, ...] = (
+    *("Notes", "Notice", "Hinweise"),
+    *FINDINGS_SHEETS.values(),
+)

@@ -19,18 +19,16 @@ _CATALOGUE = load_catalogue()
 
 def _number(
     key: str,
-    label: str,
     units: tuple[str, ...],
     bounds: tuple[float, float],
     note: str = "",
 ) -> Field:
-    return Field(key=key, label=label, units=units, bounds=bounds, note=note)
+    return Field(key=key, units=units, bounds=bounds, note=note)
 
 
-def _word(key: str, label: str, words: tuple[str, ...], note: str = "") -> Field:
+def _word(key: str, words: tuple[str, ...], note: str = "") -> Field:
     return Field(
         key=key,
-        label=label,
         kind="word",
         words={word: () for word in words},
         note=note,
@@ -43,7 +41,6 @@ _INSTEAD = "with the columns beside it, instead of a"
 ROW_POSITION = (
     _number(
         "post_base_distance",
-        "post base distance",
         LENGTHS,
         (-20.0, 20.0),
         "downslope of the net's foot, along the slope; given, it takes the place of "
@@ -51,14 +48,12 @@ ROW_POSITION = (
     ),
     _number(
         "gap",
-        "gap to next work",
         LENGTHS,
         (0.0, 100.0),
         "free distance beside the row, for the end effect; left empty, the ends of "
         "the row are taken as free",
     ),
     _number(
-        "altitude",
         "altitude",
         ("m",),
         (0.0, 6000.0),
@@ -69,22 +64,19 @@ ROW_POSITION = (
 ANCHOR_DIMENSIONS = (
     _number(
         "bar_diameter",
-        "bar diameter",
         DIAMETERS,
         (10.0, 100.0),
         f"{_INSTEAD} tendon resistance; less what corrosion may take",
     ),
-    _number("bar_strength", "bar strength", STRENGTHS, (200.0, 2000.0), "f_y or f_0.2"),
+    _number("bar_strength", STRENGTHS, (200.0, 2000.0), "f_y or f_0.2"),
     _number(
         "drill_diameter",
-        "drill diameter",
         DIAMETERS,
         (30.0, 300.0),
         f"{_INSTEAD} pull-out resistance; basis: computed",
     ),
-    _number("bond_length", "bond length", LENGTHS, (0.5, 30.0)),
+    _number("bond_length", LENGTHS, (0.5, 30.0)),
     _word(
-        "ground",
         "ground",
         tuple(_GROUND),
         "for the least bond stress of the catalogue: "
@@ -92,35 +84,29 @@ ANCHOR_DIMENSIONS = (
     ),
     _word(
         "grouting",
-        "grouting",
         ("A", "B", "C", "D"),
         "A gravity (if left empty), B pressure, C one injection after, D repeated",
     ),
     Field(
         key="test_count",
-        label="number of tests",
         kind="count",
         bounds=(1.0, 1000.0),
         note=f"{_INSTEAD} pull-out resistance; basis: tested; the profile's "
         "correlation factors apply",
     ),
-    _number("test_least", "least tested resistance", FORCES, (1.0, 5000.0)),
-    _number("test_mean", "mean tested resistance", FORCES, (1.0, 5000.0)),
+    _number("test_least", FORCES, (1.0, 5000.0)),
+    _number("test_mean", FORCES, (1.0, 5000.0)),
 )
 ROPE_DIMENSIONS = (
     _number(
         "rope_diameter",
-        "rope diameter",
         DIAMETERS,
         (6.0, 60.0),
         f"{_INSTEAD} minimum breaking force",
     ),
-    _word("construction", "construction", tuple(_CATALOGUE["rope"]["construction"])),
-    _number(
-        "grade", "rope grade", STRENGTHS, (1500.0, 2200.0), "1570, 1770, 1960, 2160"
-    ),
+    _word("construction", tuple(_CATALOGUE["rope"]["construction"])),
+    _number("grade", STRENGTHS, (1500.0, 2200.0), "1570, 1770, 1960, 2160"),
     _word(
-        "termination",
         "termination",
         tuple(list_terminations()),
         "the weaker end; clips (if left empty)",
@@ -129,35 +115,30 @@ ROPE_DIMENSIONS = (
 POST_DIMENSIONS = (
     _number(
         "area",
-        "section area",
         AREAS,
         (1.0, 500.0),
         f"{_INSTEAD} compression resistance",
     ),
     _number(
         "second_moment",
-        "second moment of area",
         SECOND_MOMENTS,
         (1.0, 100_000.0),
         "about the weak axis",
     ),
     _number(
         "buckling_length",
-        "buckling length",
         LENGTHS,
         (0.5, 12.0),
         "length of the post between its hinges",
     ),
-    _number("yield_strength", "yield strength", STRENGTHS, (200.0, 700.0)),
+    _number("yield_strength", STRENGTHS, (200.0, 700.0)),
     _word(
         "buckling_curve",
-        "buckling curve",
         tuple(_CATALOGUE["buckling"]["curve"]),
         "of EN 1993-1-1; d (if left empty)",
     ),
     _number(
         "bearing",
-        "bearing resistance",
         FORCES,
         (1.0, 5000.0),
         "of the ground under the base plate, characteristic, across the plate; left "
@@ -165,15 +146,13 @@ POST_DIMENSIONS = (
     ),
     _number(
         "plate_length",
-        "plate length",
         LENGTHS,
         (0.05, 5.0),
         f"{_INSTEAD} bearing resistance",
     ),
-    _number("plate_width", "plate width", LENGTHS, (0.05, 5.0)),
+    _number("plate_width", LENGTHS, (0.05, 5.0)),
     _number(
         "bearing_stress",
-        "bearing stress",
         GROUND_STRESSES,
         (20.0, 20_000.0),
         "characteristic resistance of the ground",

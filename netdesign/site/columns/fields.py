@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import Literal
 
 from netdesign.site.columns.unit_names import normalise_unit
+from netdesign.words.message import Message, say
 
 Kind = Literal["number", "count", "word", "id", "text"]
 Language = Literal["en", "fr", "de"]
@@ -37,7 +38,7 @@ class Field:
     key : str
         Name in the program.
     label : str
-        Name in headings and reports.
+        Name in headings and reports, in English; that of ``words/en/columns.toml``.
     aliases : tuple of str
         Other accepted headings.
     kind : str
@@ -59,10 +60,14 @@ class Field:
         What the engineer should know; shown on the heading of the template.
     wordings : mapping of str to Wording
         Label, aliases, note and words in the other languages.
+    table : str
+        Sheet or list that it belongs to.
+    named : Message or None
+        Another name than the column's, of a part of it.
     """
 
     key: str
-    label: str
+    label: str = ""
     aliases: tuple[str, ...] = ()
     kind: Kind = "number"
     units: tuple[str, ...] = ()
@@ -73,16 +78,27 @@ class Field:
     refers_to: str = ""
     note: str = ""
     wordings: Mapping[str, Wording] = field(default_factory=dict)
+    table: str = ""
+    named: Message | None = None
+
+    @property
+    def name(self) -> Message:
+        """What it is called, in the language of whoever reads it."""
+        return self.named or say(f"column.{self.table}.{self.key}")
+
+    @property
+    def title(self) -> Message:
+        """Name with the unit in brackets."""
+        return self.title_in(self.unit)
+
+    def title_in(self, unit: str) -> Message:
+        """Name with another of the accepted units."""
+        return say("column.with_unit", name=self.name, unit=unit) if unit else self.name
 
     @property
     def unit(self) -> str:
         """Unit of bounds, default and reports; empty for words and ids."""
         return self.units[0] if self.units else ""
-
-    @property
-    def heading(self) -> str:
-        """Label with the unit in brackets, as the template writes it."""
-        return self.heading_in(self.unit)
 
     @property
     def names(self) -> frozenset[str]:
@@ -111,24 +127,27 @@ class Field:
         return self.wordings.get(language, english)
 
     @property
-    def accepted(self) -> str:
+    def accepted(self) -> Message:
         """What a cell may hold, as a phrase."""
         if self.kind in ("number", "count"):
             low, high = self.bounds
-            whole = "whole numbers, " if self.kind == "count" else ""
-            return f"{whole}{low:g} to {high:g} {self.unit}".rstrip(" -")
+            key = "accepted.whole_range" if self.kind == "count" else "accepted.range"
+            unit = f" {self.unit}".rstrip(" -")
+            return say(key, low=low, high=high, unit=unit)
         if self.kind == "word":
-            return ", ".join(self.words)
-        return "text"
+            return say("accepted.words", words=tuple(map(self.name_word, self.words)))
+        return say("accepted.text")
+
+    def name_word(self, word: str) -> Message | str:
+        """One of its words; what is alike in all languages stays."""
+        if not any(word in wording.words for wording in self.wordings.values()):
+            return word
+        return say(f"choice.{self.key}.{normalise(word)}")
 
     def heading_for(self, language: Language) -> str:
         """Label in a language, with the unit in brackets."""
         label = self.wording(language).label
         return f"{label} [{self.unit}]" if self.unit else label
-
-    def heading_in(self, unit: str) -> str:
-        """Label with another of the accepted units."""
-        return f"{self.label} [{unit}]" if unit else self.label
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,6 +168,11 @@ class SheetPlan:
         """Whether a workbook's sheet of this name is the planned one."""
         names = (self.name, *self.aliases, *self.names.values())
         return normalise(sheet_name) in map(normalise, names)
+
+    @property
+    def title(self) -> Message:
+        """Name of the sheet, in the language of whoever reads it."""
+        return say(f"sheet.{self.name}")
 
     def name_in(self, language: Language) -> str:
         """Name of the sheet in a language."""

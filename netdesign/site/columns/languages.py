@@ -1,4 +1,8 @@
-"""Texts of the site workbook in its three languages, from ``words/*.toml``."""
+"""Texts of the site workbook in its three languages, from ``words/*.toml``.
+
+Names of sheets and columns are not among them: refusals and reports tell them too,
+so they stand in ``netdesign/words``.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +14,10 @@ from importlib.resources import files
 from typing import Any
 
 from netdesign.site.columns.fields import Field, Language, SheetPlan, Wording
+from netdesign.words.catalogue import render
 
-_TRANSLATED = ("fr", "de")  # English stands in columns.py, beside the fields
+# English stands in all_tables.py, beside the fields
+_TRANSLATED: tuple[Language, ...] = ("fr", "de")
 
 
 @lru_cache(maxsize=3)
@@ -28,28 +34,29 @@ def load_text(language: Language) -> Mapping[str, str]:
 
 def word_field(field: Field, table: str) -> Field:
     """Give a field its texts in the other languages; ``table`` names its sheet."""
-    found = {
-        language: _read_wording(load_words(language)[table][field.key], field)
+    own = replace(field, table=table)
+    found: dict[str, Wording] = {
+        language: _read_wording(load_words(language)[table][field.key], own, language)
         for language in _TRANSLATED
         if field.key in load_words(language).get(table, {})
     }
-    return replace(field, wordings=found)
+    return replace(own, label=render(own.name, "en"), wordings=found)
 
 
 def word_plan(plan: SheetPlan) -> SheetPlan:
     """Give a sheet and its fields their texts in the other languages."""
-    names = {
-        language: load_words(language)[plan.name]["name"]
-        for language in _TRANSLATED
-        if plan.name in load_words(language)
+    names: dict[str, str] = {
+        language: render(plan.title, language) for language in _TRANSLATED
     }
     fields = tuple(word_field(field, plan.name) for field in plan.fields)
     return replace(plan, names=names, fields=fields)
 
 
-def _read_wording(texts: Mapping[str, Any], field: Field) -> Wording:
+def _read_wording(
+    texts: Mapping[str, Any], field: Field, language: Language
+) -> Wording:
     return Wording(
-        label=texts.get("label", field.label),
+        label=render(field.name, language),
         aliases=tuple(texts.get("aliases", ())),
         note=texts.get("note", field.note),
         words={word: tuple(names) for word, names in texts.get("words", {}).items()},

@@ -22,6 +22,7 @@ from netdesign.units import (
     second_from_day,
     square_meter_from_square_centimeter,
 )
+from netdesign.words.message import say
 
 # Units that a column may be given in; the first is that of bounds and reports.
 LENGTHS = ("m", "cm", "mm")
@@ -41,9 +42,9 @@ TIMES = ("d", "h")
 
 # What looks like one unit and is used for two: never guessed.
 UNCLEAR_UNITS = {
-    "grad": "[deg] or [gon]",  # German degrees, French and Swiss gons
-    "t": "tonnes of mass; a force is given in [kN]",
-    "t/m": "tonnes of mass; a force per metre is given in [kN/m]",
+    "grad": say("unclear_unit.grad"),  # German degrees, French and Swiss gons
+    "t": say("unclear_unit.t"),  # tonnes of mass
+    "t/m": say("unclear_unit.t_per_m"),
 }
 
 _SPELLINGS = {

@@ -16,9 +16,11 @@ from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat
 from netdesign.site.cells.findings import Finding, quote, refuse_file
 from netdesign.site.cells.limits import DAMAGE
 from netdesign.site.cells.xlsx import open_for_editing
-from netdesign.site.columns.all_tables import FINDINGS_SHEET
+from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_cells
 from netdesign.site.template.notes_sheet import count_lines
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import say
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
     from openpyxl import Workbook as OpenWorkbook
@@ -26,13 +28,9 @@ if TYPE_CHECKING:  # slow to import and only needed to write a workbook
 _AUTHOR = "netdesign"
 _COLOURS = {"error": "FFF4B8A8", "note": "FFFFF2CC"}
 _HEADINGS = (
-    "severity",
-    "sheet",
-    "cell",
-    "quantity",
-    "text",
-    "what is wrong",
-    "accepted",
+    *(say("annotated.severity"), say("annotated.sheet"), say("annotated.cell")),
+    *(say("annotated.quantity"), say("annotated.text"), say("annotated.rule")),
+    say("annotated.accepted"),
 )
 _WIDTHS = (10, 16, 8, 28, 24, 60, 60)
 _WORKBOOK_SUFFIXES = (".xlsx", ".xlsm")
@@ -41,7 +39,10 @@ _COMMENT_SIZE = (320, 130)  # [px]
 
 
 def annotate_workbook(
-    path: Path, findings: Sequence[Finding], text_format: TextFormat = UNDECLARED
+    path: Path,
+    findings: Sequence[Finding],
+    text_format: TextFormat = UNDECLARED,
+    language: Language = "en",
 ) -> bytes:
     """Xlsx bytes of the same workbook, with every finding at its cell and in a list.
 
@@ -53,6 +54,8 @@ def annotate_workbook(
         As the importer gave them.
     text_format : TextFormat
         As for reading.
+    language : str
+        Of the comments and of the list.
 
     Raises
     ------
@@ -72,8 +75,9 @@ def annotate_workbook(
             _copy_sheet(workbook, sheet)
     for finding in findings:
         if finding.cell and finding.sheet in workbook.sheetnames:
-            _mark_cell(_find_shown(workbook[finding.sheet], finding.cell), finding)
-    _list_findings(workbook, findings)
+            cell = _find_shown(workbook[finding.sheet], finding.cell)
+            _mark_cell(cell, finding, language)
+    _list_findings(workbook, findings, language)
     content = BytesIO()
     workbook.save(content)
     return content.getvalue()
@@ -92,8 +96,8 @@ def _open(path: Path) -> OpenWorkbook:
         return open_for_editing(path)
     except DAMAGE as error:  # in a part that reading the site does not look at
         detail = quote(f"{type(error).__name__}: {error}")
-        rule = f"holds something that cannot be copied ({detail})"
-        raise refuse_file(path.name, rule, "a copy saved without it") from error
+        rule = say("book.not_copied", detail=detail)
+        raise refuse_file(path.name, rule, say("book.copy_without")) from error
 
 
 def _copy_sheet(workbook: OpenWorkbook, sheet: Sheet) -> None:
@@ -117,12 +121,25 @@ def _write(cell: Any, value: object) -> None:
         cell.data_type = "s"  # text that begins with "=" is no formula of ours
 
 
+def _list_texts(finding: Finding, language: Language) -> tuple[str, ...]:
+    """Line of the list, in the order of its headings."""
+    severity = render(say(f"finding.{finding.severity}"), language)
+    field, rule, accepted = (
+        render(one, language) for one in (finding.field, finding.rule, finding.accepted)
+    )
+    return (
+        *(severity, finding.sheet, finding.cell, field),
+        *(finding.text, rule, accepted),
+    )
+
+
 def _remove_old_marks(workbook: OpenWorkbook) -> None:
     """Take away the marks of an earlier copy: what was mended must not stay marked."""
     from openpyxl.styles import PatternFill
 
-    if FINDINGS_SHEET in workbook.sheetnames:
-        workbook.remove(workbook[FINDINGS_SHEET])
+    for name in FINDINGS_SHEETS.values():
+        if name in workbook.sheetnames:
+            workbook.remove(workbook[name])
     for sheet in workbook.worksheets:
         for row in sheet.iter_rows():
             for cell in row:
@@ -131,14 +148,15 @@ def _remove_old_marks(workbook: OpenWorkbook) -> None:
                     cell.fill = PatternFill()
 
 
-def _mark_cell(cell: Any, finding: Finding) -> None:
+def _mark_cell(cell: Any, finding: Finding, language: Language) -> None:
     from openpyxl.comments import Comment
     from openpyxl.styles import PatternFill
 
-    lines = [f"{finding.severity}: {finding.rule}"]
+    severity = say(f"finding.{finding.severity}")
+    lines = [say("annotated.mark", severity=severity, rule=finding.rule)]
     if finding.accepted:
-        lines.append(f"accepted: {finding.accepted}")
-    text = make_printable("\n".join(lines))
+        lines.append(say("annotated.mark_accepted", accepted=finding.accepted))
+    text = make_printable("\n".join(render(line, language) for line in lines))
     if cell.comment is not None:
         text = f"{cell.comment.text}\n{text}"
     width, height = _COMMENT_SIZE
@@ -146,22 +164,23 @@ def _mark_cell(cell: Any, finding: Finding) -> None:
     cell.fill = PatternFill("solid", start_color=_COLOURS[finding.severity])
 
 
-def _list_findings(workbook: OpenWorkbook, findings: Sequence[Finding]) -> None:
+def _list_findings(
+    workbook: OpenWorkbook, findings: Sequence[Finding], language: Language
+) -> None:
     from openpyxl.styles import Alignment, Font, PatternFill
     from openpyxl.utils import get_column_letter
 
-    sheet = workbook.create_sheet(FINDINGS_SHEET, 0)
+    sheet = workbook.create_sheet(FINDINGS_SHEETS[language], 0)
     workbook.active = 0
     for column, (heading, width) in enumerate(
         zip(_HEADINGS, _WIDTHS, strict=True), start=1
     ):
-        sheet.cell(1, column, heading).font = Font(name=_FONT, size=10, bold=True)
+        sheet.cell(1, column, render(heading, language)).font = Font(
+            name=_FONT, size=10, bold=True
+        )
         sheet.column_dimensions[get_column_letter(column)].width = width
     for row, finding in enumerate(findings, start=2):
-        texts = (
-            *(finding.severity, finding.sheet, finding.cell, finding.field),
-            *(finding.text, finding.rule, finding.accepted),
-        )
+        texts = _list_texts(finding, language)
         for column, text in enumerate(texts, start=1):
             cell = sheet.cell(row, column)
             _write(cell, text)

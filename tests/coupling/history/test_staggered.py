@@ -86,7 +86,7 @@ def test_increments_without_a_solution_fail_with_a_reason(a_scene, monkeypatch):
     monkeypatch.setattr(staggered, "advance_increment", without)
     result = solve_staggered(a_scene(), SETTINGS)
     assert isinstance(result, FailedSolution)
-    assert "a shorter step may" in result.reason
+    assert "a shorter step may" in str(result.reason)
     with pytest.raises(SolveError, match="a shorter step may"):
         solve_staggered(a_scene(), SETTINGS, on_failure="raise")
 
@@ -134,4 +134,4 @@ def test_a_failure_of_the_result_is_an_outcome_too(a_scene, monkeypatch):
     result = solve_staggered(a_scene(), replace(SETTINGS, horizon=1e-3))
     assert isinstance(result, FailedSolution)
     assert result.outcome is Outcome.BALANCE_VIOLATED
-    assert "would have to push; the method transient" in result.reason
+    assert "would have to push; the method transient" in str(result.reason)

@@ -35,13 +35,13 @@ def test_only_what_the_model_excludes_is_refused(monkeypatch, outcome):
     attempt = attempt_with(monkeypatch, fail_with(outcome))
     is_refused = outcome in (Outcome.OUT_OF_VALIDITY, Outcome.NO_EQUILIBRIUM)
     assert attempt.kind == ("refused while solving" if is_refused else "failed")
-    assert attempt.reason == f"{outcome.value}: told why"
+    assert str(attempt.reason) == f"{outcome.value}: told why"
 
 
 def test_a_bug_is_a_failure(monkeypatch):
     attempt = attempt_with(monkeypatch, lambda *_: 1 / 0)
     assert attempt.kind == "failed"
-    assert "ZeroDivisionError" in attempt.reason
+    assert "ZeroDivisionError" in str(attempt.reason)
 
 
 def test_a_warning_is_a_failure(monkeypatch):
@@ -52,7 +52,7 @@ def test_a_warning_is_a_failure(monkeypatch):
         warnings.simplefilter("ignore")
         attempt = attempt_with(monkeypatch, overflow)
     assert attempt.kind == "failed"
-    assert "overflow" in attempt.reason
+    assert "overflow" in str(attempt.reason)
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def test_one_file_holds_several_sheets_and_its_delimiter_is_found(tmp_path, deli
     site = read_site(write(tmp_path / "site.csv", text))
     assert [row.snow_thickness for row in site.rows] == [2.75, 2.5]
     assert site.ranges.density.high == 400.0
-    (note,) = site.notes
+    (note,) = map(str, site.notes)
     names = {";": "semicolon", ",": "comma", "\t": "tab", "|": "bar"}
     assert f"delimiter {names[delimiter]} and the encoding utf-8" in note
 
@@ -74,7 +74,9 @@ def test_a_folder_of_files_is_a_workbook(tmp_path):
     write(folder / "letter.csv", "Dear;Sir\n")
     site = read_site(folder)
     assert len(site.rows) == 2
-    assert any("letter.csv" in note and "not read" in note for note in site.notes)
+    assert any(
+        "letter.csv" in note and "not read" in note for note in map(str, site.notes)
+    )
     echo = site.rows[0].inputs[1]
     assert (echo.cell, echo.text) == ("Nets!B2", "38,5")
 

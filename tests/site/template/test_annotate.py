@@ -6,9 +6,11 @@ import pytest
 from openpyxl.comments import Comment
 
 from netdesign.errors import SiteDataError
-from netdesign.site.columns.all_tables import FINDINGS_SHEET
+from netdesign.site.columns.all_tables import FINDINGS_SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
+
+FINDINGS_SHEET = FINDINGS_SHEETS["en"]
 
 
 def annotate(path, copy):

@@ -5,7 +5,6 @@ import json
 import random
 from contextlib import contextmanager
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +14,7 @@ from netdesign.commands import report as report_command
 from netdesign.commands import verify as verify_command
 from netdesign.envelope.runner import Runner
 from netdesign.site.reader import read_site
+from netdesign.study import check_site as use_case
 from netdesign.study.audit import audit_study
 from netdesign.study.check_site import _record_provenance
 from netdesign.study.records import compute_digest, read_document, write_document
@@ -80,13 +80,13 @@ def try_both(monkeypatch, call, tmp_path, text, site):
 
     @contextmanager
     def solve(*_arguments, **_options):
-        yield SimpleNamespace(runner=Runner())  # without a fault
+        yield Runner(), None  # without a fault
 
-    def judge(_site, run, _solved, _profiles):
+    def judge(_site, _profiles, run, _runner, _watch):
         return [replace(fresh, provenance=_record_provenance(site, run))]
 
-    monkeypatch.setattr(verify_command, "open_rows", solve)
-    monkeypatch.setattr(verify_command, "judge_rows", judge)
+    monkeypatch.setattr(verify_command, "open_run", solve)
+    monkeypatch.setattr(use_case, "check_site", judge)
     for module in (verify_command, report_command):
         monkeypatch.setattr(module, "read_own_site", lambda *_: site)
 

@@ -1,0 +1,78 @@
+"""Causes that others raise, in words of ours where there are some."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Mapping
+from typing import Any
+
+from netdesign.errors import ContentError, NetDesignError
+from netdesign.words.message import Message, say
+
+# Of the kinds that a system tells by number; others keep the system's words.
+_OS_ERRORS = {
+    getattr(errno, name): name
+    for name in (
+        *("ENOENT", "EACCES", "EISDIR", "ENOTDIR", "EEXIST", "ENOSPC", "EROFS"),
+        *("ENAMETOOLONG", "EFBIG", "EIO", "ELOOP", "EPERM", "EBUSY"),
+    )
+}
+# Faults of a value's shape by the name that pydantic gives them, and what they state.
+_LIMITS = {
+    "greater_than": "gt",
+    "greater_than_equal": "ge",
+    "less_than": "lt",
+    "less_than_equal": "le",
+}
+_PLAIN = (
+    *("missing", "extra_forbidden", "finite_number", "float_type", "int_type"),
+    *("bool_type", "string_type", "list_type", "dict_type"),
+)
+_ALIKE = {
+    "float_parsing": "float_type",
+    "int_parsing": "int_type",
+    "int_from_float": "int_type",
+    "bool_parsing": "bool_type",
+    "model_type": "dict_type",
+    "model_attributes_type": "dict_type",
+}
+
+
+def explain(error: BaseException) -> Message | str:
+    """Why something failed: a message of ours, or the words of whoever raised it."""
+    if isinstance(error, NetDesignError | ContentError):
+        return error.message
+    if isinstance(error, OSError) and error.strerror:
+        return explain_system(error)
+    return str(error)
+
+
+def explain_system(error: OSError) -> Message | str:
+    """What the system says, without the file."""
+    name = _OS_ERRORS.get(error.errno or 0)
+    return say(f"os_error.{name}") if name else str(error.strerror)
+
+
+def explain_with_file(error: OSError) -> Message | str:
+    """Why something failed, with the file that the system names."""
+    if error.filename is None:
+        return explain(error)
+    return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
+
+
+def explain_shape(fault: Mapping[str, Any]) -> Message | str:
+    """What is wrong with a value: one of the faults that pydantic lists."""
+    kind, context = fault["type"], fault.get("ctx", {})
+    kind = _ALIKE.get(kind, kind)
+    if kind in _LIMITS:
+        return say(f"shape.{kind}", limit=context[_LIMITS[kind]])
+    if kind in _PLAIN:
+        return say(f"shape.{kind}")
+    if kind == "literal_error":
+        return say("shape.literal_error", expected=str(context["expected"]))
+    if kind == "string_pattern_mismatch":
+        return say("shape.string_pattern_mismatch", pattern=str(context["pattern"]))
+    error = context.get("error")
+    if isinstance(error, ContentError):
+        return error.message
+    return str(fault["msg"]).removeprefix("Value error, ")

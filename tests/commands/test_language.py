@@ -1,0 +1,170 @@
+"""Commands in French and German: the language is found, and no English is told."""
+
+import re
+
+import openpyxl
+import pytest
+
+from netdesign.site.columns.all_tables import FINDINGS_SHEETS, SHEETS
+from tests.words.english import find_words
+
+LANGUAGES = ["fr", "de"]
+# What a user has typed, and the names of options and columns in files.
+TYPED = re.compile(
+    r""""[^"]*"|'[^']*'|--[a-z-]+|\b[A-Z_]{3,}\b|/\S+|\S+\.(toml|xlsx|csv)"""
+)
+
+
+def find_english(text):
+    """Frequent English words in what was told, without what was typed."""
+    return find_words(TYPED.sub(" ", text), ["en"])
+
+
+@pytest.fixture(params=LANGUAGES)
+def language(request):
+    return request.param
+
+
+@pytest.fixture
+def spoil(call, tmp_path, language):
+    """Spoils cells of the example in a language, and checks it: ``spoil({...})``."""
+
+    def check(changes, *options):
+        path = tmp_path / "site.xlsx"
+        assert call("init", path, "--example", "--force", "--language", language)
+        book = openpyxl.load_workbook(path)
+        for place, value in changes.items():
+            plan, _, cell = place.partition("!")
+            name = next(one for one in SHEETS if one.name == plan).name_in(language)
+            book[name][cell] = value
+        book.save(path)
+        return call("check", path, "--language", language, *options)
+
+    return check
+
+
+SPOILT = {
+    "a text": {"Nets!B2": "4O"},
+    "two readings": {"Nets!C3": "1,234"},
+    "out of range": {"Nets!B2": 88},
+    "empty": {"Nets!B2": None},
+    "an error": {"Nets!B2": "#REF!"},
+    "a formula": {"Nets!B2": "=1+1"},
+    "a truth value": {"Nets!B2": True},
+    "unknown word": {"Nets!F2": "glatt wie Eis"},
+    "unknown heading": {"Nets!AA1": "commune"},
+    "misspelt heading": {"Nets!B1": "xyz [deg]"},
+    "no unit": {"Nets!B1": "pente"},
+    "unknown type": {"Nets!P2": "Z9"},
+    "double id": {"Nets!A3": "R1", "Nets!A2": "R1"},
+    "thickness twice": {"Nets!D2": 3.3, "Nets!C2": 3.0},
+    "range turned": {"Ranges!C2": 400, "Ranges!D2": 300},
+    "range empty": {"Ranges!C2": None},
+    "unknown item": {"Project!A3": "Bauherr"},
+    "unknown quantity": {"Ranges!A2": "couleur"},
+    "unclear unit": {"Nets!B1": "pente [grad]"},
+    "far down": {"Nets!A2500": "R9"},
+    "gap": {"Nets!A12": "R9"},
+}
+
+
+@pytest.mark.parametrize("fault", SPOILT)
+def test_a_refused_workbook_is_refused_in_the_language(spoil, language, fault):
+    ended = spoil(SPOILT[fault], "--dry-run")
+    assert (ended.code, ended.out) == (3, "") if fault != "unknown heading" else True
+    assert find_english(ended.out + ended.err) == set()
+    assert {"fr": "attendu", "de": "zulässig"}[language] in ended.err + ended.out
+
+
+def test_an_annotated_copy_speaks_the_language(spoil, language, tmp_path):
+    ended = spoil(SPOILT["a text"], "--annotate", tmp_path / "marked.xlsx")
+    assert ended.code == 3
+    copy = openpyxl.load_workbook(tmp_path / "marked.xlsx")
+    rows = list(copy[FINDINGS_SHEETS[language]].iter_rows(values_only=True))
+    told = " ".join(str(text) for row in rows for text in row)
+    assert find_english(told) == set()
+    assert {"fr": "n'est pas un nombre", "de": "ist keine Zahl"}[language] in told
+    cells = next(sheet for sheet in copy.worksheets if sheet.title in told)["B2"]
+    assert find_english(cells.comment.text) == set()
+
+
+def test_a_dry_run_speaks_the_language(call, language):
+    ended = call("check", "--example", "--dry-run", "--language", language)
+    assert ended.code == 0
+    assert find_english(ended.out + ended.err) == set()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["check"],
+        ["check", "none.xlsx"],
+        ["check", "none.xlsx", "--standard", "eurocod"],
+        ["check", "--example", "--accuracy", "5"],
+        ["check", "--example", "--jobs", "many"],
+        ["check", "--example", "--no-such-option"],
+        ["check", "--example", "--delimiter", "ab"],
+        ["check", "one.xlsx", "--annotate", "two.csv"],
+        ["check", "--example", "--executor", "spark", "--out", "new"],
+        ["envelope"],
+        ["envelope", "scene.toml"],
+        ["envelope", "scene.toml", "--density", "5:3"],
+        ["envelope", "scene.toml", "--density", "3:5:7", "--friction", "3:5"],
+        ["solve", "scene.toml"],
+        ["solve", "bad.toml"],
+        ["report", "study.json"],
+        ["report", "bad.toml"],
+        ["diff", "study.json", "study.json"],
+        ["verify", "--study", "study.json"],
+        ["verify", "--jobs", "2"],
+        ["standards", "show", "eurocod"],
+        ["standards", "validate", "."],
+        ["standards", "copy", "eurocode", "new folder"],
+        ["standards", "shwo"],
+        ["chek"],
+    ],
+)
+def test_refusals_speak_the_language(call, tmp_path, language, arguments):
+    (tmp_path / "bad.toml").write_text('[slope]\nangle_deg = "steep"\n[snow]\nx = 1\n')
+    ended = call(*arguments, "--language", language)
+    assert ended.code in (2, 3)
+    assert find_english(ended.out + ended.err) == set()
+    told = {"fr": r"[Ee]rreur|constat", "de": "Fehler|Befund"}[language]
+    assert re.search(told, ended.err)
+
+
+@pytest.mark.parametrize(
+    "way",
+    [
+        "--language {}",
+        "--language={}",
+        "--language en --language {}",
+        "variable",
+        "file",
+    ],
+)
+def test_the_language_is_found_where_options_are(
+    call, tmp_path, monkeypatch, language, way
+):
+    options = way.format(language).split() if way.startswith("--") else []
+    if way == "variable":
+        monkeypatch.setenv("NETDESIGN_CHECK_LANGUAGE", language)
+    if way == "file":
+        (tmp_path / "netdesign.toml").write_text(f'[check]\nlanguage = "{language}"\n')
+    ended = call("check", "none.xlsx", *options)
+    assert {"fr": "n'existe pas", "de": "gibt es"}[language] in ended.err
+
+
+def test_an_option_overrules_a_variable_and_a_variable_the_file(
+    call, tmp_path, monkeypatch
+):
+    (tmp_path / "netdesign.toml").write_text('[check]\nlanguage = "fr"\n')
+    monkeypatch.setenv("NETDESIGN_CHECK_LANGUAGE", "de")
+    assert "gibt es" in call("check", "none.xlsx").err
+    assert "does not exist" in call("check", "none.xlsx", "--language", "en").err
+
+
+def test_an_unknown_language_is_refused_in_english(call):
+    ended = call("check", "--example", "--language", "it")
+    assert ended.code == 2
+    assert "Invalid value for '--language'" in ended.err
