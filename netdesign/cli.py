@@ -304,7 +304,12 @@ def solve(
     document = write_solution_document(solution, settings, elapsed, bound, language)
     if out is not None:
         written = write_solution_folder(
-            out, solution, document, scene_file.name, overwrite=force
+            out,
+            solution,
+            document,
+            scene_file.name,
+            overwrite=force,
+            language=language,
         )
         _report_places([written], language, quiet=as_json)
     if as_json:

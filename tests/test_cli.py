@@ -21,6 +21,8 @@ from netdesign.edge.resources import find_resource
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
 from netdesign.study.records import read_document, write_document
+from netdesign.words.message import dump, restore, say
+from netdesign.words.names import name_check
 
 PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
 PROFILE = "nf-p-95-304-style"
@@ -179,7 +181,8 @@ def test_a_slope_that_cannot_be_believed_ends_with_4(tmp_path):
     (row,) = json.loads(result.stdout)["rows"]
     slope = next(one for one in row["checks"] if one["id"] == "geometry.slope")
     assert slope["verdict"] == "not_proven"
-    assert slope["reason"].endswith("Is it a percentage? 65 % are 33.02 degrees.")
+    reason = str(restore(slope["reason"]))
+    assert reason.endswith("Is it a percentage? 65 % are 33.02 degrees.")
 
 
 @pytest.mark.parametrize("line", ["standard,eurocode", "Standrad;eurocode"])
@@ -219,7 +222,7 @@ def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     assert verdicts.pop("geometry.slope") == "pass"
     assert set(verdicts.values()) == {"not_proven"}
     assert {case["outcome"] for case in row["cases"]} == {"out_of_validity"}
-    assert "overtops the net" in row["reasons"][0]
+    assert "overtops the net" in str(restore(row["reasons"][0]))
 
 
 def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
@@ -609,7 +612,9 @@ def test_report_ends_with_the_verdict_of_the_study(study, tmp_path, verdict, cod
     check = next(one for one in checks if one["id"] == "geometry.inclination")
     check["verdict"] = verdict
     document["verdict"] = document["rows"][0]["verdict"] = verdict
-    document["rows"][0]["reasons"] = [f"{check['id']}: {check['reason']}"]
+    title = name_check(check["member"], check["mode"])
+    reason = say("row.check_reason", check=title, reason=restore(check["reason"]))
+    document["rows"][0]["reasons"] = [dump(reason)]
     path = tmp_path / "study.json"
     sealed = write_document(read_document(json.dumps(document)))
     path.write_text(sealed, encoding="utf-8")

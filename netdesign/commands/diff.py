@@ -41,18 +41,22 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
 
     changes = compare_studies(load_study(old), load_study(new))
     if as_json:
-        click.echo(json.dumps(write_difference(changes), indent=1, allow_nan=False))
+        click.echo(
+            json.dumps(write_difference(changes, language), indent=1, allow_nan=False)
+        )
     else:
         _show(changes, language)
     sys.exit(_TURNED if any(change.is_turned for change in changes) else 0)
 
 
 def _show(changes: Sequence[Change], language: Language) -> None:
+    from netdesign.report.difference import name_area
+
     area = ""
     for change in changes:
         if change.area != area:
             area = change.area
-            click.echo(area)
-        click.echo(f"  {change}")
+            click.echo(name_area(area, language))
+        click.echo(f"  {change.tell(language)}")
     if not changes:
         tell(say("diff.same"), language)

@@ -501,7 +501,7 @@ def read_document(text: str) -> Study:
     from pydantic import ValidationError
 
     if _OLD_SCHEMA in text[:_HOW_FAR]:
-        raise StudyError(say("study.old_schema", old=_OLD_SCHEMA, own=SCHEMA))
+        raise StudyError(say("study_file.old_schema", old=_OLD_SCHEMA, new=SCHEMA))
     try:
         study: Study = read_json(Study, text)
         _require_sense(study)

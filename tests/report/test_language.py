@@ -121,8 +121,9 @@ def test_the_same_study_is_told_with_the_same_numbers(language):
     assert views[0].verdict.style == views[1].verdict.style
 
 
-def test_french_has_no_break_before_its_signs():
-    texts = load_texts("fr").values()
+def test_no_line_of_a_french_report_begins_with_a_sign():
+    shown = ("caption.", "show.", "check.", "geometry.", "drawing.")
+    texts = [text for key, text in load_texts("fr").items() if key.startswith(shown)]
     assert [text for text in texts if re.search(" [:;?!%»]", strip_gaps(text))] == []
 
 

@@ -17,14 +17,21 @@ TEXTS = {language: load_texts(language) for language in LANGUAGES}
 # Keys that are put together from the values of an enum or of a table.
 FAMILIES: tuple[str, ...] = (
     *("column.", "sheet.", "choice.", "quantity.", "delimiter.", "ground_kind."),
-    *("outcome.", "ended.", "envelope_member.", "os_error.", "shape."),
+    *("envelope_member.", "os_error.", "shape."),
     *("finding.error", "finding.note", "case_count."),
-    *("member.", "mode.", "basis.", "status.", "axis."),
+    *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
     *("method.", "method_used.", "setting.", "start.", "end.", "input_end."),
     *("profile_title.", "profile_text.", "profile_source.", "solved_method."),
-    *("solved_caption.", "solved.foot", "solved.head", "diff_value."),
-    *("diff_check.", "diff_project.", "diff_area."),
+    *(
+        "solved_caption.",
+        "solved.foot",
+        "solved.head",
+        "diff_value.",
+        "diff_check.",
+        "diff_project.",
+        "diff_area.",
+    ),
 )
 
 
