@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from netdesign import __version__
@@ -49,7 +49,9 @@ def write_envelope_document(
         "outcome": "not_proven" if envelope.gap else "bounded",
         "reason": render(envelope.gap or "", language),
         "ranges": {axis.key: [axis.low, axis.high] for axis in record.axes},
-        "extremes": [_write_bound(envelope, bound) for bound in record.bounds],
+        "extremes": [
+            _write_bound(envelope, bound, language) for bound in record.bounds
+        ],
         "cases": {
             "solved": counts.solved,
             "reused": counts.reused,
@@ -126,11 +128,15 @@ def write_grid_document(
     }
 
 
-def _write_bound(envelope: RowEnvelope, bound: BoundRecord) -> dict[str, Any]:
+def _write_bound(
+    envelope: RowEnvelope, bound: BoundRecord, language: Language
+) -> dict[str, Any]:
     band = envelope.bound(bound.quantity)
     confirmation = None
     if bound.confirmation is not None:
-        confirmation = _per_metre(asdict(bound.confirmation))
+        told = render(bound.confirmation.reason or "", language)
+        plain = asdict(replace(bound.confirmation, reason=None))
+        confirmation = _per_metre(plain | {"reason": told})
     return {
         "quantity": QUANTITY_KEYS[bound.quantity],
         "max": bound.max_kN,

@@ -238,7 +238,7 @@ class ChangeRecord:
     unit: str
     now: float | None
     bound: float | None  # None where no value in reach flips the check
-    sense: str  # "at least" or "at most"
+    sense: Literal["at least", "at most", "has"]
     solves: int  # coupled solves that it took; 0 for an exact proportion
     note: Text | None = None
 

@@ -24,6 +24,7 @@ from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.words.message import Message, say
 from tests.report.build_study import build_study
 
 ATTACKS = (
@@ -47,12 +48,16 @@ ATTACKS = (
 )
 # Set by the program, compared with words of its own, or of a form that is checked.
 KEPT = {"schema", "member", "mode", "quantity", "anchor", "started", "status", "id"}
+KEPT |= {"sense"}
 
 
 def attack(value, text, key=""):
     """The same value with ``text`` behind all that somebody may have typed."""
     if isinstance(value, Enum):
         return value
+    if isinstance(value, Message):
+        given = value.arguments.items()
+        return say(value.key, **{name: attack(one, text, name) for name, one in given})
     if dataclasses.is_dataclass(value):
         return type(value)(
             **{

@@ -57,7 +57,7 @@ def exchange(seed):
 def require_an_end(solution):
     """Finite forces, or a refusal in words; an exception would have passed through."""
     if isinstance(solution, FailedSolution):
-        assert len(solution.reason.split()) > 2
+        assert len(str(solution.reason).split()) > 2
         assert not any(word in solution.reason for word in _EXCEPTION)
         return
     pulls = (solution.foot, solution.head)
