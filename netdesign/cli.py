@@ -60,6 +60,7 @@ from netdesign.fault import SENTENCE, Fault, catch_fault, describe_fault
 from netdesign.outcome import Outcome, Verdict
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -512,7 +513,7 @@ def _show_solution(document: dict[str, Any], language: Language) -> None:
 def _describe_end(end: str, pull: dict[str, float], language: Language) -> Message:
     return say(
         "solve.end",
-        end=render(say(f"envelope_member.{end}"), language),  # padded as a text
+        end=render(name_member(end), language),  # padded as a text
         size=pull["size_kN_per_m"],
         x=pull["x_kN_per_m"],
         y=pull["y_kN_per_m"],

@@ -90,9 +90,7 @@ def _require_sound(
 
     site = _find_site(study, study_file, site_file, language)
     profile = _find_profile(study, standard, language)
-    found: list[Message | str] = [
-        say("stored.command", reason=one) for one in contradict_command(study)
-    ]
+    found = [say("stored.command", reason=one) for one in contradict_command(study)]
     found += audit_study(study, profile, site)
     if study.digest and study.digest != compute_digest(study):
         found.insert(0, say("stored.altered"))

@@ -183,7 +183,7 @@ class _Shown:
             return True
         return self.hash(say("verify.document"), study.digest, compute_digest(study))
 
-    def contradictions(self, what: Message, found: Iterable[Message | str]) -> bool:
+    def contradictions(self, what: Message, found: Iterable[Message]) -> bool:
         """Whether there are none; the first of them."""
         told = list(found)
         for one in told[:_SHOWN]:
@@ -208,7 +208,7 @@ class _Shown:
         cases = sum(len(row.cases) for row in again.rows)
         self.tell(say("verify.compared", cases=cases, values=count))
         for one in differences[:_SHOWN]:
-            self.tell(say("verify.difference", **_show_values(one)))
+            self.tell(say("verify.difference", value=one.message))
         if differences[_SHOWN:]:
             self.tell(say("verify.more", count=len(differences) - _SHOWN))
         if not differences:
@@ -229,8 +229,8 @@ class _Shown:
             then, now = str(old.get(name)), str(new.get(name))
             self.tell(say("verify.other_version", name=name, then=then, now=now))
         if ties:
-            values = _show_values(ties[0])
-            self.tell(say("verify.ties", count=len(ties), **values))
+            first = ties[0].message
+            self.tell(say("verify.ties", count=len(ties), first=first))
         if not study.digest:
             self.tell(say("verify.no_digest"))
         if made.command == NO_COMMAND:
@@ -240,12 +240,3 @@ class _Shown:
         )
         unknown = (others, ties, not study.digest, made.command == NO_COMMAND)
         return any(map(bool, unknown))
-
-
-def _show_values(one: Difference) -> dict[str, str]:
-    """A difference as the arguments of a message."""
-    return {
-        "place": one.place,
-        "stored": repr(one.stored),
-        "again": repr(one.again),
-    }

@@ -22,6 +22,7 @@ from netdesign.search.surrogate import Point
 from netdesign.solving.solve import Settings
 from netdesign.structure.layout import SupportLayout
 from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
 
 # A confirmation is solved to this share of the accuracy, on finer meshes.
 _CONFIRMED_SHARE = 0.5
@@ -124,7 +125,7 @@ class RowEnvelope:
             if not one.confirmed.is_converged:
                 return say(
                     "envelope.unconfirmed",
-                    member=say(f"envelope_member.{one.member}"),
+                    member=name_member(one.member),
                     reason=one.confirmed.reason or "",
                 )
         return None

@@ -9,6 +9,7 @@ from enum import Enum
 from typing import Any
 
 from netdesign.edge.json_text import list_fields
+from netdesign.words.message import Message, say
 
 SAME = 1e-6  # relative; other machines differ in the last digits only
 # Absolute, of residuals, shares and small differences, which are rounding themselves.
@@ -24,9 +25,16 @@ class Difference:
     stored: Any
     again: Any
 
-    def __str__(self) -> str:
+    @property
+    def message(self) -> Message:
         """``rows.R1.verdict: stored 'pass', again 'fail'``."""
-        return f"{self.place}: stored {self.stored!r}, again {self.again!r}"
+        stored, again = show_value(self.stored), show_value(self.again)
+        return say("value.differs", place=self.place, stored=stored, again=again)
+
+
+def show_value(value: object) -> Message | str:
+    """A value as Python writes it; where there is none, that is said."""
+    return say("value.none") if value is None else repr(value)
 
 
 def list_values(part: object) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -10,6 +11,7 @@ import pytest
 from netdesign import cli
 from netdesign.study.records import read_document, write_document
 from tests.short_example import write_short_example
+from tests.words.english import find_words
 
 DIFFERS, REFUSED, UNPROVEN, FAULT = 1, 3, 4, 5
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
@@ -123,10 +125,28 @@ def test_a_changed_study_ends_with_1_and_the_place(verify, change, place):
 
 
 def test_contradictions_are_told_before_anything_is_solved(verify):
-    assert "its own arithmetic: DIFFERS: net row 'R7' says pass" in verify(to_pass).out
+    assert "its own arithmetic: DIFFERS: net row 'R7' says PASS" in verify(to_pass).out
     told = verify(weaker_demand).out
     assert "its own arithmetic: DIFFERS: net row 'R7', check 'post.compression'" in told
     assert "its own arithmetic: holds" in verify().out
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        ("fr", "rangée 'R7' : le verdict est SATISFAIT, mais ses parties donnent NON"),
+        (
+            "de",
+            "Werkreihe 'R7': das Urteil ist ERFÜLLT, aber seine Teile ergeben",
+        ),
+    ],
+)
+def test_contradictions_are_told_in_the_language(verify, home, language, told):
+    site = ("--site", home / "site.xlsx", "--language", language)
+    ended = verify(to_pass, *site)
+    assert told in ended.out.replace("\xa0", " ")
+    shown = re.sub(r"'[^']*'|rows\.\S+", " ", ended.out)
+    assert find_words(shown, ["en"]) == set()
 
 
 def test_the_last_digits_of_another_machine_are_no_difference(verify):

@@ -18,6 +18,7 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
+from netdesign.words.names import name_member
 from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import COARSE, LAYOUT, build_scene, solve_case
 
@@ -109,7 +110,7 @@ def test_a_governing_case_that_cannot_be_solved_again_leaves_a_gap(found):
     lost = replace(found, confirmations=(replace(one, confirmed=failed),))
     assert found.gap is None
     assert str(lost.gap) == (
-        f"the governing case of {one.member.replace('_', ' ')} could not be solved "
+        f"{name_member(one.member)!s}: the governing case could not be solved "
         "again (spoilt)"
     )
 

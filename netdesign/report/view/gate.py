@@ -10,7 +10,10 @@ from html.parser import HTMLParser
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.view.check_view import find_utilisation_band
+from netdesign.study.audit.comparing import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study
+from netdesign.study.values import show_value
+from netdesign.words.message import Message, say
 
 _TOLERANCE = 1e-9  # relative; products of two stored numbers differ by rounding only
 _DRAWING = re.compile(r"<svg.*?</svg>", re.DOTALL)
@@ -29,29 +32,31 @@ def require_consistent(study: Study) -> None:
         proven), a pass is not supported by its utilisation, or a design value
         or a utilisation is not what its parts give.
     """
-    _require_earned("the study", study.verdict, (row.verdict for row in study.rows))
+    whole = say("audit.study")
+    _require_earned(whole, study.verdict, (row.verdict for row in study.rows))
     for row in study.rows:
-        place = f"net row {row.id!r}"
+        place = say("audit.row", row=row.id)
         held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
         parts = [*(check.verdict for check in row.checks), *held]
         _require_earned(place, row.verdict, parts)
         for check in row.checks:
-            _require_sound(f"{place}, check {check.id!r}", check)
+            where = say("audit.check", place=place, check=check.id)
+            _require_sound(where, check)
 
 
-def _require_earned(place: str, whole: Verdict, parts: Iterable[Verdict]) -> None:
+def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
     merged = merge_verdicts(parts)
     is_held_back = whole is Verdict.NOT_PROVEN and merged is Verdict.PASS
     if whole is not merged and not is_held_back:
-        raise NetDesignError(f"{place} says {whole}, but its parts give {merged}")
+        raise NetDesignError(tell_verdict(place, whole, merged))
 
 
-def _require_sound(place: str, check: CheckRecord) -> None:
+def _require_sound(place: Message, check: CheckRecord) -> None:
     _require_parts(place, check)
     for name, whole, parts in (
-        ("demand", check.demand_kN, _product(check.action_kN, check.action_factor)),
+        ("demand_kN", check.demand_kN, _product(check.action_kN, check.action_factor)),
         (
-            "resistance",
+            "resistance_kN",
             check.resistance_kN,
             _ratio(check.resistance_characteristic_kN, check.resistance_factor),
         ),
@@ -64,23 +69,26 @@ def _require_sound(place: str, check: CheckRecord) -> None:
         if whole is None or parts is None:
             continue
         if not math.isclose(whole, parts, rel_tol=_TOLERANCE):
-            raise NetDesignError(
-                f"{place}: {name} is {whole!r}, but its parts give {parts!r}"
-            )
+            raise NetDesignError(tell_value(place, name, whole, parts))
     is_loaded = check.demand_high_kN or check.action_kN
     if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
-        raise NetDesignError(f"{place}: utilisation is 0, but the member is not slack")
+        raise NetDesignError(say("audit.zero_but_loaded", place=place))
     _require_sizes(place, check)
     is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
     if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
         _, high = find_utilisation_band(check)
         if high is None or not high <= 1:
             raise NetDesignError(
-                f"{place} says pass, but the high end of its utilisation is {high}"
+                say(
+                    "audit.pass_not_supported",
+                    place=place,
+                    verdict=say("verdict.pass"),
+                    high=show_value(high),
+                )
             )
 
 
-def _require_sizes(place: str, check: CheckRecord) -> None:
+def _require_sizes(place: Message, check: CheckRecord) -> None:
     """Refuse forces below zero, and a demand outside its own band."""
     ends = (check.demand_low_kN, check.demand_kN, check.demand_high_kN)
     known = [0.0, *(end for end in ends if end is not None)]
@@ -88,17 +96,17 @@ def _require_sizes(place: str, check: CheckRecord) -> None:
     is_sound = known == sorted(known)
     is_sound &= all(size is None or size >= 0.0 for size in sizes)
     if not is_sound:
-        raise NetDesignError(f"{place}: a force lies below zero or outside its band")
+        raise NetDesignError(say("audit.size_or_band", place=place))
 
 
-def _require_parts(place: str, check: CheckRecord) -> None:
+def _require_parts(place: Message, check: CheckRecord) -> None:
     """Refuse factors that are none, and a resistance that follows from nothing."""
     divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
     if not all(one is None or one > 0.0 for one in divisors):
-        raise NetDesignError(f"{place}: a factor or a resistance is not above zero")
+        raise NetDesignError(say("audit.not_above_zero", place=place))
     has_parts = check.resistance_characteristic_kN and check.resistance_factor
     if check.resistance_kN is not None and not has_parts:
-        raise NetDesignError(f"{place}: a design resistance without its parts")
+        raise NetDesignError(say("audit.without_parts", place=place))
 
 
 def _is_of_geometry(check: CheckRecord) -> bool:
@@ -125,9 +133,7 @@ def require_sections(page: str, expected: Iterable[str]) -> None:
     reader.feed(_OTHER_TAG.sub(" ", _DRAWING.sub(" drawing ", page)))
     missing = [name for name in expected if not reader.words.get(name)]
     if missing:
-        raise NetDesignError(
-            f"the report is incomplete: nothing in section {', '.join(missing)}"
-        )
+        raise NetDesignError(say("audit.empty_sections", sections=tuple(missing)))
 
 
 class _SectionReader(HTMLParser):

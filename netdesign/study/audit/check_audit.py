@@ -10,9 +10,18 @@ from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES
 from netdesign.structure.row_position import compute_lateral_factor
-from netdesign.study.audit.comparing import SAME, Pair, is_same, tell_unequal
+from netdesign.study.audit.comparing import (
+    SAME,
+    Pair,
+    is_same,
+    tell_unequal,
+    tell_verdict,
+)
 from netdesign.study.audit.envelope_audit import is_complete, same_point
 from netdesign.study.records import CheckRecord, ExtremeRecord, ProfileRecord, RowStudy
+from netdesign.study.values import show_value
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_check
 
 # Whose largest force a member carries too; that of a base is a part of its post's.
 _CARRIES = {
@@ -28,21 +37,26 @@ _REASONS = {
 }
 
 
-def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[str]:
+def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
     """Sentences on what cannot be true of a row's checks."""
-    place = f"net row {row.id!r}"
+    place = say("audit.row", row=row.id)
     counts = Counter(check.id for check in row.checks)
-    yield from (f"{place}: check {name!r} twice" for name, n in counts.items() if n > 1)
+    yield from (
+        say("audit.check_twice", place=place, check=name)
+        for name, count in counts.items()
+        if count > 1
+    )
     wanted = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
-        yield f"{place}: no check {', '.join(lost)}"
+        yield say("audit.no_check", place=place, checks=tuple(lost))
     factors = {value.id: value.value for value in profile.values}
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
-        where = f"{place}, check {check.id!r}"
+        where = say("audit.check", place=place, check=check.id)
         if check.id != f"{check.member}.{check.mode}" and check.member != "net":
-            yield f"{where}: is of {check.member}, {check.mode}"
+            what = name_check(check.member, check.mode)
+            yield say("audit.check_of_other", place=where, what=what)
         if check.member != "net":
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
@@ -51,11 +65,11 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[str]:
 
 
 def _audit_factors(
-    place: str,
+    place: Message,
     check: CheckRecord,
     factors: dict[str, float],
     clauses: dict[str, str],
-) -> Iterator[str]:
+) -> Iterator[Message]:
     keys = (f"resistance.{check.mode}.{check.resistance_basis}",
             f"resistance.{check.mode}")  # fmt: skip
     key = next((one for one in keys if one in factors), "")
@@ -67,20 +81,20 @@ def _audit_factors(
         ],
     )
     if check.clause != clauses.get(key, "-"):
-        yield f"{place}: clause {check.clause!r}, but its factor is of another"
+        yield say("audit.other_clause", place=place, clause=check.clause)
     has_parts = check.resistance_characteristic_kN and check.resistance_factor
     if (check.resistance_kN is None) is not (not has_parts):
-        yield f"{place}: a design resistance without its parts, or the reverse"
+        yield say("audit.resistance_or_parts", place=place)
 
 
 def _audit_action(
-    place: str, check: CheckRecord, row: RowStudy, factors: dict[str, float]
-) -> Iterator[str]:
+    place: Message, check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> Iterator[Message]:
     """Follow the largest force of the cases to the demand."""
     record, extreme = check.action, _find_extreme(check, row)
     if extreme is None or record is None:
         if check.action_kN is not None or (extreme is None) is not (record is None):
-            yield f"{place}: an action without a largest force, or the reverse"
+            yield say("audit.action_or_force", place=place)
         return
     is_part = check.member == "post_base"
     lateral = 1.0
@@ -99,25 +113,25 @@ def _audit_action(
             pairs.append(("demand_low_kN", check.demand_low_kN, low))
             yield from _audit_high_end(place, check, extreme, on_force)
         if not same_point(check.case, extreme.case):
-            yield f"{place}: stands at another case than its largest force"
+            yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
-        yield f"{place}: more on the base than in the post"
+        yield say("audit.more_on_base", place=place)
     yield from tell_unequal(place, pairs)
     width, spacing = record.loaded_width_m, record.post_spacing_m
     expected = "intermediate" if is_same(width, spacing) else "edge"
     if width < spacing * (1.0 - SAME) or record.position != expected:
-        yield f"{place}: {record.position} support with {width!r} of {spacing!r} m"
+        yield say("audit.position", place=place, width=width, spacing=spacing)
 
 
 def _audit_high_end(
-    place: str, check: CheckRecord, extreme: ExtremeRecord, on_force: float
-) -> Iterator[str]:
+    place: Message, check: CheckRecord, extreme: ExtremeRecord, on_force: float
+) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
     high, least = check.demand_high_kN, extreme.high_kN * on_force
     if extreme.upper_bound_kN is not None:
         yield from tell_unequal(place, [("demand_high_kN", high, least)])
     elif high is None or high < least * (1.0 - SAME):
-        yield f"{place}: demand_high_kN is {high!r}, but at least {least!r} follows"
+        yield say("audit.too_low_end", place=place, high=show_value(high), least=least)
 
 
 def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
@@ -129,7 +143,9 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     return extremes.get(_CARRIES.get(check.member, check.member))
 
 
-def _audit_verdict(place: str, check: CheckRecord, *, complete: bool) -> Iterator[str]:
+def _audit_verdict(
+    place: Message, check: CheckRecord, *, complete: bool
+) -> Iterator[Message]:
     """The verdict from the band, as ``checks.check`` gives it."""
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
@@ -137,18 +153,20 @@ def _audit_verdict(place: str, check: CheckRecord, *, complete: bool) -> Iterato
     if check.action_kN == 0.0 and not check.demand_high_kN and complete:
         verdict = Verdict.PASS
         if check.utilisation != 0.0:
-            yield f"{place}: is slack, but its utilisation is {check.utilisation!r}"
+            used = show_value(check.utilisation)
+            yield say("audit.slack_but_used", place=place, used=used)
     elif resistance and low is not None and high is not None:
         verdict = judge(
             low / resistance, high / resistance,
             least=0.0, most=1.0, is_complete=complete,
         )  # fmt: skip
     if bool(resistance and is_known) and check.utilisation is None:
-        yield f"{place}: no utilisation, though demand and resistance are there"
+        yield say("audit.no_utilisation", place=place)
     if check.verdict is not verdict and not is_held_back(check):
-        yield f"{place} says {check.verdict}, but its numbers give {verdict}"
+        yield tell_verdict(place, check.verdict, verdict)
     if check.reason.key not in _REASONS[check.verdict]:
-        yield f"{place} says {check.verdict}, but its reason does not"
+        told = say(f"verdict.{check.verdict}")
+        yield say("audit.other_reason", place=place, verdict=told)
 
 
 def is_held_back(check: CheckRecord) -> bool:
@@ -162,22 +180,22 @@ def is_held_back(check: CheckRecord) -> bool:
     return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
 
 
-def _audit_spreads(place: str, check: CheckRecord) -> Iterator[str]:
+def _audit_spreads(place: Message, check: CheckRecord) -> Iterator[Message]:
     """Parts of the interval that count in the verdict make up its band."""
     counted = [spread for spread in check.spreads if spread.in_verdict]
     used, resistance = check.utilisation, check.resistance_kN
     if not counted:
         if used and resistance:
-            yield f"{place}: no part of its interval is told"
+            yield say("audit.no_spread", place=place)
         return
     ends = [(one.low, one.high) for one in counted]
     if not resistance or used is None or any(None in pair for pair in ends):
-        yield f"{place}: parts of an interval without numbers"
+        yield say("audit.spread_without_numbers", place=place)
         return
     low = min(used, *(one or 0.0 for one, _ in ends))
     high = used + sum((one or 0.0) - used for _, one in ends)
     bands = (check.demand_low_kN or 0.0, check.demand_high_kN or 0.0)
-    pairs: list[Pair] = [("low end of its parts", low, bands[0] / resistance)]
+    pairs: list[Pair] = [("spreads.low", low, bands[0] / resistance)]
     if check.member != "post_base":
-        pairs.append(("high end of its parts", high, bands[1] / resistance))
+        pairs.append(("spreads.high", high, bands[1] / resistance))
     yield from tell_unequal(place, pairs)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+from netdesign.outcome import Verdict
 from netdesign.study.records import Study
+from netdesign.study.values import show_value
+from netdesign.words.message import Message, say
 
 SAME = 1e-9  # relative; stored numbers that follow from each other differ by rounding
 _ZERO = 1e-12  # kN; what is left of a sum that must vanish
@@ -26,11 +29,24 @@ def is_of_steady_states(study: Study) -> bool:
     return study.provenance.settings.get("method") == _STEADY
 
 
-def tell_unequal(place: str, pairs: Iterable[Pair]) -> Iterator[str]:
+def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
     """A sentence for each name whose stored value is not what follows.
 
-    ``pairs`` are name, stored value, value that follows from others.
+    ``pairs`` are the name in the document, stored value, value that follows from
+    others.
     """
     for name, stored, expected in pairs:
         if not is_same(stored, expected):
-            yield f"{place}: {name} is {stored!r}, but {expected!r} follows"
+            yield tell_value(place, name, stored, expected)
+
+
+def tell_value(place: Message, name: str, stored: object, follows: object) -> Message:
+    """A sentence on a value, by its name in the document, that is not what follows."""
+    one, other = show_value(stored), show_value(follows)
+    return say("audit.unequal", place=place, name=name, stored=one, follows=other)
+
+
+def tell_verdict(place: Message, stored: Verdict, follows: Verdict) -> Message:
+    """A sentence on a verdict that is not that of its parts."""
+    verdict, merged = say(f"verdict.{stored}"), say(f"verdict.{follows}")
+    return say("audit.verdict", place=place, verdict=verdict, merged=merged)

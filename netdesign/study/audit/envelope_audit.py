@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 
 from netdesign.coupling.solution import RELEASED
@@ -18,13 +18,15 @@ from netdesign.study.records import (
     ExtremeRecord,
     RowStudy,
 )
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
 
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _AXES = ("density_kg_m3", "friction_deg", "inclination_deg")
 Spans = Mapping[str, tuple[float, float]]
 
 
-def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[str]:
+def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[Message]:
     """Sentences on what cannot be true of the cases and of what follows from them.
 
     Parameters
@@ -37,12 +39,13 @@ def audit_envelope(row: RowStudy, spans: Spans, tolerance: float) -> Iterator[st
         Largest residual of a balance that counts as converged [-]; infinite for
         histories, which have another measure of it.
     """
-    place = f"net row {row.id!r}"
+    place = say("audit.row", row=row.id)
     for number, case in enumerate(row.cases):
-        yield from _audit_case(f"{place}, case {number}", case, spans, tolerance)
+        where = say("audit.case", place=place, number=number)
+        yield from _audit_case(where, case, spans, tolerance)
     counts = Counter(case.case for case in row.cases)
     if any(count > 1 for count in counts.values()):
-        yield f"{place}: a case stands there twice"
+        yield say("audit.case_twice", place=place)
     yield from _audit_extremes(place, row)
     if row.envelope is not None:
         yield from _audit_record(place, row, row.envelope, spans)
@@ -52,6 +55,11 @@ def read_force(case: CaseRecord, member: str) -> float | None:
     """Force of a member in a case [kN]."""
     force: float | None = getattr(case, f"{member}_kN")
     return force
+
+
+def name_members(members: Iterable[str]) -> tuple[Message, ...]:
+    """Their names, as a list of a message."""
+    return tuple(map(name_member, members))
 
 
 def list_solved(row: RowStudy) -> list[CaseRecord]:
@@ -71,8 +79,8 @@ def find_largest(row: RowStudy, member: str) -> CaseRecord | None:
 
 
 def _audit_case(
-    place: str, case: CaseRecord, spans: Spans, tolerance: float
-) -> Iterator[str]:
+    place: Message, case: CaseRecord, spans: Spans, tolerance: float
+) -> Iterator[Message]:
     forces = [read_force(case, member) for member in MEMBERS]
     numbers = [*forces]
     if math.isfinite(tolerance):
@@ -80,36 +88,48 @@ def _audit_case(
     if case.outcome is Outcome.CONVERGED:
         is_whole = all(number is not None and number >= 0.0 for number in numbers)
         if not is_whole or case.reason not in (None, RELEASED):
-            yield f"{place} converged, but has a reason, or no numbers of at least 0"
+            yield say("audit.converged_without_numbers", place=place)
         elif (case.balance_residual or 0.0) > tolerance:
-            yield f"{place} converged, but its balance is left open"
+            yield say("audit.balance_open", place=place)
     elif any(force is not None for force in forces) or not case.reason:
-        yield f"{place} has no result, but forces, or no reason"
+        yield say("audit.forces_without_result", place=place)
     for key in _AXES:
         low, high = spans.get(key, (0.0, math.inf))
         value = getattr(case.case, key)
         if not low * (1.0 - SAME) <= value <= high * (1.0 + SAME):
-            yield f"{place}: {key} = {value!r} lies outside {low!r} to {high!r}"
+            yield say(
+                "audit.outside",
+                place=place,
+                key=key,
+                value=value,
+                low=low,
+                high=high,
+            )
 
 
-def _audit_extremes(place: str, row: RowStudy) -> Iterator[str]:
+def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
     wanted = list(MEMBERS) if list_solved(row) else []
     named = [extreme.quantity for extreme in row.extremes]
     if named != wanted:
-        yield f"{place}: largest forces of {named}, not of {wanted}"
+        yield say(
+            "audit.largest_of_others",
+            place=place,
+            named=name_members(named),
+            wanted=name_members(wanted),
+        )
     for extreme in row.extremes:
         largest = (
             find_largest(row, extreme.quantity) if extreme.quantity in MEMBERS else None
         )
         if largest is not None:
-            yield from _audit_extreme(
-                f"{place}, largest {extreme.quantity}", extreme, largest
-            )
+            member = name_member(extreme.quantity)
+            where = say("audit.largest", place=place, member=member)
+            yield from _audit_extreme(where, extreme, largest)
 
 
 def _audit_extreme(
-    place: str, extreme: ExtremeRecord, largest: CaseRecord
-) -> Iterator[str]:
+    place: Message, extreme: ExtremeRecord, largest: CaseRecord
+) -> Iterator[Message]:
     others = [member for member in MEMBERS if member != extreme.quantity]
     yield from tell_unequal(
         place,
@@ -117,7 +137,7 @@ def _audit_extreme(
             ("max_kN", extreme.max_kN, read_force(largest, extreme.quantity)),
             *(
                 (
-                    f"coincident {member}",
+                    f"coincident_kN.{member}",
                     extreme.coincident_kN.get(member),
                     read_force(largest, member),
                 )
@@ -126,14 +146,15 @@ def _audit_extreme(
         ],
     )
     if extreme.case != largest.case:
-        yield f"{place}: stands at another case than its force"
+        yield say("audit.other_case", place=place)
     if set(extreme.coincident_kN) != set(others):
-        yield f"{place}: forces of {sorted(extreme.coincident_kN)} beside it"
+        named = name_members(sorted(extreme.coincident_kN))
+        yield say("audit.coincident_of_others", place=place, named=named)
     upper = extreme.upper_bound_kN
     ends = (0.0, extreme.low_kN, extreme.max_kN, extreme.high_kN)
     bound = (extreme.max_kN, upper or extreme.max_kN, extreme.high_kN)
     if ends != tuple(sorted(ends)) or not _are_ordered(bound):
-        yield f"{place}: its band does not hold it, or not what may hide"
+        yield say("audit.outside_band", place=place)
 
 
 def _are_ordered(values: tuple[float, ...]) -> bool:
@@ -141,36 +162,37 @@ def _are_ordered(values: tuple[float, ...]) -> bool:
 
 
 def _audit_record(
-    place: str, row: RowStudy, record: EnvelopeRecord, spans: Spans
-) -> Iterator[str]:
+    place: Message, row: RowStudy, record: EnvelopeRecord, spans: Spans
+) -> Iterator[Message]:
     failed = len(row.cases) - len(list_solved(row))
+    where = say("audit.envelope", place=place)
     yield from tell_unequal(
-        f"{place}, envelope",
+        where,
         [("cases", record.cases, len(row.cases)), ("failed", record.failed, failed)],
     )
     axes = {axis.key: (axis.low, axis.high) for axis in record.axes}
     for key, (low, high) in spans.items():
         given = axes.get(key, (None, None))
-        pairs = ((f"{key}, low", given[0], low), (f"{key}, high", given[1], high))
-        yield from tell_unequal(f"{place}, envelope", pairs)
+        pairs = ((f"{key}.low", given[0], low), (f"{key}.high", given[1], high))
+        yield from tell_unequal(where, pairs)
     extremes = {extreme.quantity: extreme for extreme in row.extremes}
     if [bound.quantity for bound in record.bounds] != list(extremes):
-        yield f"{place}: bounds of other forces than the largest ones"
+        yield say("audit.bounds_of_others", place=place)
     for bound in record.bounds:
         if bound.quantity in extremes:
             yield from _audit_bound(place, bound, extremes[bound.quantity], record)
 
 
 def _audit_bound(
-    place: str, bound: BoundRecord, extreme: ExtremeRecord, record: EnvelopeRecord
-) -> Iterator[str]:
-    place = f"{place}, bound of {bound.quantity}"
+    place: Message, bound: BoundRecord, extreme: ExtremeRecord, record: EnvelopeRecord
+) -> Iterator[Message]:
+    place = say("audit.bound", place=place, member=name_member(bound.quantity))
     same = ("max_kN", "upper_bound_kN")
     pairs = [(key, getattr(bound, key), getattr(extreme, key)) for key in same]
     point: dict[str, float | None] = {key: getattr(extreme.case, key) for key in _AXES}
     pairs += [(key, bound.case.get(key), value) for key, value in point.items()]
     pairs += [
-        (f"coincident {member}", bound.coincident_kN.get(member), force)
+        (f"coincident_kN.{member}", bound.coincident_kN.get(member), force)
         for member, force in extreme.coincident_kN.items()
     ]
     again = bound.confirmation
@@ -178,14 +200,14 @@ def _audit_bound(
         change = 100.0 * (again.confirmed_kN / again.screened_kN - 1.0)
         off = abs((again.difference_percent or 0.0) - change)
         if off > 1e-6:
-            yield f"{place}: its confirmation differs by {change!r} %, not as it says"
+            yield say("audit.other_confirmation", place=place, change=change)
         if again.confirmed_kN > extreme.high_kN * (1.0 + SAME):
-            yield f"{place}: confirmed above the band of the largest force"
+            yield say("audit.confirmed_above", place=place)
     yield from tell_unequal(place, pairs)
     gap = bound.upper_bound_kN - bound.max_kN
     known = max(bound.max_kN, *extreme.coincident_kN.values())
     if record.is_closed and gap > record.gap_asked_percent / 100.0 * known * 1.001:
-        yield f"{place}: said to be closed, but {gap!r} kN may hide"
+        yield say("audit.not_closed", place=place, gap=gap)
 
 
 def is_complete(row: RowStudy) -> bool:

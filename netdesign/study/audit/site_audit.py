@@ -11,7 +11,7 @@ from netdesign.envelope.ranges import Case, build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.study.audit.check_audit import is_held_back
-from netdesign.study.audit.comparing import is_of_steady_states, is_same
+from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
 from netdesign.study.check_site import (
     is_calibrated,
@@ -29,13 +29,15 @@ from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import compare_values
 from netdesign.units import newton_from_kilonewton
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
 _MOST = 5  # places of one row that are named
 
 
-def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[str]:
+def audit_site(
+    study: Study, site: Site, standard: Standard | None
+) -> Iterator[Message]:
     """Sentences on where a study is not that of its site file.
 
     Parameters
@@ -51,7 +53,7 @@ def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[
     stored = [row.id for row in study.rows]
     given = [row.id for row in site.rows]
     if stored != given:
-        yield f"the study has net rows {stored}, its site file {given}"
+        yield say("audit.other_rows", stored=repr(stored), given=repr(given))
     parts = (
         ("project", study.project, site.project),
         ("ranges", study.range_inputs, list(site.range_inputs)),
@@ -60,7 +62,7 @@ def audit_site(study: Study, site: Site, standard: Standard | None) -> Iterator[
     )
     for name, one, other in parts:
         for found in compare_values({name: one}, {name: other})[:_MOST]:
-            yield f"the site file says otherwise: {found}"
+            yield say("audit.site_otherwise", value=found.message)
     rows = {row.id: row for row in site.rows}
     is_known = standard is not None and standard.sha256 == study.profile.sha256
     for row in study.rows:
@@ -79,29 +81,38 @@ def _find_law(study: Study) -> CreepLaw:
 
 def _audit_row(
     row: RowStudy, given: NetRow, site: Site, law: CreepLaw
-) -> Iterator[str]:
-    place = f"net row {row.id!r}"
-    for found in compare_values(row.inputs, list(given.inputs))[:_MOST]:
-        yield f"{place}: the site file says otherwise: inputs.{found}"
+) -> Iterator[Message]:
+    place = say("audit.row", row=row.id)
+    inputs = {"inputs": row.inputs}, {"inputs": list(given.inputs)}
+    for found in compare_values(*inputs)[:_MOST]:
+        yield say("audit.row_otherwise", place=place, value=found.message)
     if site.ranges.is_grid:
         points = [record_point(case) for case in build_cases(site.ranges)]
         if [case.case for case in row.cases] != points:
-            yield f"{place}: its cases are not those of the grid"
-    for case in row.cases:
+            yield say("audit.other_grid", place=place)
+    for number, case in enumerate(row.cases):
         known = is_calibrated(law, given, case.case.density_kg_m3)
         if case.is_calibrated is not known:
-            yield f"{place}: {case.case}: is_calibrated is {case.is_calibrated}"
+            where = say("audit.case", place=place, number=number)
+            yield tell_value(where, "is_calibrated", case.is_calibrated, known)
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
         wanted = (math.degrees(given.slope_angle), given.snow_thickness)
         if any(compare_values(drawn, wanted)):
-            yield f"{place}: its section is drawn for {drawn}, not for {wanted}"
+            yield say(
+                "audit.other_section",
+                place=place,
+                slope=drawn[0],
+                thickness=drawn[1],
+                given_slope=wanted[0],
+                given_thickness=wanted[1],
+            )
 
 
 def _audit_judgement(
     row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
-) -> Iterator[str]:
+) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
     effects = find_effects(given, standard)
     members = [
@@ -113,19 +124,20 @@ def _audit_judgement(
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
     )
-    place = f"net row {row.id!r}"
+    place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
-        yield f"{place}: judged again, its checks differ: {found}"
+        yield say("audit.judged_otherwise", place=place, value=found.message)
     notes = [*list_row_notes(given, effects), *list_case_notes(row.cases)]
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
-        yield f"{place}: its notes differ: {found}"
+        yield say("audit.other_notes", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
             width = effects.record(check.member, _hold(check.action.solved_kN))
             for found in compare_values(check.action, width):
-                yield f"{place}, check {check.id!r}: its loaded width: {found}"
+                where = say("audit.check", place=place, check=check.id)
+                yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
 
 
@@ -160,7 +172,7 @@ def _hold(force_kN: float) -> Band:
     return Band(low=force, value=force, high=force)
 
 
-def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[str]:
+def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     """The comparison with the guideline, from the forces that it states."""
     stored = row.guideline
     if stored is None or stored.sha256 != load_guideline().sha256:
@@ -177,11 +189,12 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[str]:
         load=newton_from_kilonewton(stored.solved_load_kN_per_m),
         foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
     )
+    place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
-        yield f"net row {row.id!r}: its comparison with the guideline: {found}"
+        yield say("audit.other_guideline", place=place, value=found.message)
     largest = find_largest(row, "foot_anchor")
     if largest is not None and not (
         same_point(point, largest.case)
         and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)
     ):
-        yield f"net row {row.id!r}: the guideline stands beside another case"
+        yield say("audit.guideline_case", place=place)

@@ -10,11 +10,12 @@ from netdesign.checks import Standard
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import Site
 from netdesign.study.audit.check_audit import audit_checks
-from netdesign.study.audit.comparing import is_of_steady_states
+from netdesign.study.audit.comparing import is_of_steady_states, tell_verdict
 from netdesign.study.audit.envelope_audit import Spans, audit_envelope
 from netdesign.study.audit.support_audit import audit_support
 from netdesign.study.check_site import list_reasons
 from netdesign.study.records import RowStudy, Study
+from netdesign.words.message import Message, say
 
 _AXES = {
     "density": "density_kg_m3",
@@ -25,7 +26,7 @@ _AXES = {
 
 def audit_study(
     study: Study, standard: Standard | None = None, site: Site | None = None
-) -> list[str]:
+) -> list[Message]:
     """Contradictions of a study, each in a sentence that names the place.
 
     Parameters
@@ -40,7 +41,7 @@ def audit_study(
 
     Returns
     -------
-    list of str
+    list of Message
         Empty where everything follows from everything else. That the forces are those
         of the site's snow and nets is what only a new solve shows.
 
@@ -63,15 +64,15 @@ def audit_study(
         found += audit_site(study, site, standard)
     verdict = merge_verdicts(row.verdict for row in study.rows)
     if study.verdict is not verdict:
-        found.append(f"the study says {study.verdict}, but its rows give {verdict}")
+        found.append(tell_verdict(say("audit.study"), study.verdict, verdict))
     return found
 
 
-def _audit_profile(study: Study, standard: Standard | None) -> Iterator[str]:
+def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]:
     """Values of the profile against its files, where these are the ones of the hash."""
     ids = [value.id for value in study.profile.values]
     if len(set(ids)) < len(ids):
-        yield "profile: a value stands there twice"
+        yield say("audit.value_twice")
     if standard is None or standard.sha256 != study.profile.sha256:
         return
     from netdesign.study.check_site import record_profile
@@ -81,22 +82,22 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[str]:
     listed = {value.id: asdict(value) for value in again.values}
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
-            yield f"profile: {name} is not that of the files with this hash"
+            yield say("audit.other_profile", name=name)
     for key in ("id", "title", "edition", "version", "choice"):
         if getattr(study.profile, key) != getattr(again, key):
-            yield f"profile: {key} is not that of the files with this hash"
+            yield say("audit.other_profile", name=key)
 
 
-def _audit_verdict(row: RowStudy) -> Iterator[str]:
+def _audit_verdict(row: RowStudy) -> Iterator[Message]:
     """Verdict and reasons of a row from its checks and independent checks."""
-    place = f"net row {row.id!r}"
+    place = say("audit.row", row=row.id)
     held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
     verdict = merge_verdicts([*(check.verdict for check in row.checks), *held])
     if row.verdict is not verdict:
-        yield f"{place} says {row.verdict}, but its parts give {verdict}"
+        yield tell_verdict(place, row.verdict, verdict)
     reasons = list_reasons(row.checks, row.independent)
     if row.reasons != reasons:
-        yield f"{place}: its reasons are not those of its checks"
+        yield say("audit.other_reasons", place=place)
 
 
 def _read_spans(study: Study) -> Spans:

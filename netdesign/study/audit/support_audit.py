@@ -10,10 +10,11 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.outcome import Outcome
 from netdesign.structure.head import HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportPoints
-from netdesign.study.audit.comparing import Pair, tell_unequal
+from netdesign.study.audit.comparing import Pair, tell_unequal, tell_value
 from netdesign.study.audit.envelope_audit import (
     find_largest,
     list_solved,
+    name_members,
     read_force,
     same_point,
 )
@@ -27,6 +28,8 @@ from netdesign.study.records import (
     ProfileRecord,
     RowStudy,
 )
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
 
 _ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
 _BROUGHT_BY = ("net", "uphill_guy", "downhill_guy", "post")
@@ -38,24 +41,24 @@ _CLOSE = 1e-6  # of the pull: members from a stored pull, whose last digits are 
 
 def audit_support(
     row: RowStudy, profile: ProfileRecord, *, is_steady: bool
-) -> Iterator[str]:
+) -> Iterator[Message]:
     """Sentences on what cannot be true of the drawn case of a row.
 
     Forces of a history are its largest ones, and need not be of one instant: then
     ``is_steady`` is false, and less is known.
     """
-    place, drawing = f"net row {row.id!r}", row.drawing
+    place, drawing = say("audit.row", row=row.id), row.drawing
     parts = (row.anchors, row.head, row.independent)
     if drawing is None:
         if any(parts) or list_solved(row):
-            yield f"{place}: no drawing of a case that has a result"
+            yield say("audit.no_drawing", place=place)
         return
     drawn = next((one for one in row.cases if same_point(one.case, drawing.case)), None)
     if drawn is None or drawn.outcome is not Outcome.CONVERGED or not all(parts):
-        yield f"{place}: the drawn case has no result, or no forces"
+        yield say("audit.drawn_without_result", place=place)
         return
     if not same_point(drawing.case, _find_governing(row)):
-        yield f"{place}: another case is drawn than the governing one"
+        yield say("audit.other_drawn", place=place)
     share = next((v.value for v in profile.values if v.id == LATERAL_SHARE), 0.0)
     yield from _audit_anchors(place, row.anchors, drawing, share)
     if is_steady:
@@ -75,11 +78,12 @@ def _find_governing(row: RowStudy) -> CasePoint | None:
 
 
 def _audit_anchors(
-    place: str, anchors: list[AnchorRecord], drawing: Drawing, share: float
-) -> Iterator[str]:
+    place: Message, anchors: list[AnchorRecord], drawing: Drawing, share: float
+) -> Iterator[Message]:
     named = tuple((one.anchor, one.member) for one in anchors)
     if named != tuple(zip(_ANCHORS, _BROUGHT_BY, strict=True)):
-        yield f"{place}: forces on {[one.anchor for one in anchors]}"
+        names = name_members(one.anchor for one in anchors)
+        yield say("audit.other_anchors", place=place, named=names)
         return
     points = (
         (0.0, 0.0),
@@ -88,32 +92,34 @@ def _audit_anchors(
         drawing.post_base_m,
     )
     if len(drawing.arrows) != len(anchors):
-        yield f"{place}: {len(drawing.arrows)} arrows for {len(anchors)} forces"
+        arrows, forces = len(drawing.arrows), len(anchors)
+        yield say("audit.arrows", place=place, arrows=arrows, forces=forces)
         return
     for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
-        where = f"{place}, {one.anchor}"
+        where = say("audit.part", place=place, part=name_member(one.anchor))
         lateral = 0.0 if one.member == "post" else share * one.size_kN
         size = math.hypot(one.force_x_kN, one.force_y_kN)
         turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
         if arrow.member != one.anchor.replace("post_base", "post"):
-            yield f"{where}: drawn as {arrow.member}"
+            drawn_as = name_member(arrow.member)
+            yield say("audit.drawn_as", place=where, member=drawn_as)
         yield from tell_unequal(
             where,
             [
                 ("size_kN", one.size_kN, size),
                 ("direction_deg", one.direction_deg, turn if size else None),
                 ("lateral_kN", one.lateral_kN, lateral),
-                ("drawn x", arrow.force_x_kN, one.force_x_kN),
-                ("drawn y", arrow.force_y_kN, one.force_y_kN),
-                ("drawn place, x", arrow.x_m, point[0]),
-                ("drawn place, y", arrow.y_m, point[1]),
+                ("arrows.force_x_kN", arrow.force_x_kN, one.force_x_kN),
+                ("arrows.force_y_kN", arrow.force_y_kN, one.force_y_kN),
+                ("arrows.x_m", arrow.x_m, point[0]),
+                ("arrows.y_m", arrow.y_m, point[1]),
             ],
         )
 
 
 def _audit_sizes(
-    place: str, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
-) -> Iterator[str]:
+    place: Message, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
+) -> Iterator[Message]:
     """Forces on the ground against those of the case; one anchor may carry two."""
     if len(anchors) != len(_ANCHORS):
         return
@@ -122,16 +128,16 @@ def _audit_sizes(
     sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
     members = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
     yield from tell_unequal(
-        f"{place}, drawn case",
+        say("audit.drawn_case", place=place),
         [(m, s, read_force(drawn, m)) for m, s in zip(members, sizes, strict=True)],
     )
 
 
-def _audit_head(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
+def _audit_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
     """Members that hold the net's pull on the head, from (S1) to (S4)."""
     pull, *others = row.head
     if pull.member != "net" or len(row.anchors) != len(_ANCHORS):
-        yield f"{place}: no pull of the net on the post head"
+        yield say("audit.no_pull", place=place)
         return
     points = SupportPoints(
         net_foot=(0.0, 0.0),
@@ -142,7 +148,7 @@ def _audit_head(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
     )
     held = compute_head_forces((pull.x_kN, pull.y_kN), points)
     if not isinstance(held, HeadForces):
-        yield f"{place}: nothing holds the net's pull on the post head: {held.reason}"
+        yield say("audit.not_held", place=place, reason=held.reason)
         return
     _, uphill, downhill, base = row.anchors
     sizes = (
@@ -153,12 +159,13 @@ def _audit_head(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
     within = _CLOSE * math.hypot(pull.x_kN, pull.y_kN)
     for member, anchor, force in sizes:
         if abs(anchor.size_kN - force) > within:
-            yield f"{place}: {member} has {anchor.size_kN!r} kN, but {force!r} follows"
+            where = say("audit.part", place=place, part=name_member(member))
+            yield tell_value(where, "size_kN", anchor.size_kN, force)
     expected = [(m, -a.force_x_kN, -a.force_y_kN) for m, a, _ in sizes if a.size_kN > 0]
     yield from _compare_head(place, others, expected)
 
 
-def _audit_ends(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
+def _audit_ends(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
     """A net pulls on its ends along itself, as far as its drawing shows that."""
     foot, pull = row.anchors[0], row.head[0]
     for name, points, force in (
@@ -167,7 +174,7 @@ def _audit_ends(place: str, row: RowStudy, drawing: Drawing) -> Iterator[str]:
     ):
         angle = _find_angle(points, force)
         if angle is None or angle > _BESIDE_NET:
-            yield f"{place}: the net does not pull along itself on its {name}"
+            yield say("audit.beside_net", place=place, end=name_member(name))
 
 
 def _find_angle(
@@ -184,28 +191,34 @@ def _find_angle(
 
 
 def _compare_head(
-    place: str, others: list[HeadForce], expected: list[tuple[str, float, float]]
-) -> Iterator[str]:
+    place: Message, others: list[HeadForce], expected: list[tuple[str, float, float]]
+) -> Iterator[Message]:
     if [one.member for one in others] != [member for member, _, _ in expected]:
-        yield f"{place}: other members on the post head than on the ground"
+        yield say("audit.other_members", place=place)
         return
     for one, (member, x, y) in zip(others, expected, strict=True):
         pairs = [("x_kN", one.x_kN, x), ("y_kN", one.y_kN, y)]
-        yield from tell_unequal(f"{place}, head, {member}", pairs)
+        where = say("audit.at_head", place=place, member=name_member(member))
+        yield from tell_unequal(where, pairs)
 
 
 def _audit_laws(
-    place: str, row: RowStudy, drawn: CaseRecord, *, is_steady: bool
-) -> Iterator[str]:
+    place: Message, row: RowStudy, drawn: CaseRecord, *, is_steady: bool
+) -> Iterator[Message]:
     wanted = {*_LAWS, *(["capstan_ratio"] if is_steady else [])}
     wanted |= {"head_balance"} if len(row.head) > 1 else set()
     named = [law.name for law in row.independent]
     if len(set(named)) < len(named) or not wanted <= set(named):
-        yield f"{place}: independent checks {named}, wanted are {sorted(wanted)}"
+        yield say(
+            "audit.other_laws",
+            place=place,
+            named=tuple(named),
+            wanted=tuple(sorted(wanted)),
+        )
     for law in row.independent:
-        where = f"{place}, independent check {law.name}"
+        where = say("audit.law", place=place, law=law.name)
         if law.is_met is not is_law_met(law.name, law.value, law.limit):
-            yield f"{where}: is_met is {law.is_met}, but its value says otherwise"
+            yield tell_value(where, "is_met", law.is_met, not law.is_met)
         yield from tell_unequal(where, _list_law_pairs(law, row, drawn))
 
 

@@ -1,3 +1,4 @@
+import re
 from dataclasses import replace
 
 import pytest
@@ -6,7 +7,9 @@ from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report.view.gate import require_consistent, require_sections
 from netdesign.study.records import IndependentRecord
+from netdesign.words.catalogue import render
 from tests.report.build_study import build_study
+from tests.words.english import find_words
 
 
 def spoil(row_number, check_number, **changes):
@@ -26,9 +29,9 @@ def test_the_sound_study_passes():
 @pytest.mark.parametrize(
     ("study", "message"),
     [
-        (spoil(0, 0, utilisation=0.5), "utilisation is 0.5, but its parts give"),
-        (spoil(0, 0, demand_kN=1.0), "demand is 1.0, but its parts give"),
-        (spoil(0, 0, resistance_factor=1.0), "resistance is .* but its parts give"),
+        (spoil(0, 0, utilisation=0.5), "utilisation is 0.5, but .* follows"),
+        (spoil(0, 0, demand_kN=1.0), "demand_kN is 1.0, but .* follows"),
+        (spoil(0, 0, resistance_factor=1.0), "resistance_kN is .* follows"),
         (spoil(0, 0, demand_high_kN=1e4), "high end of its utilisation is"),
         (spoil(0, 0, demand_high_kN=None), "high end of its utilisation is None"),
         (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
@@ -50,21 +53,24 @@ def test_the_sound_study_passes():
             spoil(0, 0, resistance_characteristic_kN=None),
             "a design resistance without its parts",
         ),
-        (spoil(0, 0, verdict=Verdict.FAIL), "says pass, but its parts give fail"),
-        (replace(build_study(), verdict=Verdict.PASS), "says pass, but its parts"),
-        (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give fail"),
+        (spoil(0, 0, verdict=Verdict.FAIL), "says PASS, but its parts give FAIL"),
+        (replace(build_study(), verdict=Verdict.PASS), "says PASS, but its parts"),
+        (replace(build_study(), verdict=Verdict.NOT_PROVEN), "its parts give FAIL"),
     ],
 )
 def test_a_contradiction_is_refused(study, message):
-    with pytest.raises(NetDesignError, match=message):
+    with pytest.raises(NetDesignError, match=message) as caught:
         require_consistent(study)
+    for language in ("fr", "de"):
+        told = render(caught.value.message, language)
+        assert find_words(re.sub("'[^']*'", "", told), ["en"]) == set()
 
 
 def test_a_law_that_is_not_met_holds_a_pass_back():
     study = build_study(rows=1)
     law = IndependentRecord(name="end_direction", value=0.3, limit=0.02, is_met=False)
     row = replace(study.rows[0], independent=[law])
-    with pytest.raises(NetDesignError, match="but its parts give not_proven"):
+    with pytest.raises(NetDesignError, match="but its parts give NOT PROVEN"):
         require_consistent(replace(study, rows=[row]))
 
 

@@ -91,7 +91,7 @@ def test_study_without_rows_is_shown_only_if_not_proven(verdict):
     if verdict is Verdict.NOT_PROVEN:
         assert build_view(study).governing_row is None
     else:
-        with pytest.raises(Exception, match="its parts give not_proven"):
+        with pytest.raises(Exception, match="its parts give NOT PROVEN"):
             build_view(study)
 
 

@@ -3,6 +3,7 @@
 import copy
 import json
 import random
+import re
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -19,9 +20,11 @@ from netdesign.study.audit import audit_study
 from netdesign.study.check_site import _record_provenance
 from netdesign.study.records import compute_digest, read_document, write_document
 from netdesign.study.repeat import list_differences
+from netdesign.words.catalogue import render
 from tests.alter_study import alter_leaf, list_leaves
 from tests.short_example import write_short_example
 from tests.study.audit.alterations import KINDS
+from tests.words.english import find_words
 
 REFUSED = 3
 NOISE = 1e-4  # shares and differences are compared no closer, for other processors
@@ -168,6 +171,21 @@ def test_a_study_without_its_files_is_audited_all_the_same(text):
             alone.append(kind)
     assert len(alone) >= 30
     assert audit_study(read_document(text)) == []
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_every_contradiction_is_told_in_the_language(text, site, language):
+    """Names and values of the document are its own."""
+    profile, told = load_standard(read_document(text).profile.id), set()
+    for alter in KINDS.values():
+        document = json.loads(text)
+        alter(document)
+        study = read_document(json.dumps(document))
+        told |= {render(one, language) for one in audit_study(study, profile, site)}
+    assert len(told) > 100
+    own = re.compile(r"'[^']*'|\[.*?\]|\w+_\w+|\w+[.]\S+")
+    shown = [own.sub(" ", one) for one in told]
+    assert [one for one in shown if find_words(one, ["en"])] == []
 
 
 def test_a_profile_of_another_hash_says_nothing(text):
