@@ -55,4 +55,6 @@ def _alter(value, key, draw):
     for words in WORDS:
         if value in words and key in ("verdict", "outcome"):
             return draw.choice([word for word in words if word != value])
+    if key == "sense":
+        return "at most" if value == "has" else "has"
     return value + "x"

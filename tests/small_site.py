@@ -15,6 +15,7 @@ from netdesign.site.model import (
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.study.cases import CheckRun
+from netdesign.words.message import say
 from netdesign.words.names import as_given
 
 STRONG, WEAK = 1e7, 1e3  # [N]
@@ -61,7 +62,13 @@ def build_row(name, **changes):
         ),
         "resistances": resist(),
         "inputs": (
-            InputEcho(label="slack", unit="-", text="", value=0.05, cell="default"),
+            InputEcho(
+                label=say("column.Nets.slack"),
+                unit="-",
+                text="",
+                value=0.05,
+                cell="default",
+            ),
         ),
     }
     return NetRow(**(values | changes))

@@ -74,7 +74,7 @@ THIRD_PARTY = {
     "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": ("checks.schema", "files.scene", "study.records", "edge.json_text"),
-    "pydantic_core": ("checks.schema", "edge.json_text", "study.records"),
+    "pydantic_core": ("checks.schema", "edge.json_text", "words.text_field"),
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.page.pdf",),

@@ -11,8 +11,7 @@ from typing import Any, TypeVar
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.report.view.check_view import find_governing
-from netdesign.report.view.input_names import show_input
-from netdesign.report.words import Words, add_unit
+from netdesign.report.words import Words
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import Difference, compare_values
 from netdesign.words.catalogue import Language
@@ -20,7 +19,6 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import as_given, name
 
 SCHEMA = "netdesign.diff/1"
-_WITH_UNIT = "diff.with_unit"
 _MET, _UNMET = "met", "not met"
 _PASSING = (str(Verdict.PASS), _MET)
 _RANKS = {str(Verdict.PASS): 0, _MET: 0, str(Verdict.NOT_PROVEN): 1, _UNMET: 1}
@@ -85,11 +83,7 @@ class Change:
 
     def name(self, words: Words) -> str:
         """Name of the value; inputs have those of the site workbook."""
-        is_input = self.area in ("range", "input") and self.what.key == _WITH_UNIT
-        if not is_input:
-            return words.show(self.what)
-        label, unit = (str(self.what.arguments[key]) for key in ("what", "unit"))
-        return add_unit(show_input(words, label), unit)
+        return words.show(self.what)
 
     @property
     def is_turned(self) -> bool:
@@ -276,10 +270,11 @@ def _list_project(study: Study) -> Named:
 
 
 def _list_inputs(inputs: Sequence[Any]) -> Named:
-    return _name_all(
-        (say(_WITH_UNIT, what=echo.label, unit=echo.unit), echo.value)
-        for echo in inputs
-    )
+    return _name_all((_add_unit(echo.label, echo.unit), echo.value) for echo in inputs)
+
+
+def _add_unit(what: Message, unit: str) -> Message:
+    return say("diff.with_unit", what=what, unit=unit) if unit else what
 
 
 def _list_profile(study: Study) -> Named:

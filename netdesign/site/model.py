@@ -14,6 +14,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 from netdesign.words.message import Message
+from netdesign.words.text_field import Text
 
 # What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[str, str], ...] = (
@@ -52,7 +53,7 @@ class Resistance:
 class InputEcho:
     """One input as typed and as understood; for the report."""
 
-    label: str
+    label: Text
     unit: str
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above

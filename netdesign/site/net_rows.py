@@ -358,7 +358,7 @@ def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
     name, given = what.field.name, reading.field.name
     label = say("column.derived_from", name=name, given=given)
     return InputEcho(
-        label=str(label),  # seam: records keep English so far
+        label=label,
         unit="m",
         text=reading.text,
         value=value,

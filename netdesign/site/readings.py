@@ -71,7 +71,7 @@ class Reading:
     def echo(self) -> InputEcho:
         """Give the input as the report shows it."""
         return InputEcho(
-            label=str(self.field.name),  # seam: records keep English so far
+            label=self.field.name,
             unit=self.field.unit,
             text=self.text,
             value="" if self.value is None else self.value,

@@ -12,7 +12,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_bounded
@@ -20,37 +20,12 @@ from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
 from netdesign.errors import ContentError, StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.words.catalogue import render
-from netdesign.words.message import Message, say
-
-if TYPE_CHECKING:
-    from pydantic_core import CoreSchema
+from netdesign.words.message import say
+from netdesign.words.text_field import Text
 
 SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
 _OLD_SCHEMA = "netdesign.study/1"
 _HOW_FAR = 200  # signs from the start, among which a document names its schema
-
-
-class _HasText:
-    """A message with a text of this key whose gaps its arguments fill."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
-        """What pydantic asks for: read a message as usual, then render it."""
-        from pydantic_core.core_schema import no_info_after_validator_function
-
-        return no_info_after_validator_function(_require_text, handler(source))
-
-
-def _require_text(message: Message) -> Message:
-    try:
-        render(message, "en")
-    except (LookupError, ValueError, RecursionError) as error:
-        key = f"{message.key!r:.60}"
-        raise ValueError(f"{key} is no text with these arguments: {error}") from None
-    return message
-
-
-Text = Annotated[Message, _HasText()]  # in no language yet; never one without a text
 
 
 @dataclass(frozen=True, kw_only=True)

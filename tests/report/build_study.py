@@ -31,7 +31,7 @@ from netdesign.study.records import (
     SpreadRecord,
     Study,
 )
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 FORMULA, SCRIPT, MENTION = "=1+1", "<script>alert(1)</script>", "@x"
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
@@ -68,9 +68,9 @@ def build_study(*, samples: int = 3, rows: int = 3) -> Study:
         profile=build_profile(),
         rows=built,
         range_inputs=[
-            _echo("Density, low", "kg/m3", "250", 250.0, "Ranges!B2"),
-            _echo("Density, high", "kg/m3", "450", 450.0, "Ranges!C2"),
-            _echo("Friction angle, low", "°", "", 15.0, "default"),
+            _echo(_end("low", "density"), "kg/m3", "250", 250.0, "Ranges!B2"),
+            _echo(_end("high", "density"), "kg/m3", "450", 450.0, "Ranges!C2"),
+            _echo(_end("low", "friction_angle"), "°", "", 15.0, "default"),
         ],
         notes=[
             as_given(f"Sheet Nets: column {SCRIPT} was not understood."),
@@ -163,11 +163,11 @@ def build_row(
         extremes=extremes,
         cases=cases,
         inputs=[
-            _echo("Slope angle", "°", "40", 40.0, "Nets!B5"),
-            _echo("Snow height", "m", "5,22 ", 5.22, "Nets!C5"),
-            _echo("Ground", "", "rough", "no-slip", "Nets!D5"),
-            _echo("Remark", "", f"{SCRIPT} {FORMULA}", FORMULA, "Nets!H5"),
-            _echo("Slack", "%", "", 2.0, "default"),
+            _echo(say("column.Nets.slope_angle"), "°", "40", 40.0, "Nets!B5"),
+            _echo(say("column.Nets.snow_height"), "m", "5,22 ", 5.22, "Nets!C5"),
+            _echo(say("column.Nets.ground_law"), "", "rough", "no-slip", "Nets!D5"),
+            _echo(as_given("Remark"), "", f"{SCRIPT} {FORMULA}", FORMULA, "Nets!H5"),
+            _echo(say("column.Nets.slack"), "%", "", 2.0, "default"),
         ],
         drawing=build_drawing(extremes[0]),
         reasons=[as_given(reason) for reason in reasons],
@@ -508,5 +508,11 @@ def _mesh(
     return edges
 
 
-def _echo(label: str, unit: str, text: str, value: float | str, cell: str) -> InputEcho:
+def _end(end: str, quantity: str) -> Message:
+    return say(f"column.{end}_end", name=say(f"column.quantities.{quantity}"))
+
+
+def _echo(
+    label: Message, unit: str, text: str, value: float | str, cell: str
+) -> InputEcho:
     return InputEcho(label=label, unit=unit, text=text, value=value, cell=cell)

@@ -69,7 +69,7 @@ def test_project_profile_ranges_and_settings_are_told():
     found = changes_of(old, new)
     assert found["project", "", "revision"] == ("B", "C")
     assert found["settings", "", "version"][1] == "9"
-    assert found["range", "", "Density, low [kg/m3]"] == (250.0, 260.0)
+    assert found["range", "", "density, low [kg/m3]"] == (250.0, 260.0)
     assert [new_value for area, _, what in found if area == "profile"
             for new_value in [found[area, "", what][1]]] == [7.0]  # fmt: skip
     assert len(found) == 4

@@ -32,7 +32,7 @@ def places_and_rules(findings):
 
 
 def echoes(net_row):
-    return {echo.label: echo for echo in net_row.inputs}
+    return {str(echo.label): echo for echo in net_row.inputs}
 
 
 # What a sound workbook gives
@@ -67,7 +67,7 @@ def test_ranges_are_read_and_inclination_has_a_default(sheets, save):
     inclination = site.ranges["inclination"]
     assert (inclination.low, inclination.high) == (math.radians(25), math.radians(35))
     assert inclination.count is None
-    shown = {echo.label: echo for echo in site.range_inputs}
+    shown = {str(echo.label): echo for echo in site.range_inputs}
     assert shown["density, low"].cell == "Ranges!B2"
     assert shown["density, low"].unit == "kg/m3"
     assert shown["net inclination, high"].cell == "default"

@@ -42,7 +42,7 @@ def test_layers_are_read_from_the_ground_up_in_any_order(layered, save):
 
 
 def test_every_input_of_a_layer_is_echoed(layered, save):
-    shown = {echo.label: echo for echo in read_site(save(layered)).rows[0].inputs}
+    shown = {str(echo.label): echo for echo in read_site(save(layered)).rows[0].inputs}
     assert shown["layer 2, density"].value == 300.0
     assert shown["layer 2, density"].cell == "Snow!D3"
 

@@ -95,8 +95,20 @@ ROW = RowStudy(
         )
     ],
     inputs=[
-        InputEcho(label="slope", unit="°", text="40", value=40.0, cell="Nets!B2"),
-        InputEcho(label="ground", unit="", text="", value="free", cell="default"),
+        InputEcho(
+            label=say("column.Nets.slope_angle"),
+            unit="°",
+            text="40",
+            value=40.0,
+            cell="Nets!B2",
+        ),
+        InputEcho(
+            label=say("column.Nets.ground_law"),
+            unit="",
+            text="",
+            value="free",
+            cell="default",
+        ),
     ],
     drawing=DRAWING,
     reasons=[say("text.as_given", text="Not all inside.")],

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from netdesign.outcome import Outcome
-from netdesign.report.view.input_names import show_input
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -86,7 +85,7 @@ def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
         for echo in inputs:
             if echo.cell == DEFAULT and echo.value != "":
                 shown = show_quantity(echo.value, echo.unit)
-                label = show_input(words, echo.label)
+                label = words.show(echo.label)
                 found.setdefault((label, shown), []).append(place)
     return {key: show_text(", ".join(names)) for key, names in found.items()}
 

@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
-from netdesign.report.view.input_names import show_input
 from netdesign.report.view.table import (
     Cell,
     Column,
@@ -169,7 +168,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
         columns=name_columns(headings, numbers=(words("heading.understood_as"),)),
         rows=tuple(
             (
-                text_cell(show_input(words, echo.label)),
+                text_cell(words.show(echo.label)),
                 text_cell(echo.text),
                 given_cell(echo.value),
                 text_cell(show_unit(echo.unit)),

@@ -19,8 +19,8 @@ from netdesign.words.message import Message, say
 
 _AXES = {
     "density": "density_kg_m3",
-    "friction angle": "friction_deg",
-    "net inclination": "inclination_deg",
+    "friction_angle": "friction_deg",
+    "inclination": "inclination_deg",
 }
 
 
@@ -103,12 +103,13 @@ def _audit_verdict(row: RowStudy) -> Iterator[Message]:
 def _read_spans(study: Study) -> Spans:
     """Ranges as they were understood, by the keys of a case."""
     spans = {}
-    for name, key in _AXES.items():
+    for quantity, key in _AXES.items():
+        name = say(f"column.quantities.{quantity}")
         ends = [
             echo.value
             for end in ("low", "high")
             for echo in study.range_inputs
-            if echo.label == f"{name}, {end}"
+            if echo.label == say(f"column.{end}_end", name=name)
         ]
         if len(ends) == 2 and all(isinstance(end, float) for end in ends):
             spans[key] = (float(ends[0]), float(ends[1]))

@@ -111,7 +111,7 @@ def test_card_says_what_would_flip_the_governing_check(page):
 
 def test_assumptions_say_status_and_origin(page):
     lines = PageReader(page).tables["assumptions"][0]
-    assert ["Slack", "2 %", "default", f"Couloir 1, =1+1, Ridge {SCRIPT}"] in lines
+    assert ["slack", "2 %", "default", f"Couloir 1, =1+1, Ridge {SCRIPT}"] in lines
     statuses = {line[2] for line in lines[1:]}
     assert statuses == {"model", "setting", "default", "assumed"}
 

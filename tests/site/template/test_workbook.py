@@ -41,7 +41,7 @@ def test_every_cell_of_the_example_is_echoed_as_typed(example):
     labels = {field.key: field.label for field in NETS.fields}
     site = read_site(example)
     for row, line in zip(site.rows, load_example()["Nets"], strict=True):
-        shown = {echo.label: echo.value for echo in row.inputs}
+        shown = {str(echo.label): echo.value for echo in row.inputs}
         for key, value in line.items():
             assert shown[labels[key]] == value
 

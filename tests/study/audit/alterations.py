@@ -6,6 +6,8 @@ What follows from an altered number is altered with it as far as its kind says.
 
 import math
 
+from netdesign.words.message import restore
+
 MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 KINDS = {}
 
@@ -351,7 +353,7 @@ def forces_beside_the_largest_lowered(study):
 @alteration
 def a_range_narrowed(study):
     for echo in study["range_inputs"]:
-        if echo["label"] == "density, low":
+        if str(restore(echo["label"])) == "density, low":
             echo["value"], echo["text"] = 255.0, "255"
     for row in study["rows"]:
         row["envelope"]["axes"][0]["low"] = 255.0
@@ -361,7 +363,7 @@ def a_range_narrowed(study):
 def an_input_altered(study):
     row = study["rows"][0]
     for echo in row["inputs"]:
-        if echo["label"] == "slope angle":
+        if str(restore(echo["label"])) == "slope angle":
             echo["value"], echo["text"] = 33.5, "33.5"
     row["drawing"]["slope_deg"] = 33.5
 
