@@ -23,13 +23,13 @@ class Datum:
         In the unit that its function names.
     status : str
         "secondary" or "assumed", as in the limit profiles.
-    source : str
+    source : Message
         Publication.
     """
 
     value: float
     status: str
-    source: str
+    source: Message
 
 
 @lru_cache(maxsize=1)
@@ -45,7 +45,9 @@ def find_bond_stress(ground: str, grouting: str) -> Datum:
     ranges = pick(say("catalogue.ground"), ground, bond["ground"])
     types = {name: value for name, value in ranges.items() if name != "text"}
     least, _ = pick(say("catalogue.grouting_in", ground=ground), grouting, types)
-    return Datum(value=float(least), status=bond["status"], source=bond["source"])
+    return Datum(
+        value=float(least), status=bond["status"], source=say("resistance_source.bond")
+    )
 
 
 def find_rope_factor(construction: str, factor: str) -> Datum:
@@ -55,14 +57,18 @@ def find_rope_factor(construction: str, factor: str) -> Datum:
         say("catalogue.rope_construction"), construction, rope["construction"]
     )
     value = pick(say("catalogue.rope_factor"), factor, factors)
-    return Datum(value=value, status=rope["status"], source=rope["source"])
+    return Datum(
+        value=value, status=rope["status"], source=say("resistance_source.rope")
+    )
 
 
 def find_termination(kind: str) -> Datum:
     """Loss factor k_e of a rope's end [-]."""
     table = load_catalogue()["termination"]
     value = pick(say("catalogue.termination"), kind, list_terminations())
-    return Datum(value=value, status=table["status"], source=table["source"])
+    return Datum(
+        value=value, status=table["status"], source=say("resistance_source.termination")
+    )
 
 
 def list_terminations() -> dict[str, float]:
@@ -75,7 +81,9 @@ def find_imperfection(curve: str) -> Datum:
     """Imperfection factor of a buckling curve [-]."""
     table = load_catalogue()["buckling"]
     value = pick(say("catalogue.buckling_curve"), curve, table["curve"])
-    return Datum(value=value, status=table["status"], source=table["source"])
+    return Datum(
+        value=value, status=table["status"], source=say("resistance_source.buckling")
+    )
 
 
 def pick(what: Message, name: str, known: dict[str, Any]) -> Any:

@@ -45,7 +45,7 @@ class Resistance:
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
     type_id: str  # id of the anchor, rope or post type; "" where none is named
     source: str
-    derivation: str = ""  # how it follows from dimensions, in words
+    derivation: Message | None = None  # how it follows from dimensions
     tests: PullOutTests | None = None  # instead of a value
 
 

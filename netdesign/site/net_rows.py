@@ -24,7 +24,7 @@ from netdesign.site.snow_layers import (
     settle_thickness,
 )
 from netdesign.site.tables import Table, read_rows
-from netdesign.site.type_resistances import DERIVED, find_tests
+from netdesign.site.type_resistances import find_tests
 from netdesign.snow.ground import (
     GROUND_KINDS,
     GroundLaw,
@@ -320,7 +320,7 @@ def _find_resistance(
     resistance = kind[mode]
     tests = find_tests(kind) if mode == "pull_out" else None
     is_given = resistance.state == "given"
-    is_derived = is_given and resistance.text.startswith(DERIVED)
+    is_derived = is_given and resistance.derivation is not None
     # A pull-out resistance says how it is known; the others are makers' values.
     basis = kind["basis"].word if mode == "pull_out" else "declared"
     if is_derived and mode == "pull_out":
@@ -333,7 +333,7 @@ def _find_resistance(
         basis="tested" if tests else basis if is_given else "",
         type_id=reading.word,
         source=place or reading.field.refers_to,
-        derivation=resistance.text.removeprefix(DERIVED) if is_derived else "",
+        derivation=resistance.derivation if is_given else None,
         tests=tests,
     )
 

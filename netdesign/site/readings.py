@@ -38,6 +38,8 @@ class Reading:
         As typed, with the unit where that of the column is another.
     cell : Cell or None
         None where the sheet has no such column.
+    derivation : Message or None
+        How the value follows from other inputs; None where it was typed.
     """
 
     field: Field
@@ -45,6 +47,7 @@ class Reading:
     value: float | str | None = None
     text: str = ""
     cell: Cell | None = None
+    derivation: Message | None = None
 
     @property
     def place(self) -> str:

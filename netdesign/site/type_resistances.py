@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.errors import ModelError
 from netdesign.resistance.catalogue import (
+    Datum,
     find_bond_stress,
     find_imperfection,
     find_rope_factor,
@@ -22,10 +23,10 @@ from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resi
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
 from netdesign.units import kilonewton_from_newton
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 _DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
-DERIVED = "from dimensions: "  # before the text of a resistance that was computed
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 
 
@@ -36,7 +37,7 @@ class _Rule:
     key: str
     needed: tuple[str, ...]
     optional: tuple[str, ...]
-    compute: Callable[[Row], tuple[float, str]]  # [N], and in words
+    compute: Callable[[Row], tuple[float, Message]]  # [N], and how
 
 
 def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
@@ -52,8 +53,8 @@ def fill_in_resistances(row: Row, findings: list[Finding]) -> Row:
     Returns
     -------
     Row
-        A computed resistance stands in the place of the empty cell; its text says
-        how it came about, its cell is that of the first dimension.
+        A computed resistance stands in the place of the empty cell; its
+        derivation says how it came about, its cell is that of the first dimension.
     """
     for rule in _RULES:
         if rule.key in row:
@@ -96,7 +97,7 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
         refuse(first, beside, say("accepted.one_of_two"), findings)
         return row
     try:
-        value, text = rule.compute(row)
+        value, derivation = rule.compute(row)
     except ModelError as error:
         refuse(first, say("type.no_resistance"), error.message, findings)
         return row
@@ -104,7 +105,7 @@ def _apply(rule: _Rule, row: Row, findings: list[Finding]) -> Row:
         row[rule.key],
         state="given",
         value=kilonewton_from_newton(value),
-        text=f"{DERIVED}{text}",
+        derivation=derivation,
         cell=first.cell,
     )
     return {**row, rule.key: computed}
@@ -129,14 +130,21 @@ def _word(row: Row, key: str, default: str) -> str:
     return row[key].word or default
 
 
-def _bar(row: Row) -> tuple[float, str]:
+def _tell_origin(datum: Datum) -> Message:
+    """Status and source of a number of the catalogue."""
+    status = name("status", datum.status)
+    return say("derivation.origin", status=status, source=datum.source)
+
+
+def _bar(row: Row) -> tuple[float, Message]:
     diameter, strength = row["bar_diameter"], row["bar_strength"]
     value = compute_bar_resistance(diameter.si, strength.si)
-    text = f"π/4 · ({diameter.number:g} mm)² · {strength.number:g} MPa"
-    return value, text
+    return value, say(
+        "derivation.bar", diameter=diameter.number, strength=strength.number
+    )
 
 
-def _bond(row: Row) -> tuple[float, str]:
+def _bond(row: Row) -> tuple[float, Message]:
     ground, grouting = row["ground"].word, _word(row, "grouting", _DEFAULT_GROUTING)
     bond = find_bond_stress(ground, grouting)
     diameter, length = row["drill_diameter"], row["bond_length"]
@@ -145,14 +153,18 @@ def _bond(row: Row) -> tuple[float, str]:
         bond_length=length.si,
         bond_stress=1e3 * bond.value,
     )
-    text = (
-        f"π · {diameter.number:g} mm · {length.number:g} m · {bond.value:g} kPa "
-        f"({ground}, grouting {grouting}; {bond.status}: {bond.source})"
+    return value, say(
+        "derivation.bond",
+        diameter=diameter.number,
+        length=length.number,
+        stress=bond.value,
+        ground=row["ground"].field.name_word(ground),
+        grouting=grouting,
+        origin=_tell_origin(bond),
     )
-    return value, text
 
 
-def _rope(row: Row) -> tuple[float, str]:
+def _rope(row: Row) -> tuple[float, Message]:
     construction = row["construction"].word
     kind = _word(row, "termination", _DEFAULT_TERMINATION)
     factor, loss = find_rope_factor(construction, "K"), find_termination(kind)
@@ -163,15 +175,20 @@ def _rope(row: Row) -> tuple[float, str]:
         breaking_factor=factor.value,
         termination=loss.value,
     )
-    text = (
-        f"{factor.value:g} · ({diameter.number:g} mm)² · {grade.number:g} MPa · "
-        f"{loss.value:g} ({construction}; {factor.status}: {factor.source} {kind}; "
-        f"{loss.status}: {loss.source})"
+    return value, say(
+        "derivation.rope",
+        factor=factor.value,
+        diameter=diameter.number,
+        grade=grade.number,
+        loss=loss.value,
+        construction=construction,
+        origin=_tell_origin(factor),
+        termination=row["termination"].field.name_word(kind),
+        loss_origin=_tell_origin(loss),
     )
-    return value, text
 
 
-def _buckling(row: Row) -> tuple[float, str]:
+def _buckling(row: Row) -> tuple[float, Message]:
     curve = _word(row, "buckling_curve", _DEFAULT_CURVE)
     imperfection = find_imperfection(curve)
     found = compute_buckling_resistance(
@@ -182,22 +199,30 @@ def _buckling(row: Row) -> tuple[float, str]:
         modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
         imperfection=imperfection.value,
     )
-    text = (
-        f"{found.reduction:.4g} · {row['area'].number:g} cm² · "
-        f"{row['yield_strength'].number:g} MPa (slenderness {found.slenderness:.3g}, "
-        f"curve {curve}; {imperfection.status}: {imperfection.source})"
+    return found.value, say(
+        "derivation.buckling",
+        reduction=found.reduction,
+        area=row["area"].number,
+        strength=row["yield_strength"].number,
+        slenderness=found.slenderness,
+        curve=curve,
+        origin=_tell_origin(imperfection),
     )
-    return found.value, text
 
 
-def _bearing(row: Row) -> tuple[float, str]:
+def _bearing(row: Row) -> tuple[float, Message]:
     length, width, stress = (
         row[key] for key in ("plate_length", "plate_width", "bearing_stress")
     )
     value = compute_bearing_resistance(
         plate_length=length.si, plate_width=width.si, bearing_stress=stress.si
     )
-    return value, f"{length.number:g} m · {width.number:g} m · {stress.number:g} kPa"
+    return value, say(
+        "derivation.bearing",
+        length=length.number,
+        width=width.number,
+        stress=stress.number,
+    )
 
 
 _RULES: tuple[_Rule, ...] = (

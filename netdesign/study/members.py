@@ -41,7 +41,7 @@ from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, Spread
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given, name
+from netdesign.words.names import name
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = say("check.fault_beside")
@@ -194,7 +194,7 @@ def _describe_derivation(
     given: Resistance | None, result: CheckResult
 ) -> Message | None:
     if given is None or given.tests is None or result.resistance is None:
-        return as_given(given.derivation) if given and given.derivation else None
+        return given.derivation if given else None
     tests = given.tests
     return say(
         "check.from_tests",

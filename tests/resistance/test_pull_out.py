@@ -67,7 +67,7 @@ def test_number_of_tests_is_a_count(count):
 def test_catalogue_gives_the_least_of_a_range_with_its_source():
     stress = find_bond_stress("gravel", "A")
     assert (stress.value, stress.status) == (95.0, "secondary")
-    assert "FHWA" in stress.source
+    assert "FHWA" in str(stress.source)
 
 
 @pytest.mark.parametrize(

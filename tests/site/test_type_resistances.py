@@ -5,6 +5,7 @@ import math
 import pytest
 
 from netdesign.site.reader import read_site
+from netdesign.words.catalogue import render
 
 
 def add_columns(sheets, name, **columns):
@@ -38,11 +39,11 @@ def test_bar_and_bond(sheets, save):
     site = read_site(save(sheets))
     tendon = resistance(site, "foot_anchor", "tendon")
     assert tendon.value == pytest.approx(math.pi / 4 * 0.028**2 * 500e6, rel=1e-12)
-    assert tendon.derivation == "π/4 · (28 mm)² · 500 MPa"
+    assert str(tendon.derivation) == "π/4 · (28 mm)² · 500 MPa"
     pull_out = resistance(site, "foot_anchor", "pull_out")
     assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
     assert pull_out.basis == "computed"
-    assert "95 kPa (gravel, grouting A; secondary: FHWA" in pull_out.derivation
+    assert "95 kPa (gravel, grouting A; secondary: FHWA" in str(pull_out.derivation)
     assert pull_out.source == "Anchors!G2"
 
 
@@ -88,7 +89,11 @@ def test_rope_and_post(sheets, save):
     site = read_site(save(sheets))
     rope = resistance(site, "uphill_guy", "rope")
     assert rope.value / 1e3 == pytest.approx(0.8 * 252.0, rel=1e-3)  # clips
+    assert "(6x36-IWRC; secondary: Tech" in str(rope.derivation)
+    assert "; clips; assumed: EN 1993-1-11" in str(rope.derivation)
     post = resistance(site, "post", "compression")
+    assert "courbe c" in render(post.derivation, "fr")
+    assert "Knicklinie c" in render(post.derivation, "de")
     assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
     modes = {r.mode for r in site.rows[0].resistances}
     assert "bearing" not in modes
@@ -116,7 +121,10 @@ def test_dimensions_in_other_languages_and_units(sheets, save, columns):
     add_columns(sheets, "Anchors", **columns)
     pull_out = resistance(read_site(save(sheets)), "foot_anchor", "pull_out")
     assert pull_out.value / 1e3 == pytest.approx(80.6, abs=0.05)
-    assert pull_out.derivation.startswith("π · 90 mm · 3 m · 95 kPa (gravel")
+    assert str(pull_out.derivation).startswith("π · 90 mm · 3 m · 95 kPa (gravel")
+    told = [render(pull_out.derivation, language) for language in ("fr", "de")]
+    assert "95 kPa (gravier, injection A\xa0; source secondaire\xa0: FHWA" in told[0]
+    assert "95 kPa (Kies, Verpressung A; Sekundärquelle: FHWA" in told[1]
 
 
 @pytest.mark.parametrize(
