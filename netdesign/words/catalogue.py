@@ -52,9 +52,10 @@ class _Gaps(string.Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         """An argument as text: words of ours in the language of the whole."""
+        if format_spec == _CLAUSE:
+            return self.format_field(value, "").rstrip(".")
         if isinstance(value, Message):
-            text = render(value, self.language)
-            return text.rstrip(".") if format_spec == _CLAUSE else text
+            return render(value, self.language)
         if isinstance(value, tuple):
             parts = (self.format_field(one, "") for one in value)
             return (format_spec or ", ").join(parts)
