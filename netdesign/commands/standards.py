@@ -14,6 +14,7 @@ from netdesign.commands.usage import ToldGroup
 from netdesign.errors import OutputError
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
+from netdesign.words.names import name as name_of
 
 if TYPE_CHECKING:
     from netdesign.checks import Standard
@@ -43,22 +44,29 @@ def list_profiles() -> None:
 
 @standards.command("show")
 @click.argument("name", metavar="ID")
-@language_option("Of what the program says; a profile keeps its own words.")
+@language_option("Of a profile that comes with the program, and of what it says.")
 def show_profile(name: str, *, language: Language) -> None:
     """Show every value of a profile with its status and source."""
     from netdesign.checks import load_standard
+    from netdesign.report.words import Words, show_own
 
-    profile = load_standard(name)
-    click.echo(f"{profile.id}: {profile.title}, {profile.edition}")
+    profile, words = load_standard(name), Words(language)
+    title = show_own(words, f"{profile.title}, {profile.edition}")
+    click.echo(f"{profile.id}: {title}")
     told = say("standard.version", version=profile.version, sha256=profile.sha256)
     tell(told, language)
     if profile.choice:
         tell(say("standard.choice", choice=profile.choice), language)
-    click.echo(f"\n{profile.what_it_is}\n{profile.what_it_is_not}\n")
+    click.echo(f"\n{show_own(words, profile.what_it_is)}")
+    click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:
-        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{entry.status}]")
-        clause = say("standard.clause", clause=entry.clause, source=entry.source)
-        click.echo(f"    {entry.text}\n    {render(clause, language)}")
+        status = render(name_of("status", entry.status), language)
+        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{status}]")
+        source = show_own(words, entry.source)
+        clause = render(
+            say("standard.clause", clause=entry.clause, source=source), language
+        )
+        click.echo(f"    {show_own(words, entry.text)}\n    {clause}")
 
 
 @standards.command("validate")

@@ -204,7 +204,7 @@ def show_own(words: Words, text: str) -> str:
 
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
-    own = ("profile_title.", "profile_text.", "profile_source.")
+    own = ("profile_title.", "profile_about.", "profile_text.", "profile_source.")
     return {text: key for key, text in load_texts("en").items() if key.startswith(own)}
 
 

@@ -1,10 +1,13 @@
 """Commands in French and German: the language is found, and no English is told."""
 
+import html
+import json
 import re
 
 import openpyxl
 import pytest
 
+from netdesign.checks import list_standards
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS, SHEETS
 from tests.short_example import write_short_example
 from tests.words.english import find_words
@@ -87,6 +90,16 @@ def test_an_annotated_copy_speaks_the_language(spoil, language, tmp_path):
     assert {"fr": "n'est pas un nombre", "de": "ist keine Zahl"}[language] in told
     cells = next(sheet for sheet in copy.worksheets if sheet.title in told)["B2"]
     assert find_english(cells.comment.text) == set()
+
+
+@pytest.mark.parametrize("profile", list_standards())
+def test_a_limit_profile_is_shown_in_the_language(call, language, profile):
+    ended = call("standards", "show", profile, "--language", language)
+    assert ended.code == 0
+    titles = r"„[^“]*“|«[^»]*»|\w+([._]\w+)+"  # of documents and of values
+    assert find_english(re.sub(titles, " ", ended.out)) == set()
+    english = call("standards", "show", profile, "--language", "en")
+    assert len(english.out.splitlines()) == len(ended.out.splitlines())
 
 
 def test_a_dry_run_speaks_the_language(call, language):
@@ -208,6 +221,19 @@ def test_a_solution_is_told_in_the_language(call, scene, language, method):
     assert ended.code in (0, 4)
     assert find_english(ended.out + ended.err) == set()
     assert {"fr": "du poids", "de": "des Gewichts"}[language] in ended.out
+
+
+def test_the_page_of_a_solution_tells_each_flag_once(call, scene, language):
+    scene.write_text(SCENE.replace("horizon_days = 3", "horizon_days = 0.02"))
+    options = ("--method", "transient", "--out", "out", "--language", language)
+    assert call("solve", scene, *options).code in (0, 4)
+    out = scene.parent / "out"
+    document = json.loads((out / "solution.json").read_text(encoding="utf-8"))
+    flags = [" ".join(flag.split()) for flag in document["flags"]]
+    page = html.unescape((out / "index.html").read_text(encoding="utf-8"))
+    assert flags
+    assert [" ".join(page.split()).count(flag) for flag in flags] == [1] * len(flags)
+    assert find_english(" ".join(flags)) == set()
 
 
 @pytest.mark.parametrize(

@@ -21,8 +21,14 @@ FAMILIES: tuple[str, ...] = (
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
-    *("method.", "method_used.", "setting.", "start.", "end.", "input_end."),
-    *("profile_title.", "profile_text.", "profile_source.", "solved_method."),
+    *("method.", "method_used.", "setting.", "start.", "end."),
+    *(
+        "profile_about.",
+        "profile_title.",
+        "profile_text.",
+        "profile_source.",
+        "solved_method.",
+    ),
     *(
         "solved_caption.",
         "solved.foot",
