@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
 from typing import Literal, cast, get_args
@@ -177,8 +177,13 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         settings=run.settings,
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
-        build=_LayeredScenes(row=row, law=run.creep_law) if row.layers else None,
+        build=_build_layered(row, run.creep_law) if row.layers else None,
     )
+
+
+def _build_layered(row: NetRow, law: CreepLaw) -> _LayeredScenes:
+    """Scenes of a row without what decides no force, and is no part of a name."""
+    return _LayeredScenes(row=replace(row, inputs=(), resistances=()), law=law)
 
 
 def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:

@@ -21,6 +21,7 @@ from netdesign.study.cases import count_cases, list_phases, search_site, solve_s
 from netdesign.study.check_site import judge_site
 from netdesign.study.probe import Probe
 from netdesign.study.records import read_document, write_document
+from netdesign.words.message import say
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording
 
@@ -153,9 +154,12 @@ def test_store_and_workers_leave_no_trace_in_the_study(standard, envelopes, tmp_
 def test_layered_snow_is_part_of_what_a_search_is_known_by(tmp_path):
     """Two rows that differ in one layer only, and a second run of both."""
     thickness = ROWS[0].snow_thickness
+    derived = say("derivation.bar", diameter=28.0, strength=500.0)
+    computed = [replace(one, derivation=derived) for one in ROWS[0].resistances]
     rows = [
         replace(
             ROWS[0],
+            resistances=tuple(computed),
             layers=(
                 Layer(thickness=0.5 * thickness, density=350.0),
                 Layer(thickness=0.5 * thickness, density=density),
