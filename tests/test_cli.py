@@ -737,8 +737,8 @@ def test_solve_shows_both_ends_in_words(tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE)
     result = run("solve", "scene.toml", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
-    assert re.search(r"(?m)^foot +[0-9.]+ kN/m", result.stdout)
-    assert re.search(r"(?m)^head +[0-9.]+ kN/m", result.stdout)
+    assert re.search(r"(?m)^Foot +[0-9.]+ kN/m", result.stdout)
+    assert re.search(r"(?m)^Head +[0-9.]+ kN/m", result.stdout)
 
 
 def test_solve_without_a_solution_ends_with_4(tmp_path):
