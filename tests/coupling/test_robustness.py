@@ -104,6 +104,7 @@ def test_steady_on_plain_meshes(a_scene, friction_deg, rows):
 def history_faults(a_scene, grid, start, level=0):
     wrong = {}
     for key, scene in build_scenes(a_scene, grid):
+        friction, inclination, *_ = key
         settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
         try:
             run = run_history(
