@@ -16,6 +16,7 @@ __version__ = version("netdesign")
 
 # Names for use from Python. ``public.py`` says where each one lives.
 __all__ = [
+    "CheckRun",
     "FailedSolution",
     "GroundLaw",
     "Layer",
@@ -31,6 +32,9 @@ __all__ = [
     "WallSolution",
     "build_ground_from_glide_factor",
     "build_layered_snowpack",
+    "check_site",
+    "load_standard",
+    "read_site",
     "solve_rigid",
     "solve_steady",
     "solve_transient",

@@ -5,6 +5,7 @@
 """
 
 from netdesign.cable.net import Net as Net
+from netdesign.checks import load_standard as load_standard
 from netdesign.coupling.history.transient import TransientSettings as TransientSettings
 from netdesign.coupling.history.transient import solve_transient as solve_transient
 from netdesign.coupling.scene import Scene as Scene
@@ -16,6 +17,7 @@ from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
 from netdesign.coupling.steady.rounds import solve_steady as solve_steady
 from netdesign.errors import NetDesignError as NetDesignError
 from netdesign.errors import SolveError as SolveError
+from netdesign.site.reader import read_site as read_site
 from netdesign.snow.ground import GroundLaw as GroundLaw
 from netdesign.snow.ground import (
     build_ground_from_glide_factor as build_ground_from_glide_factor,
@@ -24,3 +26,5 @@ from netdesign.snow.snowpack import Layer as Layer
 from netdesign.snow.snowpack import Snowpack as Snowpack
 from netdesign.snow.snowpack import build_layered_snowpack as build_layered_snowpack
 from netdesign.snow.wall import Wall as Wall
+from netdesign.study.cases import CheckRun as CheckRun
+from netdesign.study.check_site import check_site as check_site

@@ -50,6 +50,8 @@ def _alter(value, key, draw):
         return value + draw.randint(1, 5)
     if isinstance(value, float):
         return value * draw.uniform(0.3, 0.97) if value else draw.uniform(0.01, 3.0)
+    if key == "sense":
+        return {"at least": "at most", "at most": "has", "has": "at least"}[value]
     if key == "started":
         return value.replace("20", "19", 1)
     for words in WORDS:

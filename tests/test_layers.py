@@ -239,6 +239,12 @@ def test_every_module_has_a_room():
     assert {name_room(module) for module in MODULES} == ROOMS
 
 
+def test_the_page_of_the_architecture_names_every_room():
+    page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    tops = {room.split(".")[0] for room in ROOMS - {ROOT, "cli", "__main__"}}
+    assert {top for top in tops if f"`{top}`" not in page} == set()
+
+
 def test_no_allowance_is_idle():
     """An allowance that nothing uses is a door left open."""
     used = {

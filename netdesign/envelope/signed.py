@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from netdesign.envelope.run import CaseResult
 from netdesign.structure.head import resolve_signed
 from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.structure.members import Member
 
 _NET = "signed foot"
 _SHARED = "signed foot and uphill guy"
@@ -57,16 +58,16 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
 
 def name_sources(member: str, *, is_shared: bool) -> tuple[str, ...]:
     """Signed forces of which a member carries the largest, or 0; () if of none."""
-    sources = {
-        "foot_anchor": (_NET,),
-        "uphill_guy": (_UPHILL,),
-        "uphill_anchor": (_UPHILL,),
-        "downhill_guy": (_DOWNHILL,),
-        "downhill_anchor": (_DOWNHILL,),
-        "post": _POST,
-        "post_base": _BASE,
+    sources: dict[str, tuple[str, ...]] = {
+        Member.FOOT_ANCHOR: (_NET,),
+        Member.UPHILL_GUY: (_UPHILL,),
+        Member.UPHILL_ANCHOR: (_UPHILL,),
+        Member.DOWNHILL_GUY: (_DOWNHILL,),
+        Member.DOWNHILL_ANCHOR: (_DOWNHILL,),
+        Member.POST: _POST,
+        Member.POST_BASE: _BASE,
     }
-    if is_shared and member in ("foot_anchor", "uphill_anchor"):
+    if is_shared and member in (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR):
         return (_NET, _SHARED)
     return sources.get(member, ())
 

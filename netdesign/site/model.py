@@ -13,23 +13,26 @@ from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import Member
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
 # What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[str, str], ...] = (
-    ("foot_anchor", "tendon"),
-    ("foot_anchor", "pull_out"),
-    ("uphill_guy", "rope"),
-    ("uphill_anchor", "tendon"),
-    ("uphill_anchor", "pull_out"),
-    ("downhill_guy", "rope"),
-    ("downhill_anchor", "tendon"),
-    ("downhill_anchor", "pull_out"),
-    ("post", "compression"),
+    (Member.FOOT_ANCHOR, "tendon"),
+    (Member.FOOT_ANCHOR, "pull_out"),
+    (Member.UPHILL_GUY, "rope"),
+    (Member.UPHILL_ANCHOR, "tendon"),
+    (Member.UPHILL_ANCHOR, "pull_out"),
+    (Member.DOWNHILL_GUY, "rope"),
+    (Member.DOWNHILL_ANCHOR, "tendon"),
+    (Member.DOWNHILL_ANCHOR, "pull_out"),
+    (Member.POST, "compression"),
 )
 # Checked only where the workbook gives the resistance, in the sheet of that member.
-OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (("post_base", "bearing", "post"),)
+OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (
+    (Member.POST_BASE, "bearing", "post"),
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

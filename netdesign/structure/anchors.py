@@ -9,6 +9,7 @@ from netdesign.guards import require_positive
 from netdesign.outcome import Outcome
 from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
 from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.members import Member
 from netdesign.words.message import say
 
 
@@ -78,13 +79,13 @@ class AnchorForces:
         if self.is_foot_shared:
             foot = uphill = foot + uphill
         return {
-            "foot_anchor": foot,
-            "uphill_guy": self.head.uphill_guy_tension,
-            "uphill_anchor": uphill,
-            "downhill_guy": self.head.downhill_guy_tension,
-            "downhill_anchor": self.downhill_anchor.size,
-            "post": self.head.post_compression,
-            "post_base": max(-self.post_base.y, 0.0),  # across the plate, (S8)
+            Member.FOOT_ANCHOR: foot,
+            Member.UPHILL_GUY: self.head.uphill_guy_tension,
+            Member.UPHILL_ANCHOR: uphill,
+            Member.DOWNHILL_GUY: self.head.downhill_guy_tension,
+            Member.DOWNHILL_ANCHOR: self.downhill_anchor.size,
+            Member.POST: self.head.post_compression,
+            Member.POST_BASE: max(-self.post_base.y, 0.0),  # across the plate, (S8)
         }
 
 
@@ -135,16 +136,19 @@ def compute_anchor_forces(
     return AnchorForces(
         foot_anchor=GroundForce(member="net", x=foot[0], y=foot[1]),
         uphill_anchor=_force_from_head(
-            "uphill_guy", points.head, points.uphill_anchor, -head.uphill_guy_tension
+            Member.UPHILL_GUY,
+            points.head,
+            points.uphill_anchor,
+            -head.uphill_guy_tension,
         ),
         downhill_anchor=_force_from_head(
-            "downhill_guy",
+            Member.DOWNHILL_GUY,
             points.head,
             points.downhill_anchor,
             -head.downhill_guy_tension,
         ),
         post_base=_force_from_head(
-            "post", points.head, points.post_base, head.post_compression
+            Member.POST, points.head, points.post_base, head.post_compression
         ),
         head=head,
         is_foot_shared=points.uphill_anchor == points.net_foot,

@@ -26,6 +26,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.structure.layout import place_support
+from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun, follow_site, search_site, solve_site
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.members import RowTask, check_row, record_point
@@ -57,8 +58,6 @@ from netdesign.units import (
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
 
-# Members whose force is reported; each guy stands for its anchor too.
-REPORTED_MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
@@ -221,7 +220,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
     cases = [_record_case(result, run.creep_law, row) for result in task.results]
     effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
-    foot = extremes.get("foot_anchor")
+    foot = extremes.get(Member.FOOT_ANCHOR)
     head = record_head(row, governing) if governing else []
     independent = record_independent(governing, head) if governing else []
     held = [Verdict.NOT_PROVEN for one in independent if not one.is_met]
@@ -395,14 +394,14 @@ def _governing_result(
     if rated:
         worst = max(rated, key=lambda check: check.utilisation or 0.0)
         return extremes[worst.member].governing
-    foot = extremes.get("foot_anchor")
+    foot = extremes.get(Member.FOOT_ANCHOR)
     return foot.governing if foot else None
 
 
 def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
     if result is None or result.solution is None or result.anchors is None:
         return None
-    solution = result.solution
+    solution, anchors = result.solution, result.anchors
     points = place_support(row.layout, solution.head_point)
     curve = solution.net_curve.T.round(_DRAWN_DECIMALS).tolist()
     in_snow = len(solution.net_slides)
@@ -417,10 +416,14 @@ def _draw(row: NetRow, result: CaseResult | None) -> Drawing | None:
             force_y_kN=kilonewton_from_newton(force.y),
         )
         for member, place, force in (
-            ("foot_anchor", points.net_foot, result.anchors.foot_anchor),
-            ("uphill_anchor", points.uphill_anchor, result.anchors.uphill_anchor),
-            ("downhill_anchor", points.downhill_anchor, result.anchors.downhill_anchor),
-            ("post", points.post_base, result.anchors.post_base),
+            (Member.FOOT_ANCHOR, points.net_foot, anchors.foot_anchor),
+            (Member.UPHILL_ANCHOR, points.uphill_anchor, anchors.uphill_anchor),
+            (
+                Member.DOWNHILL_ANCHOR,
+                points.downhill_anchor,
+                anchors.downhill_anchor,
+            ),
+            (Member.POST, points.post_base, anchors.post_base),
         )
     ]
     return Drawing(

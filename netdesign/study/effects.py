@@ -12,6 +12,7 @@ from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import read_end_effect
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -23,7 +24,7 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 GUIDELINE = "swiss-guideline-2007"
-_PUSHED = ("post", "post_base")  # carries nothing along the row
+_PUSHED = (Member.POST, Member.POST_BASE)  # carries nothing along the row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

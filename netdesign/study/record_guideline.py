@@ -11,6 +11,7 @@ from netdesign.guideline.comparison import (
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.members import record_point
 from netdesign.study.records import GuidelineCase, GuidelineRecord
@@ -34,7 +35,7 @@ def record_guideline(row: NetRow, result: CaseResult) -> GuidelineRecord | None:
     if solution is None or not result.is_converged:
         return None
     load = solution.foot.x + solution.head.x
-    foot = result.member_forces["foot_anchor"].value
+    foot = result.member_forces[Member.FOOT_ANCHOR].value
     return compare_case(row, result.case, load=load, foot=foot)
 
 
@@ -84,7 +85,7 @@ def compare_case(
 def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCase:
     snow = case.load
     forces = case.anchors.member_forces if case.anchors else {}
-    own_foot = forces.get("foot_anchor")
+    own_foot = forces.get(Member.FOOT_ANCHOR)
     return GuidelineCase(
         name=case.name,
         density_kg_m3=case.density,
@@ -94,8 +95,8 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
         rigid_kN_per_m=_kilonewton(snow.rigid if snow else None),
         load_kN_per_m=_kilonewton(snow.resultant[0] if snow else None),
         foot_anchor_kN=_kilonewton(own_foot),
-        uphill_guy_kN=_kilonewton(forces.get("uphill_guy")),
-        post_kN=_kilonewton(forces.get("post")),
+        uphill_guy_kN=_kilonewton(forces.get(Member.UPHILL_GUY)),
+        post_kN=_kilonewton(forces.get(Member.POST)),
         load_difference_percent=_compare(load, snow.resultant[0] if snow else None),
         foot_difference_percent=_compare(foot, own_foot),
         reason=case.reason,

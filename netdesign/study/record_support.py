@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import AnchorRecord, HeadForce
 from netdesign.units import degree_from_radian, kilonewton_from_newton
@@ -17,12 +18,12 @@ def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord
     share = effects.lateral_share
     records = []
     for name, force in (
-        ("foot_anchor", anchors.foot_anchor),
-        ("uphill_anchor", anchors.uphill_anchor),
-        ("downhill_anchor", anchors.downhill_anchor),
-        ("post_base", anchors.post_base),
+        (Member.FOOT_ANCHOR, anchors.foot_anchor),
+        (Member.UPHILL_ANCHOR, anchors.uphill_anchor),
+        (Member.DOWNHILL_ANCHOR, anchors.downhill_anchor),
+        (Member.POST_BASE, anchors.post_base),
     ):
-        lateral = 0.0 if force.member == "post" else share * force.size
+        lateral = 0.0 if force.member == Member.POST else share * force.size
         direction = force.direction
         records.append(
             AnchorRecord(

@@ -45,24 +45,33 @@ def list_scenes(frictions):
     return list(itertools.product(frictions, INCLINATIONS, SLACKS, STIFFNESSES))
 
 
-def steady_reasons(a_scene, grid, settings=QUICK):
-    """What went wrong, by scene; scenes that are refused beforehand do not count."""
-    wrong = {}
-    for friction, inclination, slack, stiffness in grid:
+def build_scenes(a_scene, grid):
+    """Scenes of a grid by their place in it, but for those that the model refuses."""
+    for key in grid:
+        friction, inclination, slack, stiffness = key
         try:
-            scene = a_scene(
-                friction_deg=friction,
-                inclination_deg=inclination,
-                slack=slack,
-                stiffness_kN_per_m=stiffness,
+            yield (
+                key,
+                a_scene(
+                    friction_deg=friction,
+                    inclination_deg=inclination,
+                    slack=slack,
+                    stiffness_kN_per_m=stiffness,
+                ),
             )
         except ModelError:  # the net would lie on the ground: test_net.py
             continue
+
+
+def steady_reasons(a_scene, grid, settings=QUICK):
+    """What went wrong, by scene; scenes that are refused beforehand do not count."""
+    wrong = {}
+    for key, scene in build_scenes(a_scene, grid):
         result = solve_steady(scene, settings)
         if not isinstance(result, Solution):
-            wrong[friction, inclination, slack, stiffness] = result.reason
+            wrong[key] = result.reason
         elif not result.balance.relative_residual < 1e-8:
-            wrong[friction, inclination, slack, stiffness] = "balance"
+            wrong[key] = "balance"
     return wrong
 
 
@@ -94,18 +103,9 @@ def test_steady_on_plain_meshes(a_scene, friction_deg, rows):
 
 def history_faults(a_scene, grid, start, level=0):
     wrong = {}
-    for friction, inclination, slack, stiffness in grid:
-        try:
-            scene = a_scene(
-                friction_deg=friction,
-                inclination_deg=inclination,
-                slack=slack,
-                stiffness_kN_per_m=stiffness,
-            )
-        except ModelError:
-            continue
+    for key, scene in build_scenes(a_scene, grid):
+        friction, inclination, *_ = key
         settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
-        key = (friction, inclination, slack, stiffness)
         try:
             run = run_history(
                 scene, TRANSIENT_LEVELS[level], settings, 5.0 * DAY / scene.time_scale

@@ -95,9 +95,10 @@ def print_lines(document: Mapping[str, Any], console: Console) -> None:
         f"jumps beyond the stated errors: {document['jumps']}; the largest is "
         f"{_show(document['largest_jump'], '.2f')} of them; bends that are none: "
         f"{document['bends']}",
-        f"{document['compared']} compared with a finer mesh: "
-        f"{_show(document['share_outside'], '.1%')} outside the stated error; the true "
-        f"one is at most {_show(document['largest_true_over_stated'], '.2f')} of it",
+        f"{document['compared']} compared with a finer mesh, the true error is at most "
+        f"{_show(document['largest_true_over_stated'], '.2f')} of the stated one; "
+        f"{document['without_truth']} without a result there; together "
+        f"{_show(document['share_outside'], '.1%')} count as outside",
         *(
             f"JUMP line {line['number']}, {line['parameter']}, point {jump['place']}: "
             f"{jump['end']} by {jump['relative']:.2%}, {jump['over_stated']:.2f} of "

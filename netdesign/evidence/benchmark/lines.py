@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import copy
 import itertools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
@@ -370,9 +371,13 @@ def _record(place: int, solution: Solution, ratio: float | None) -> Point:
 def write_lines(
     lines: Sequence[Line], seed: int, accuracy: float, points: int = POINTS
 ) -> dict[str, Any]:
-    """Plain values in the form ``netdesign.lines/1``."""
+    """Plain values in the form ``netdesign.lines/1``.
+
+    A point without a true error counts as outside the stated one.
+    """
     ratios = [ratio for line in lines for ratio in line.ratios]
-    outside = share(ratio > 1.0 for ratio in ratios)
+    missing = [True for line in lines for _ in line.missing]
+    outside = share([*(ratio > 1.0 for ratio in ratios), *missing])
     jumps = sum(len(line.jumps) for line in lines)
     return {
         "schema": LINES_SCHEMA,
@@ -383,6 +388,7 @@ def write_lines(
         "solved": sum(line.solved for line in lines),
         "refused": sum(line.refused for line in lines),
         "compared": len(ratios),
+        "without_truth": len(missing),
         "jumps": jumps,
         "bends": sum(line.bends for line in lines),
         "largest_jump": max((line.largest_jump for line in lines), default=None),
@@ -392,8 +398,7 @@ def write_lines(
             jumps == 0
             and outside is not None
             and outside <= LARGEST_OUTSIDE
-            and max(ratios) <= LARGEST_EXCESS
-            and not any(line.missing for line in lines)
+            and max(ratios, default=math.inf) <= LARGEST_EXCESS
         ),
         "of_lines": [asdict(line) for line in lines],
     }

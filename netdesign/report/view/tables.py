@@ -33,11 +33,11 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.site.model import InputEcho
+from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.records import CasePoint, CaseRecord, RowStudy, Study
 from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
-MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 DEFAULT = "default"  # cell of an input that nobody typed
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 CASE_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
@@ -65,7 +65,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
             quantity_column(words, "max_kN"),
             text_column(add_unit(words("heading.band"), "kN")),
             *list_case_columns(words),
-            *(quantity_column(words, f"{member}_kN") for member in MEMBERS),
+            *(quantity_column(words, f"{member}_kN") for member in REPORTED_MEMBERS),
         ),
         rows=tuple(
             (
@@ -77,7 +77,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
                     number_cell(f"{member}_kN", extreme.coincident_kN.get(member))
                     if member != extreme.quantity
                     else number_cell("max_kN", extreme.max_kN)
-                    for member in MEMBERS
+                    for member in REPORTED_MEMBERS
                 ),
             )
             for extreme in row.extremes
@@ -95,7 +95,7 @@ def list_loaded(row: RowStudy) -> list[str]:
     """Members that carry a force in at least one case."""
     return [
         member
-        for member in MEMBERS
+        for member in REPORTED_MEMBERS
         if any(getattr(case, f"{member}_kN") for case in row.cases)
     ]
 
@@ -136,7 +136,7 @@ def _explain(case: CaseRecord, words: Words) -> Cell:
 
 def build_cases(row: RowStudy, words: Words) -> Table:
     """Every case of a row with its forces or the reason why there are none."""
-    keys = [f"{member}_kN" for member in MEMBERS]
+    keys = [f"{member}_kN" for member in REPORTED_MEMBERS]
     keys += ["error_percent", "balance_residual"]
     return Table(
         caption=words("caption.cases"),

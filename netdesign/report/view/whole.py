@@ -35,6 +35,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.records import ProfileRecord, RowStudy, Study, compute_digest
 from netdesign.words.catalogue import Language
 
@@ -201,7 +202,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
 
 def _name_unloaded(row: RowStudy, words: Words) -> str:
     loaded = tables.list_loaded(row)
-    missing = [member for member in tables.MEMBERS if member not in loaded]
+    missing = [member for member in REPORTED_MEMBERS if member not in loaded]
     names = ", ".join(show_member(words, member) for member in missing)
     return words("show.unloaded", members=names) if names else ""
 

@@ -58,7 +58,7 @@ def require_an_end(solution):
     """Finite forces, or a refusal in words; an exception would have passed through."""
     if isinstance(solution, FailedSolution):
         assert len(str(solution.reason).split()) > 2
-        assert not any(word in solution.reason for word in _EXCEPTION)
+        assert not any(word in str(solution.reason) for word in _EXCEPTION)
         return
     pulls = (solution.foot, solution.head)
     assert all(math.isfinite(part) for p in pulls for part in (p.x, p.y, p.error))

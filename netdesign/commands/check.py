@@ -1,0 +1,227 @@
+"""``netdesign check``: a site against limit profiles, with its reports."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from netdesign.commands.config import ConfiguredCommand
+from netdesign.commands.dry_run import announce
+from netdesign.commands.faults import tell_faults
+from netdesign.commands.options import (
+    accuracy_option,
+    force_option,
+    json_option,
+    out_option,
+    quiet_option,
+)
+from netdesign.commands.report import DEFAULT_FOLDER
+from netdesign.commands.report_options import list_wanted, report_options
+from netdesign.commands.running import EXIT_CODES, own_command, report_places, tell_time
+from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.solving import open_run, solving_options
+from netdesign.commands.usage import UsageRefusal
+from netdesign.edge.streams import print_json
+from netdesign.errors import StandardError
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.checks import Standard
+    from netdesign.site.model import Site
+    from netdesign.study.records import Study
+    from netdesign.words.catalogue import Language
+
+DEFAULT_STANDARD = "nf-p-95-304-style"
+
+
+@click.command(cls=ConfiguredCommand)
+@click.argument("site_file", required=False, type=click.Path(path_type=Path))
+@click.option("--example", is_flag=True, help="Use the built-in example site.")
+@site_options
+@click.option(
+    "--standard",
+    "standards",
+    multiple=True,
+    metavar="ID",
+    help=f"Limit profile, or a folder with one; repeatable [{DEFAULT_STANDARD}].",
+)
+@accuracy_option("Relative error allowed in every end force of the net.", default=0.01)
+@click.option(
+    "--method",
+    type=click.Choice(["steady", "transient"]),
+    default="steady",
+    show_default=True,
+    help="Steady states; transient confirms governing cases by their histories.",
+)
+@solving_options
+@out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
+@report_options
+@click.option("--explain", is_flag=True, help="Print what would flip each check.")
+@json_option("study")
+@click.option("--dry-run", is_flag=True, help="Read and count only; write nothing.")
+@force_option
+@quiet_option
+def check(
+    site_file: Path | None,
+    *,
+    example: bool,
+    standards: tuple[str, ...],
+    accuracy: float,
+    method: Literal["steady", "transient"],
+    jobs: int | None,
+    executor: str,
+    cache: bool,
+    out: Path | None,
+    language: Language,
+    detail: Literal["summary", "full"],
+    html: bool,
+    excel: bool,
+    csv: bool,
+    pdf: bool,
+    explain: bool,
+    as_json: bool,
+    dry_run: bool,
+    force: bool,
+    quiet: bool,
+    **reading: Any,
+) -> None:
+    """Check every anchor of a site and write the reports.
+
+    \b
+    netdesign check --example
+    netdesign check site.xlsx --out reports --jobs 2
+    netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
+    netdesign check site.csv --delimiter ";" --decimal-mark comma
+    netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
+    netdesign check site.xlsx --json > study.json
+
+    The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
+    may stand in netdesign.toml beside it, or in variables such as
+    NETDESIGN_CHECK_JOBS.
+    """
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.report.files import (
+        STUDY_FILE,
+        ReportStyle,
+        name_files,
+        render_files,
+    )
+    from netdesign.study.cases import CheckRun
+    from netdesign.study.check_site import check_site
+
+    if example == (site_file is not None):
+        raise UsageRefusal(say("usage.site_or_example"))
+    site = _read_site(site_file, overwrite=force, language=language, **reading)
+    profiles = _choose_profiles(standards, site)
+    run = CheckRun(
+        settings=SolverSettings(accuracy=accuracy),
+        method=method,
+        jobs=jobs or os.cpu_count() or 1,
+        command=own_command(),
+        started=tell_time(),
+    )
+    if dry_run:
+        sys.exit(
+            announce(
+                site,
+                run,
+                as_json=as_json,
+                profiles=len(profiles),
+                language=language,
+            )
+        )
+    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
+    kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
+    names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
+    require_free([path for group in names for path in group], overwrite=force)
+    style = ReportStyle(language=language, detail=detail)
+    with open_run(
+        site,
+        run,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        profiles=len(profiles),
+        language=language,
+    ) as (runner, progress):
+        studies = check_site(site, profiles, run, runner, progress)
+        progress.enter("reports")
+        files = render_files(studies, names, style)
+    failed = tell_faults(runner.faults, language)
+    write_files(files, overwrite=force)
+    _show(studies, language, as_json=as_json, explain=explain)
+    report_places(names, language, quiet=quiet or as_json)
+    sys.exit(failed or _exit_code(studies))
+
+
+def _read_site(site_file: Path | None, **reading: Any) -> Site:
+    """Site from a file; the example goes through a real workbook too."""
+    if site_file is not None:
+        return open_site(site_file, **reading)
+    with temporary_example() as path:
+        return open_site(path, **reading)
+
+
+def _choose_profiles(names: Sequence[str], site: Site) -> list[Standard]:
+    """Profiles of the command line, else that of the site, else the default."""
+    named = site.project.standard
+    if names or not named:
+        return _load_profiles(names or (DEFAULT_STANDARD,))
+    try:
+        return _load_profiles((named,))
+    except StandardError as error:
+        place = site.project_cells["standard"].replace("!", " › ")
+        raise StandardError(
+            say(
+                "standard.in_site",
+                file=site.file_name,
+                place=place,
+                fault=error.message,
+            )
+        ) from None
+
+
+def _load_profiles(names: Sequence[str]) -> list[Standard]:
+    from netdesign.checks import load_standard
+
+    profiles = [load_standard(name) for name in names]
+    if len({profile.id for profile in profiles}) < len(profiles):
+        raise UsageRefusal(say("usage.same_profiles"))
+    return profiles
+
+
+def _show(
+    studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
+) -> None:
+    from netdesign.study.records import write_document
+
+    if not as_json:
+        from netdesign.report.terminal import (
+            open_console,
+            print_changes,
+            print_summary,
+        )
+
+        console = open_console()
+        for study in studies:
+            print_summary(study, console, language)
+            if explain:
+                print_changes(study, console, language)
+    elif len(studies) == 1:
+        print_json(write_document(studies[0]))
+    else:
+        documents = ",\n".join(write_document(study) for study in studies)
+        print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
+
+
+def _exit_code(studies: Sequence[Study]) -> int:
+    from netdesign.outcome import merge_verdicts
+
+    return EXIT_CODES[merge_verdicts(study.verdict for study in studies)]

@@ -1,0 +1,188 @@
+"""``netdesign solve``: one scene, printed or as a folder."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from netdesign.commands.faults import tell_faults
+from netdesign.commands.language import tell
+from netdesign.commands.options import (
+    force_option,
+    json_option,
+    language_option,
+    out_option,
+)
+from netdesign.commands.running import EXIT_CODES, report_places
+from netdesign.fault import SENTENCE, Fault, catch_fault
+from netdesign.outcome import Outcome, Verdict
+from netdesign.words.catalogue import render
+from netdesign.words.message import Message, say
+from netdesign.words.names import name_member
+
+if TYPE_CHECKING:
+    from netdesign.coupling.scene import Scene
+    from netdesign.coupling.steady.bound import PullBound
+    from netdesign.report.page.solution_page import Solved
+    from netdesign.solving.solve import Settings
+    from netdesign.words.catalogue import Language
+
+
+@click.command()
+@click.argument("scene_file", type=click.Path(path_type=Path))
+@click.option(
+    "--method",
+    type=click.Choice(["steady", "transient", "staggered"]),
+    help="Steady state, history, or the source paper's exchange [the scene's].",
+)
+@json_option("solution")
+@out_option("Folder for a page with drawings, the solution, a history's table.")
+@language_option("Of what is printed, and of reasons and remarks.")
+@force_option
+def solve(
+    scene_file: Path,
+    *,
+    method: Literal["steady", "transient", "staggered"] | None,
+    as_json: bool,
+    out: Path | None,
+    language: Language,
+    force: bool,
+) -> None:
+    """Solve one scene, given as a TOML file.
+
+    \b
+    netdesign solve scene.toml
+    netdesign solve scene.toml --json
+    netdesign solve scene.toml --method transient --out history
+    """
+    import time
+
+    from netdesign.commands.solve_folder import (
+        require_free_folder,
+        write_solution_folder,
+    )
+    from netdesign.files.scene import read_scene
+    from netdesign.files.solution import write_solution_document
+
+    scene, settings = read_scene(scene_file, method)
+    if out is not None:
+        require_free_folder(out, scene, settings, overwrite=force)
+    start = time.perf_counter()
+    solution, failed = _solve(scene, settings, language)
+    elapsed = time.perf_counter() - start
+    bound = None if failed else _bound_refused(scene, settings, solution)
+    document = write_solution_document(solution, settings, elapsed, bound, language)
+    if out is not None:
+        written = write_solution_folder(
+            out,
+            solution,
+            document,
+            scene_file.name,
+            overwrite=force,
+            language=language,
+        )
+        report_places([written], language, quiet=as_json)
+    if as_json:
+        click.echo(json.dumps(document, indent=1, allow_nan=False))
+    elif document["outcome"] == "converged":
+        _show_solution(document, language)
+    else:
+        _show_refusal(solution, document, language)
+    proven = document["outcome"] == "converged"
+    proven = proven and document.get("plateau", {"reached": True})["reached"]
+    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved, int]:
+    """Solution of a scene, and the exit code of a fault; it is told on stderr."""
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.solving.describe import describe_case
+    from netdesign.solving.solve import solve_scene
+
+    case = describe_case(scene, settings)
+    solution = catch_fault(lambda: solve_scene(scene, settings), case)
+    if not isinstance(solution, Fault):
+        return solution, 0
+    failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
+    return failed, tell_faults({solution: ()}, language)
+
+
+def _bound_refused(
+    scene: Scene, settings: Settings, solution: object
+) -> PullBound | None:
+    """What a net without a steady state stays below; None if it has one."""
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.coupling.solution import FailedSolution
+    from netdesign.coupling.steady.bound import bound_by_less_slack
+
+    if isinstance(settings, SolverSettings) and isinstance(solution, FailedSolution):
+        return bound_by_less_slack(scene, settings)
+    return None
+
+
+def _show_refusal(
+    solution: Solved, document: dict[str, Any], language: Language
+) -> None:
+    told = say("solve.ended", ended=solution.outcome.word, reason=document["reason"])
+    tell(told, language)
+    if bound := document.get("upper_bound"):
+        limit = say(
+            "solve.bound",
+            slack=bound["slack"],
+            foot=bound["foot_kN_per_m"],
+            head=bound["head_kN_per_m"],
+        )
+        tell(limit, language)
+
+
+def _show_solution(document: dict[str, Any], language: Language) -> None:
+    for end, pull in (document["anchor_forces"] or {}).items():
+        tell(_describe_end(end, pull, language), language)
+    if document["wall"]:
+        tell(_describe_wall(document["wall"]), language)
+    else:
+        tell(say("solve.sag", sag=document["sag_m"]), language)
+    if document["history"]:
+        tell(_describe_plateau(document), language)
+    residual = document["balance"]["relative_residual"]
+    tell(say("solve.balance", residual=residual), language)
+    for flag in document["flags"]:
+        tell(say("cli.note", text=flag), language)
+
+
+def _describe_end(end: str, pull: dict[str, float], language: Language) -> Message:
+    return say(
+        "solve.end",
+        end=render(name_member(end), language),  # padded as a text
+        size=pull["size_kN_per_m"],
+        x=pull["x_kN_per_m"],
+        y=pull["y_kN_per_m"],
+        error=pull["error_kN_per_m"],
+    )
+
+
+def _describe_wall(wall: dict[str, float]) -> Message:
+    return say(
+        "solve.wall",
+        x=wall["force_x_kN_per_m"],
+        y=wall["force_y_kN_per_m"],
+        error=wall["error_kN_per_m"],
+        moment=wall["moment_about_foot_kN"],
+    )
+
+
+def _describe_plateau(document: dict[str, Any]) -> Message:
+    plateau = document["plateau"]
+    if not plateau["reached"]:
+        return say("solve.no_plateau", days=document["history"][-1]["time_d"])
+    return say(
+        "solve.plateau",
+        days=plateau["time_d"],
+        foot=plateau["foot_kN_per_m"],
+        head=plateau["head_kN_per_m"],
+        drift=plateau["drift_per_efold"],
+    )
