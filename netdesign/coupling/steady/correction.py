@@ -129,8 +129,9 @@ def carry_tangent(tangent: Floats, known: Floats, wanted: Floats) -> Floats:
     ndarray, shape (2, m, 2, m)
         Of curves that are straight between nodes.
     """
-    to_known, to_wanted = (_interpolate(wanted, known), _interpolate(known, wanted))
-    return np.einsum("fi,aibj,jg->afbg", to_wanted, tangent, to_known, optimize=True)
+    to_known, to_wanted = _interpolate(wanted, known), _interpolate(known, wanted)
+    rows = np.einsum("fi,aibj->afbj", to_wanted, tangent)
+    return np.asarray(rows @ to_known)
 
 
 def _interpolate(known: Floats, wanted: Floats) -> Floats:
@@ -158,5 +159,6 @@ def _find_step(tangent: Floats | None, miss: Floats) -> Floats:
     if tangent is not None:
         with suppress(np.linalg.LinAlgError):
             matrix = np.eye(miss.size) - tangent.reshape(miss.size, miss.size)
-            return np.linalg.solve(matrix, miss.ravel()).reshape(miss.shape)
+            step = np.linalg.solve(matrix, miss.ravel())
+            return np.asarray(step.reshape(miss.shape))
     return _PLAIN_STEP * miss

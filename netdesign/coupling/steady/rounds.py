@@ -426,7 +426,9 @@ def _has_settled(
         return True
     if len(played) > 1:
         return _change_pulls(*played[-2:]) <= allowed
-    return guess is not None and guess.pull_gain * played[-1].moved <= allowed / _SETTLED
+    # what a coarser mesh tells is trusted less than what was seen
+    expected = math.inf if guess is None else guess.pull_gain * played[-1].moved
+    return expected <= allowed / _SETTLED
 
 
 def _change_pulls(before: Round, now: Round) -> float:
