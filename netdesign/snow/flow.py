@@ -375,8 +375,21 @@ def _solve_linear_creep(
         ),
         contact=start_contact(mesh),
     )
-    linear = replace(problem, exponent=1.0)
+    linear = _make_linear(problem)
+    material = sample_material(linear, mesh.template)
     return advance(linear, material, mesh, at_rest, at_rest.contact)
+
+
+def _make_linear(problem: FlowProblem) -> FlowProblem:
+    """The problem with linear creep, whose layers share the stress about as given.
+
+    Layers that deform together carry stresses as their fluidities to the power -1/n.
+    """
+    layers = tuple(
+        replace(layer, fluidity_ratio=layer.fluidity_ratio ** (1.0 / problem.exponent))
+        for layer in problem.layers
+    )
+    return replace(problem, exponent=1.0, layers=layers)
 
 
 def _advance(

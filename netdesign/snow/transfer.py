@@ -12,6 +12,9 @@ from netdesign.snow.flow import FlowState
 from netdesign.snow.kernel import PlacedMesh, interpolate_reference
 from netdesign.snow.mesh import MeshTemplate
 
+# Added between layers, more than any distance in one [thickness].
+_FAR_APART = 1e4
+
 
 def transfer_state(state: FlowState, old: PlacedMesh, new: PlacedMesh) -> FlowState:
     """State on ``old`` carried to ``new``: a guess, in equilibrium with nothing.
@@ -62,8 +65,15 @@ def _nearest_points(source: MeshTemplate, target: MeshTemplate) -> Ints:
 
 
 def _list_points(template: MeshTemplate) -> Floats:
-    """Reference coordinates (n, 2) of all quadrature points."""
-    return interpolate_reference(template).reshape(2, -1).T
+    """Reference coordinates (n, 2) of all quadrature points, layers far apart.
+
+    Stress jumps from layer to layer: none is nearest to a point of another.
+    """
+    points = interpolate_reference(template).reshape(2, -1).T
+    if not template.interfaces:
+        return points
+    layer = np.searchsorted(template.interfaces, points[:, 1])
+    return points + np.outer(layer, [0.0, _FAR_APART])
 
 
 def _nearest(known: Floats, wanted: Floats) -> Ints:

@@ -9,6 +9,7 @@ import pytest
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
+from netdesign.coupling.steady import correction
 from netdesign.coupling.steady import rounds as steady
 from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import SolveError
@@ -246,3 +247,74 @@ def test_what_a_finer_mesh_finds_outside_of_the_model_is_refused(
     refused = solve_steady(scene, SolverSettings(accuracy=1e-4))
     assert isinstance(refused, FailedSolution)
     assert refused.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def stiff_scene():
+    """A hard middle layer on ground that slips: rounds alone gain little."""
+    layers = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
+    pack = build_layered_snowpack(
+        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
+        slope_angle=math.radians(42.0),
+        upslope_length=20.0,
+    )
+    net = Net(
+        height_normal=3.2,
+        inclination=math.radians(27.5),
+        stiffness_per_m=9e6,
+        slack=0.03,
+        friction_angle=math.radians(15.0),
+    )
+    return Scene(
+        snowpack=pack, ground=GroundLaw(kind="sliding", slip_length=1.3), net=net
+    )
+
+
+def loose_scene():
+    """Its pulls were a third of the stated error away from where rounds lead."""
+    layers = ((1.354, 252.5), (1.259, 485.9), (0.613, 473.0))
+    pack = build_layered_snowpack(
+        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
+        slope_angle=math.radians(54.17),
+        upslope_length=25.66,
+    )
+    net = Net(
+        height_normal=pack.thickness,
+        inclination=math.radians(16.44),
+        stiffness_per_m=2.11e7,
+        slack=0.0336,
+        friction_angle=math.radians(39.33),
+    )
+    return Scene(snowpack=pack, ground=GroundLaw(kind="free"), net=net)
+
+
+@pytest.mark.parametrize("build", [stiff_scene, loose_scene])
+def test_pulls_are_those_of_rounds_without_end_to_a_tenth_of_their_error(build):
+    """Though a finer mesh stops by what the coarser one told."""
+    scene, levels = build(), MESH_LEVELS[:3]
+    quick = solve_steady(scene, SolverSettings(accuracy=0.005, levels=levels))
+    tight = solve_steady(
+        scene,
+        SolverSettings(
+            accuracy=0.005, levels=levels, shape_tolerance=3e-6, stress_tolerance=1e-6
+        ),
+    )
+    for end in ("foot", "head"):
+        own, other = getattr(quick, end), getattr(tight, end)
+        apart = math.hypot(own.x - other.x, own.y - other.y)
+        assert apart <= 0.1 * own.error
+
+
+def test_a_derivative_is_found_on_coarse_meshes_alone_where_pulls_follow_calmly(
+    monkeypatch,
+):
+    sizes = []
+    linearise = correction.linearise_round
+
+    def note(snow, mesh, *given):
+        sizes.append(mesh.template.triangles.shape[1])
+        return linearise(snow, mesh, *given)
+
+    monkeypatch.setattr(correction, "linearise_round", note)
+    found = solve_steady(stiff_scene(), SolverSettings(accuracy=0.005))
+    assert sizes
+    assert max(sizes) < found.cost.elements / 2

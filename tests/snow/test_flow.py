@@ -11,12 +11,15 @@ from netdesign.outcome import Outcome
 from netdesign.snow import flow, kernel
 from netdesign.snow.contact import free_unknowns, start_contact
 from netdesign.snow.flow import compute_residual, remove_rounding, solve_flow
+from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.law import (
     STRESS_FLOOR,
+    FlowLayer,
     Material,
     linearise_creep,
     linearise_sliding,
 )
+from netdesign.snow.mesh import build_template, place_nodes
 
 TIGHT = 1e-9
 
@@ -47,6 +50,27 @@ def slip_velocity(mesh, state):
 @pytest.fixture
 def inclined(a_mesh):
     return a_mesh(inclination_deg=30.0, sag=0.08)
+
+
+# --- start -------------------------------------------------------------------
+
+
+def test_layers_of_any_stiffness_start_near_their_stresses(a_flow_problem):
+    """Without a guess as few steps as uniform snow takes, whatever the contrast."""
+    stiff = (
+        FlowLayer(top=0.31, bulk_ratio=1.21, fluidity_ratio=2.6, density=0.92),
+        FlowLayer(top=0.56, bulk_ratio=2.16, fluidity_ratio=2.9e-3, density=1.5),
+        FlowLayer(bulk_ratio=1.04, fluidity_ratio=16.4, density=0.76),
+    )
+    template = build_template(6.7, MESH_LEVELS[0], (0.31, 0.56))
+    heights = template.net_fractions
+    curve = np.array([0.58 * heights + 0.2 * heights * (1.0 - heights), heights])
+    mesh = build_placed_mesh(template, place_nodes(template, curve), "velocity")
+    uniform = a_flow_problem(ground="sliding", slip_ratio=0.44, friction=np.inf)
+    layered = replace(uniform, layers=stiff)
+    plain, found = (solve_flow(law, mesh, tolerance=1e-2) for law in (uniform, layered))
+    assert found.outcome is Outcome.CONVERGED
+    assert found.linear_solves <= plain.linear_solves + 1
 
 
 # --- law ---------------------------------------------------------------------

@@ -5,6 +5,7 @@ Theory: coupling/THEORY.md, eq. (K0).
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -56,6 +57,8 @@ class Correction(NamedTuple):
         [thickness].
     moved : float
         [thickness].
+    tangent : ndarray, shape (2, n_net, 2, n_net), or None
+        That the step was found with; None if there is none.
     halvings : int
         Of the step so far.
     """
@@ -63,6 +66,7 @@ class Correction(NamedTuple):
     curve: Floats
     moved: float
     step: Floats
+    tangent: Floats | None
     halvings: int = 0
 
     @property
@@ -81,7 +85,10 @@ class Correction(NamedTuple):
 
 
 def correct_round(
-    problem: SteadyProblem, played: Round, last: Correction | None
+    problem: SteadyProblem,
+    played: Round,
+    last: Correction | None,
+    carried: Floats | None = None,
 ) -> Correction:
     """Step after a round; half of the ``last`` one if that made things worse.
 
@@ -93,19 +100,49 @@ def correct_round(
         The last round.
     last : Correction or None
         What led to it.
+    carried : ndarray, shape (2, n_net, 2, n_net), optional
+        Derivative on another mesh, where it will do.
     """
     if last is not None and last.may_halve and played.moved > last.moved:
         return last.halve()
-    step = _find_step(problem, played)
-    return Correction(curve=played.curve, moved=played.moved, step=step)
+    tangent = _find_tangent(problem, played) if carried is None else carried
+    return Correction(
+        curve=played.curve,
+        moved=played.moved,
+        step=_find_step(tangent, played.image - played.curve),
+        tangent=tangent,
+    )
 
 
-def _find_step(problem: SteadyProblem, played: Round) -> Floats:
-    """Newton's, eq. (K0); a damped plain one where there is none."""
-    miss = played.image - played.curve
-    hanging, size = played.hanging, miss.size
-    try:
-        tangent = linearise_round(
+def carry_tangent(tangent: Floats, known: Floats, wanted: Floats) -> Floats:
+    """Derivative of a round between the nodes of another mesh.
+
+    Parameters
+    ----------
+    tangent : ndarray, shape (2, n, 2, n)
+        Component and node of the curve found; of the curve given.
+    known, wanted : ndarray, shape (n,), (m,)
+        Places of its nodes and of the other mesh's along the net.
+
+    Returns
+    -------
+    ndarray, shape (2, m, 2, m)
+        Of curves that are straight between nodes.
+    """
+    to_known, to_wanted = _interpolate(wanted, known), _interpolate(known, wanted)
+    rows = np.einsum("fi,aibj->afbj", to_wanted, tangent)
+    return np.asarray(rows @ to_known)
+
+
+def _interpolate(known: Floats, wanted: Floats) -> Floats:
+    """Values at wanted places of hats about the known ones, (wanted, known)."""
+    return np.array([np.interp(wanted, known, hat) for hat in np.eye(known.size)]).T
+
+
+def _find_tangent(problem: SteadyProblem, played: Round) -> Floats | None:
+    hanging = played.hanging
+    with suppress(SingularError):
+        return linearise_round(
             problem.snow,
             played.mesh,
             played.flow.state,
@@ -113,8 +150,15 @@ def _find_step(problem: SteadyProblem, played: Round) -> Floats:
             hanging.forces,
             hanging.lengths,
             problem.stiffness,
-        ).reshape(size, size)
-        step = np.linalg.solve(np.eye(size) - tangent, miss.ravel())
-        return np.asarray(step.reshape(miss.shape))
-    except (SingularError, np.linalg.LinAlgError):
-        return _PLAIN_STEP * miss
+        )
+    return None
+
+
+def _find_step(tangent: Floats | None, miss: Floats) -> Floats:
+    """Newton's, eq. (K0); a damped plain one where there is none."""
+    if tangent is not None:
+        with suppress(np.linalg.LinAlgError):
+            matrix = np.eye(miss.size) - tangent.reshape(miss.size, miss.size)
+            step = np.linalg.solve(matrix, miss.ravel())
+            return np.asarray(step.reshape(miss.shape))
+    return _PLAIN_STEP * miss

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -41,7 +42,12 @@ from netdesign.coupling.solution import (
     list_skipped,
     triangle_density,
 )
-from netdesign.coupling.steady.correction import Correction, Round, correct_round
+from netdesign.coupling.steady.correction import (
+    Correction,
+    Round,
+    carry_tangent,
+    correct_round,
+)
 from netdesign.coupling.steady.hanging import (
     Hanging,
     SteadyProblem,
@@ -80,6 +86,9 @@ _MUCH_SLACK = 0.1
 # Layered snow may pull by a percent more or less on a net that hardly moves: its pulls
 # may change in the last round by this many times what the net may move.
 _SETTLED = 5.0
+# Change of layered snow's pulls over that of the net [1/thickness] up to which a finer
+# mesh behaves as the coarser one.
+_CALM = 10.0
 # Rounds that leave more than this share of the last one's movement are slow.
 _SLOW = 0.2
 # Linear solves after which rounds on one mesh are given up: so many, of layered snow
@@ -98,7 +107,8 @@ class _Coupled:
     mesh: PlacedMesh
     state: FlowState
     hanging: Hanging
-    was_slow: bool  # plain rounds gained little
+    tangent: Floats | None  # of the round, if plain rounds gained little
+    pull_gain: float  # relative change of pulls over that of the net [1/thickness]
     linear_solves: int
     rounds: int
 
@@ -347,6 +357,8 @@ def _couple(
     allowed = _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
+    was_slow = guess is not None and guess.tangent is not None
+    carried = _carry(problem, guess)
     moved, solves, tried = 1.0 if guess is None else _REFINED, 0, 0
     while tried < settings.max_rounds and solves <= allowed:
         tried += 1
@@ -366,21 +378,22 @@ def _couple(
         hanging = now.hanging
         moved, solves = now.moved, solves + now.flow.linear_solves
         is_still = moved < still and now.flow.change < tolerance
-        if is_still and _has_settled(problem, played, _SETTLED * still):
+        if is_still and _has_settled(problem, played, guess, _SETTLED * still):
             return _Coupled(
                 problem=problem,
                 mesh=now.mesh,
                 state=now.flow.state,
                 hanging=now.hanging,
-                was_slow=correction is not None,
+                tangent=correction.tangent if correction else carried,
+                pull_gain=_measure_gain(problem, played, guess),
                 linear_solves=solves,
                 rounds=tried,
             )
         # a net that is still, whose pulls are not, is worth no derivative
         is_slow = not is_still and _is_slow(played)
-        if correction or (guess and guess.was_slow) or is_slow:
-            correction = correct_round(problem, now, correction)
-            curve = correction.target
+        if correction or was_slow or is_slow:
+            correction = correct_round(problem, now, correction, carried)
+            curve, carried = correction.target, None
         else:
             curve = mix_anderson(
                 [one.curve for one in played], [one.image for one in played]
@@ -399,18 +412,53 @@ def _allow_solves(problem: SteadyProblem) -> float:
 
 
 def _has_settled(
-    problem: SteadyProblem, played: Sequence[Round], allowed: float
+    problem: SteadyProblem,
+    played: Sequence[Round],
+    guess: _Coupled | None,
+    allowed: float,
 ) -> bool:
-    """Pulls of layered snow on the net changed by a small share in the last round."""
+    """Pulls of layered snow on the net change by a small share in a round.
+
+    The first round on a finer mesh has none before it: how pulls follow the net is
+    known from the coarser mesh.
+    """
     if len(problem.snow.layers) < 2:
         return True
-    ends = [
-        (one.hanging.cable.foot_pull, one.hanging.cable.head_pull) for one in played
+    if len(played) > 1:
+        return _change_pulls(*played[-2:]) <= allowed
+    # what a coarser mesh tells is trusted less than what was seen
+    expected = math.inf if guess is None else guess.pull_gain * played[-1].moved
+    return expected <= allowed / _SETTLED
+
+
+def _change_pulls(before: Round, now: Round) -> float:
+    """Relative change of the pulls from one round to the next, of the larger one."""
+    cable, last = now.hanging.cable, before.hanging.cable
+    foot = np.hypot(*(cable.foot_pull - last.foot_pull)) / np.hypot(*cable.foot_pull)
+    head = np.hypot(*(cable.head_pull - last.head_pull)) / np.hypot(*cable.head_pull)
+    return float(max(foot, head))
+
+
+def _measure_gain(
+    problem: SteadyProblem, played: Sequence[Round], guess: _Coupled | None
+) -> float:
+    """Largest relative change of pulls over that of the net, on the meshes so far."""
+    if len(problem.snow.layers) < 2:
+        return math.inf  # is not asked for
+    gains = [
+        _change_pulls(before, now) / float(np.abs(now.curve - before.curve).max())
+        for before, now in pairwise(played)
     ]
-    return len(ends) > 1 and all(
-        np.hypot(*(now - before)) <= allowed * np.hypot(*now)
-        for before, now in zip(*ends[-2:], strict=True)
-    )
+    return max([guess.pull_gain if guess else 0.0, *gains])
+
+
+def _carry(problem: SteadyProblem, guess: _Coupled | None) -> Floats | None:
+    """Derivative of a round as the coarser mesh knew it; None if it will not do."""
+    if guess is None or guess.tangent is None or guess.pull_gain > _CALM:
+        return None
+    known = locate_nodes(guess.problem.template, guess.hanging)
+    wanted = locate_nodes(problem.template, guess.hanging)
+    return carry_tangent(guess.tangent, known, wanted)
 
 
 def _start_state(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.steady import correction
-from netdesign.coupling.steady.correction import Round, correct_round
+from netdesign.coupling.steady.correction import Round, carry_tangent, correct_round
 from netdesign.snow.linear import SingularError
 
 CURVE = np.array([[0.0, 0.1, 0.2], [0.0, 0.5, 1.0]])
@@ -68,3 +68,30 @@ def test_without_a_derivative_the_step_is_a_damped_round(monkeypatch):
     monkeypatch.setattr(correction, "linearise_round", fail)
     found = correct_round(PROBLEM, a_round(CURVE, CURVE + 0.01), None)
     np.testing.assert_allclose(found.target, CURVE + 0.005, atol=1e-15)
+
+
+def test_a_carried_derivative_takes_the_step_without_another(monkeypatch):
+    monkeypatch.setattr(correction, "linearise_round", None)
+    matrix = np.random.default_rng(8).normal(0.0, 2.0, (2, 3, 2, 3))
+    miss = np.array([[0.0, 0.013, 0.007], [0.0, -0.004, 0.011]])
+    found = correct_round(PROBLEM, a_round(CURVE, CURVE + miss), None, matrix)
+    left = found.step - np.tensordot(matrix, found.step, 2)
+    np.testing.assert_allclose(left, miss, atol=1e-14)
+    assert found.tangent is matrix
+
+
+def test_a_derivative_is_carried_as_what_it_does_to_straight_pieces():
+    rng = np.random.default_rng(3)
+    known = np.array([0.0, 0.21, 0.58, 1.0])
+    wanted = np.sort(np.append(known, [0.07, 0.33, 0.71, 0.86]))
+    tangent, corners = rng.normal(size=(2, 4, 2, 4)), rng.normal(size=(2, 4))
+
+    def refine(values):
+        return np.array([np.interp(wanted, known, row) for row in values])
+
+    carried = carry_tangent(tangent, known, wanted)
+    np.testing.assert_allclose(
+        np.tensordot(carried, refine(corners), 2),
+        refine(np.tensordot(tangent, corners, 2)),
+        atol=1e-14,
+    )

@@ -1,0 +1,41 @@
+"""A flow on one mesh as the start of that on another."""
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.snow.contact import start_contact
+from netdesign.snow.flow import FlowState
+from netdesign.snow.kernel import build_placed_mesh, point_heights
+from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.transfer import transfer_state
+
+TOPS = (0.317, 0.574)
+
+
+def straight_mesh(level):
+    template = build_template(6.7, MESH_LEVELS[level], TOPS)
+    heights = template.net_fractions
+    curve = np.array([0.31 * heights, heights])
+    return build_placed_mesh(template, place_nodes(template, curve), "velocity")
+
+
+def number_layers(mesh):
+    shape = mesh.weights.shape
+    found = np.searchsorted(TOPS, point_heights(mesh.template))
+    return np.broadcast_to(found, shape)
+
+
+@pytest.mark.parametrize(("old", "new"), [(0, 2), (2, 0), (0, 1)])
+def test_stress_stays_in_its_layer(old, new):
+    """It jumps from layer to layer, however near to each other two points are."""
+    source, target = straight_mesh(old), straight_mesh(new)
+    state = FlowState(
+        unknowns=np.zeros(source.n_dofs),
+        reaction=np.zeros(source.n_dofs),
+        stress=number_layers(source)[..., None] + np.array([0.0, 10.0, 20.0]),
+        base_shear=None,
+        contact=start_contact(source),
+    )
+    carried = transfer_state(state, source, target)
+    np.testing.assert_array_equal(carried.stress[..., 0], number_layers(target))
