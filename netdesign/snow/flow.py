@@ -237,10 +237,9 @@ def linearise_reaction(
     unknowns = np.zeros((mesh.n_dofs, normal.size))
     unknowns[normal[held], held] = 1.0
     unknowns += _solve_step(problem, mesh, state.contact, blocks, matrix @ unknowns)
-    reaction = matrix @ unknowns
     cosine, sine = mesh.axes[:, mesh.template.net, None]
-    first = reaction[2 * mesh.template.net]
-    second = reaction[2 * mesh.template.net + 1]
+    first = matrix[2 * mesh.template.net] @ unknowns
+    second = matrix[2 * mesh.template.net + 1] @ unknowns
     return -np.array([cosine * first - sine * second, sine * first + cosine * second])
 
 
