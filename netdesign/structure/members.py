@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class Member(StrEnum):
-    """What can fail: an anchor, a guy, the post, its base."""
+    """Part of a support that can fail: an anchor, a guy, the post, its base."""
 
     FOOT_ANCHOR = "foot_anchor"
     UPHILL_GUY = "uphill_guy"
