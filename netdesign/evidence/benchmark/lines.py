@@ -399,6 +399,7 @@ def write_lines(
             and outside is not None
             and outside <= LARGEST_OUTSIDE
             and max(ratios, default=math.inf) <= LARGEST_EXCESS
+            and not missing  # what it would have shown nobody knows
         ),
         "of_lines": [asdict(line) for line in lines],
     }
