@@ -6,6 +6,7 @@ Nothing else in the package rounds a number or names a verdict.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -79,8 +80,11 @@ _UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "
 
 
 def show_text(text: str) -> str:
-    """Text on one line without control characters; "-" if nothing is left."""
-    return " ".join(make_printable(text).split()) or MISSING
+    """Text on one line without control characters; "-" if nothing is left.
+
+    No-break spaces stay: French sets them before some marks.
+    """
+    return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
 
 
 def show_number(key: str, value: float | None) -> str:
