@@ -29,9 +29,9 @@ _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 def announce(
     site: Site,
     run: CheckRun,
+    profiles: int = 1,
     *,
     as_json: bool,
-    profiles: int = 1,
     language: Language = "en",
 ) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""

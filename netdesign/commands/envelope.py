@@ -101,7 +101,7 @@ def envelope(
     netdesign envelope scene.toml --inclination 25:35 --json
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
-    from netdesign.edge.output import require_free, write_files
+    from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_phases
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene
@@ -128,9 +128,8 @@ def envelope(
         ) as progress,
     ):
         follow_runner(progress, runner)
-        task = _build_task(
-            scene, _read_confirming(scene_file, confirm), spans, accuracy
-        )
+        confirming = _read_confirming(scene_file, confirm)
+        task = _build_task(scene, confirming, spans, accuracy)
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
@@ -139,10 +138,7 @@ def envelope(
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
     failed = tell_faults(runner.faults, language)
-    text = json.dumps(document, indent=1, allow_nan=False)
-    if out:
-        files = dict(zip(paths, _render(record, text), strict=True))
-        write_files(files, overwrite=force)
+    text = _write(document, record, paths, overwrite=force)
     if as_json:
         click.echo(text)
     else:
@@ -236,9 +232,11 @@ def _read_confirming(
 
     if confirm == "none":
         return None
-    return read_scene(scene_file, "transient" if confirm == "transient" else "steady")[
-        1
-    ]
+    method: Literal["steady", "transient"] = (
+        "transient" if confirm == "transient" else "steady"
+    )
+    _, settings = read_scene(scene_file, method)
+    return settings
 
 
 def _sample(
@@ -271,6 +269,23 @@ def _search(
     (found,) = search_rows([task], runner, progress.tell_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, language)
+
+
+def _write(
+    document: dict[str, Any],
+    record: EnvelopeRecord | None,
+    paths: list[Path],
+    *,
+    overwrite: bool,
+) -> str:
+    """Text of the document; it and the drawings are files where these have places."""
+    from netdesign.edge.output import write_files
+
+    text = json.dumps(document, indent=1, allow_nan=False)
+    if paths:
+        files = dict(zip(paths, _render(record, text), strict=True))
+        write_files(files, overwrite=overwrite)
+    return text
 
 
 def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:

@@ -89,7 +89,10 @@ class Snowpack:
             self._require_layers_add_up()
 
     def _require_layers_add_up(self) -> None:
-        thickness, density = _sum_thickness(self.layers), compute_mean_density(self.layers)
+        thickness, density = (
+            _sum_thickness(self.layers),
+            compute_mean_density(self.layers),
+        )
         for name, total, given, unit in (
             ("layer thicknesses", thickness, self.thickness, "m"),
             ("mean layer density", density, self.density, "kg/m3"),
