@@ -1,4 +1,4 @@
-"""What a check would do, and how long it would take here; nothing is written."""
+"""``--dry-run``: cases and predicted time of a check; nothing is written."""
 
 from __future__ import annotations
 

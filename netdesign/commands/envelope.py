@@ -147,7 +147,7 @@ def envelope(
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
-    """Refuse what is no envelope; whether a grid is asked for."""
+    """Refuse ranges that make no envelope; True if they ask for a grid."""
     if not given:
         flags = tuple(flag for flag, _, _ in _OPTIONS)
         raise UsageRefusal(say("usage.no_range", flags=flags))
@@ -162,7 +162,7 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
 
 
 def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
-    """What is done, with about so many cases; confirmations are part of a search."""
+    """Phases with about so many cases; confirmations are part of a search."""
     from netdesign.edge.progress import Phase
     from netdesign.study.cases import HISTORY
 

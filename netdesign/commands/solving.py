@@ -1,4 +1,4 @@
-"""What commands share that solve many cases: options, workers, store."""
+"""Options, workers and store of the commands that solve many cases."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def open_run(
 
 
 def follow_runner(progress: RunProgress, runner: Runner) -> None:
-    """Count every case of a runner; that histories have begun is seen by them."""
+    """Count every case of a runner; the first history begins their phase."""
     from netdesign.solving.solve import method_of
 
     def ask(jobs: Sequence[Job]) -> None:

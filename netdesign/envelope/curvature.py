@@ -1,4 +1,4 @@
-"""What may hide between the cases of the grid, from the curvature of the forces."""
+"""Gap between the cases of a grid, from the curvature of the forces."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ AXES = ("density", "friction_angle", "inclination")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnvelopeGap:
-    """How much larger a force may be between the cases than at them.
+    """Rise of a force between the cases above its values at them.
 
     Attributes
     ----------

@@ -41,7 +41,7 @@ ENGLISH = Words()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerdictSigns:
-    """What a verdict has in every language; the symbol survives a photocopy."""
+    """Signs of a verdict in every language; the symbol survives a photocopy."""
 
     symbol: str
     style: str  # class of the style sheet
@@ -128,7 +128,7 @@ def show_unit(unit: str) -> str:
 
 
 def show_quantity(value: float | str, unit: str) -> str:
-    """What somebody chose, with its unit if it has one."""
+    """Value that somebody chose, with its unit if it has one."""
     text = value if isinstance(value, str) else show_given(value)
     shown = show_unit(unit)
     gap = "" if shown == "°" else " "
@@ -141,7 +141,7 @@ def show_share(value: float | None) -> str:
 
 
 def show_with_unit(key: str, value: float | None) -> str:
-    """Write number and unit; the sign of a missing number has no unit."""
+    """Number and unit; the sign of a missing number has no unit."""
     shown = show_number(key, value)
     unit = QUANTITIES[key].unit
     if shown == MISSING or not unit:
@@ -213,7 +213,7 @@ def _list_own_texts() -> dict[str, str]:
 
 
 def number_format(key: str) -> str:
-    """Give the number format of a workbook cell for the quantity ``key``."""
+    """Number format of a workbook cell for the quantity ``key``."""
     quantity = QUANTITIES[key]
     if quantity.decimals is None:
         return "General"

@@ -22,14 +22,14 @@ from netdesign.search.surrogate import Point, fit_surrogate
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class KnownSearch:
-    """What a search came to, and what led it there.
+    """Result of a search, and the demands that led to it.
 
     Attributes
     ----------
     maxima : Maxima
         Its end; the cases and their answers are part of it.
     watched : mapping of int to Watched
-        What was asked of the bounds at last, by quantity.
+        Last demands on the bounds, by quantity.
     """
 
     maxima: Maxima

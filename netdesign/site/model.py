@@ -17,7 +17,7 @@ from netdesign.structure.members import Member
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
-# What a member can fail by; the keys under which resistances are given.
+# Modes in which a member can fail; resistances are given under these keys.
 MEMBER_MODES: tuple[tuple[str, str], ...] = (
     (Member.FOOT_ANCHOR, "tendon"),
     (Member.FOOT_ANCHOR, "pull_out"),
@@ -119,7 +119,7 @@ class NetRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MonitoringSeries:
-    """What was measured at one member of one net row.
+    """Measurements at one member of one net row.
 
     Attributes
     ----------

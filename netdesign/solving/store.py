@@ -88,7 +88,7 @@ def name_case(scene: object, settings: Hashable) -> str:
 
 @lru_cache(maxsize=32)
 def _write_settings(settings: Hashable) -> str:
-    """The same for all cases of a search, and as long as a scene."""
+    """Text of settings, kept: all cases of a search have the same, and it is long."""
     return _write_parts(settings)
 
 

@@ -1,4 +1,4 @@
-"""Where cases are solved: in this process, in a pool, or on a Dask cluster.
+"""Workers that solve cases: this process, a pool, or a Dask cluster.
 
 Each gives the same ends for the same batches; only the order of arrival differs. A
 worker that dies costs the one case that kills it, by name.
@@ -65,7 +65,7 @@ Arrival = tuple[int, Ends]  # place among the batches, and its ends
 
 
 class Workers(Protocol):
-    """What solves batches; ends arrive in any order, each with their place."""
+    """Solver of batches; ends arrive in any order, each with its batch's place."""
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches."""
@@ -138,7 +138,7 @@ class OwnProcess:
 
 
 class ProcessPool:
-    """Solves batches in several processes; small waves before the first large one here.
+    """Solves batches in several processes; small first waves in this one.
 
     Processes are started by the first wave that is worth it. They ignore Ctrl-C,
     which is the parent's to handle, and are stopped by ``close`` at once.
@@ -395,7 +395,7 @@ def _begin(*collection: int) -> None:
 
 
 def _end_with_parent() -> None:
-    """A parent that is killed says nothing, and its workers would wait for ever."""
+    """Wait for the parent's end and follow: a killed parent tells workers nothing."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

@@ -63,7 +63,7 @@ _TRUE_START = MeshSize(
 
 
 def _set_thickness(tables: Tables, value: float) -> None:
-    """The snow's height, its layers' in proportion; a net as high stays so."""
+    """Set the thickness, layers in proportion; the net stays at least as high."""
     snow, net = tables["snow"], tables["net"]
     ratio = value / snow["thickness_m"]
     for layer in snow.get("layers", []):
@@ -76,13 +76,13 @@ def _set_thickness(tables: Tables, value: float) -> None:
 
 
 def _set_density(tables: Tables, value: float) -> None:
-    """Density of uniform snow, or of the bottom layer."""
+    """Set the density of uniform snow, or of the bottom layer."""
     snow = tables["snow"]
     (snow["layers"][0] if "layers" in snow else snow)["density_kg_m3"] = value
 
 
 def _set_slip(tables: Tables, value: float) -> None:
-    """Slip length over the thickness; the ground becomes one that slides."""
+    """Set the slip length over the thickness; the ground becomes a sliding one."""
     length = value * tables["snow"]["thickness_m"]
     tables["ground"] |= {"law": "sliding", "slip_length_m": length}
 
@@ -142,7 +142,7 @@ class Point:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """What became of a line.
+    """Result of a line.
 
     Attributes
     ----------
@@ -276,9 +276,9 @@ def _close_in(
     gap: Floats,
     settings: SolverSettings,
 ) -> dict[str, Any]:
-    """The jump as it is where its gap, two values, is bisected to the larger step.
+    """Jump after its gap, two values, was bisected towards the larger step.
 
-    Scenes without a result between two that have one leave it as it was.
+    Where a scene within the gap gives no result, the jump stays as it was.
     """
 
     def solve(value: float) -> Point:
