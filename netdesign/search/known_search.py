@@ -1,8 +1,8 @@
 """A finished search, kept beside its cases: a later run need not search again.
 
-It asks for the same cases in the same rounds. Only where every one of them answers as
-it did, to the last bit, and as much is asked of the bounds, do the bounds found then
-hold; anything else is searched anew.
+The later run asks for the same cases in the same rounds. The old bounds hold only if
+every case gives the same values, to the last bit, and the same is asked of the bounds.
+Anything else is searched anew.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ class Repetition:
     Attributes
     ----------
     known : KnownSearch
-        What is repeated.
+        The search that is repeated.
     gap : float
-        Infinite: no bound stands before the last value has answered as then.
+        Infinite: no bound stands before the last value has turned out the same.
     result : Maxima or None
-        That of then, at the end; None before, and if a value, or what is watched at
-        last, is another.
+        The old one, once everything has turned out the same; None before, and if a
+        value or the last demands differ.
 
     Verified by
     -----------
