@@ -23,7 +23,7 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.ranges import RANGE, GivenRange
-from netdesign.commands.solving import follow_runner, solving_options
+from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -102,11 +102,8 @@ def envelope(
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
     from netdesign.edge.output import require_free
-    from netdesign.edge.progress import show_phases
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene
-    from netdesign.solving.session import open_runner
-    from netdesign.solving.store import find_store
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
@@ -116,18 +113,14 @@ def envelope(
     paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
     require_free(paths, overwrite=force)
     start = time.perf_counter()
-    with (
-        open_runner(
-            executor=executor,
-            processes=jobs or os.cpu_count() or 1,
-            store=find_store() if cache else None,
-            tell=lambda message: tell(message, language, err=True),
-        ) as runner,
-        show_phases(
-            _list_phases(given, confirm), quiet=quiet, language=language
-        ) as progress,
-    ):
-        follow_runner(progress, runner)
+    with open_phases(
+        _list_phases(given, confirm),
+        processes=jobs or os.cpu_count() or 1,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        language=language,
+    ) as (runner, progress):
         confirming = _read_confirming(scene_file, confirm)
         task = _build_task(scene, confirming, spans, accuracy)
         record: EnvelopeRecord | None = None

@@ -247,7 +247,7 @@ class DaskCluster:
         }
         suspects: list[int] = []
         arriving = as_completed(list(places), loop=self._client.loop)
-        for future in self._arrivals(arriving):
+        for future in follow_futures(self._client, arriving):
             try:
                 yield places[future], future.result()
             except KilledWorker:
@@ -261,35 +261,38 @@ class DaskCluster:
         future = self._client.submit(solve_job, job, pure=False)
         arriving = as_completed([future], loop=self._client.loop)
         try:
-            end: CaseEnd = next(self._arrivals(arriving)).result()
+            end: CaseEnd = next(follow_futures(self._client, arriving)).result()
         except KilledWorker:
             return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
         return end
 
-    def _arrivals(self, arriving: Any) -> Iterator[Any]:
-        """Futures as they finish, as long as the cluster has workers.
-
-        Raises
-        ------
-        ClusterError
-            If it has had none for a while: nothing would ever arrive.
-        """
-        last_seen = time.monotonic()
-        while not arriving.is_empty():
-            finished = arriving.next_batch(block=False)
-            yield from finished
-            if finished:
-                last_seen = time.monotonic()
-                continue
-            time.sleep(_POLL_S)
-            if time.monotonic() - last_seen > _DESERTED_S:
-                if not self._client.scheduler_info()["workers"]:
-                    raise ClusterError(say("cluster.deserted", seconds=_DESERTED_S))
-                last_seen = time.monotonic()
-
     def close(self) -> None:
         """Disconnect; what still runs for this client is cancelled."""
         self._client.close()
+
+
+def follow_futures(
+    client: Any, arriving: Any, patience: float = _DESERTED_S
+) -> Iterator[Any]:
+    """Futures of a cluster as they finish, as long as it has workers.
+
+    Raises
+    ------
+    ClusterError
+        If it has had no worker for ``patience`` [s]: nothing would ever arrive.
+    """
+    last_seen = time.monotonic()
+    while not arriving.is_empty():
+        finished = arriving.next_batch(block=False)
+        yield from finished
+        if finished:
+            last_seen = time.monotonic()
+            continue
+        time.sleep(_POLL_S)
+        if time.monotonic() - last_seen > patience:
+            if not client.scheduler_info()["workers"]:
+                raise ClusterError(say("cluster.deserted", seconds=patience))
+            last_seen = time.monotonic()
 
 
 def build_workers(executor: str, processes: int) -> Workers:
