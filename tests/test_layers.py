@@ -5,7 +5,6 @@ under ``TYPE_CHECKING`` count like all others.
 """
 
 import ast
-import re
 import sys
 from dataclasses import dataclass
 from fnmatch import fnmatch
@@ -248,15 +247,6 @@ def test_the_page_of_the_architecture_names_every_room():
     page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
     tops = {room.split(".")[0] for room in ROOMS - {ROOT, "cli", "__main__"}}
     assert {top for top in tops if f"`{top}`" not in page} == set()
-
-
-def test_the_page_of_the_architecture_names_places_that_exist():
-    page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    folders = (PACKAGE, PACKAGE.parent, *(p for p in PACKAGE.rglob("*") if p.is_dir()))
-    named = set(re.findall(r"`([\w/]+\.py|\w+/[\w/]+)`", page))
-    assert "site/cells" in named
-    lost = {one for one in named if not any((f / one).exists() for f in folders)}
-    assert lost == set()
 
 
 def test_no_allowance_is_idle():

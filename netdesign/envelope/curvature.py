@@ -14,7 +14,7 @@ AXES = ("density", "friction_angle", "inclination")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EnvelopeGap:
-    """Rise of a force between the cases above its values at them.
+    """How much larger a force may be between the cases than at them.
 
     Attributes
     ----------

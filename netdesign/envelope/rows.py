@@ -131,7 +131,7 @@ class RowEnvelope:
         return None
 
     def hidden(self, member: str) -> float:
-        """Rise of a member's force that may hide between the cases [N]."""
+        """How much larger a member's force may be between the cases [N]."""
         place = self.members.index(member)
         return max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
 

@@ -17,7 +17,7 @@ from netdesign.structure.members import Member
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
-# Modes in which a member can fail; resistances are given under these keys.
+# What a member can fail by; the keys under which resistances are given.
 MEMBER_MODES: tuple[tuple[str, str], ...] = (
     (Member.FOOT_ANCHOR, "tendon"),
     (Member.FOOT_ANCHOR, "pull_out"),

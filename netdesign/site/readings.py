@@ -144,7 +144,7 @@ def refuse(
 ) -> None:
     """Add a finding about a reading.
 
-    A reading without a cell stands for a missing heading, which has its own.
+    A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
         finding = reading.cell.finding(

@@ -329,7 +329,7 @@ def _require_answer(address: str) -> None:
 
 @contextmanager
 def _naming_loss(address: str) -> Iterator[None]:
-    """Say in our words that the scheduler is gone: Dask cancels what it was asked."""
+    """Raise a ClusterError where the scheduler is gone: Dask just cancels its tasks."""
     from distributed import CancelledError
     from distributed.comm import CommClosedError
 

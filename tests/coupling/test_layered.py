@@ -208,18 +208,29 @@ def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
     assert "would pull on the net" in str(refused.reason)
 
 
+@pytest.fixture
+def fail_after(monkeypatch):
+    """Fails on the mesh after so many; gives the problems that were solved before."""
+
+    def prepare(meshes, failure):
+        couple, solved = steady._couple, []
+
+        def couple_some(problem, *given, **named):
+            if len(solved) == meshes:
+                raise failure
+            solved.append(problem)
+            return couple(problem, *given, **named)
+
+        monkeypatch.setattr(steady, "_couple", couple_some)
+        return solved
+
+    return prepare
+
+
 @pytest.mark.parametrize("meshes", [1, 2, 3])
-def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes):
+def test_meshes_before_one_that_fails_are_a_result(a_scene, fail_after, meshes):
     """If they are two: their difference is the error, whatever was asked for."""
-    couple, solved = steady._couple, []
-
-    def couple_some(problem, *given, **named):
-        if len(solved) == meshes:
-            raise SolveError(Outcome.MAX_ITERATIONS, "too fine")
-        solved.append(problem)
-        return couple(problem, *given, **named)
-
-    monkeypatch.setattr(steady, "_couple", couple_some)
+    solved = fail_after(meshes, SolveError(Outcome.MAX_ITERATIONS, "too fine"))
     settings = SolverSettings(accuracy=1e-4)
     result = solve_steady(a_scene(ground="no-slip", inclination_deg=30.0), settings)
     if meshes == 1:
@@ -234,18 +245,11 @@ def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes)
 
 @pytest.mark.parametrize("meshes", [2, 3])
 def test_what_a_finer_mesh_finds_outside_of_the_model_is_refused(
-    a_scene, monkeypatch, meshes
+    a_scene, fail_after, meshes
 ):
     """A net that touches the ground there is not proven by meshes too coarse for it."""
-    couple, solved = steady._couple, []
-
-    def couple_some(problem, *given, **named):
-        if len(solved) == meshes:
-            raise SolveError(Outcome.OUT_OF_VALIDITY, "the net would touch the ground")
-        solved.append(problem)
-        return couple(problem, *given, **named)
-
-    monkeypatch.setattr(steady, "_couple", couple_some)
+    failure = SolveError(Outcome.OUT_OF_VALIDITY, "the net would touch the ground")
+    fail_after(meshes, failure)
     scene = a_scene(ground="no-slip", inclination_deg=31.3)
     refused = solve_steady(scene, SolverSettings(accuracy=1e-4))
     assert isinstance(refused, FailedSolution)

@@ -69,8 +69,8 @@ def solve_truth(
 def solve_fine(scene: Scene, settings: SolverSettings) -> Truth:
     """Truth on the finest of the settings' meshes.
 
-    With suction just beyond what is accepted it is no result, but still a truth that
-    coarser meshes are compared with.
+    Suction just beyond what is accepted keeps it from being a result, not from being
+    what coarser meshes are held against.
 
     Raises
     ------

@@ -34,9 +34,9 @@ def write_quotient(above: str, below: str) -> str:
 def write_ratio(
     demand: str, resistance: str, is_slack: str, parts: Sequence[str]
 ) -> str:
-    """Utilisation; 0 for a slack member whose resistance the study does not have.
+    """Utilisation; of a slack member 0, where the study names no resistance for it.
 
-    ``is_slack`` is a condition; ``parts`` are the cells of resistance and factor.
+    ``is_slack`` is a condition, ``parts`` are the cells of resistance and factor.
     """
     unnamed = [f'{part}="{MISSING}"' for part in parts]
     sound = [
