@@ -12,7 +12,8 @@ from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.search import Grid
 from netdesign.solving.runner import Counts
-from netdesign.study.record_envelope import record_case, record_envelope
+from netdesign.study.record_cases import show_case
+from netdesign.study.record_envelope import record_envelope
 from netdesign.study.records import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
@@ -111,7 +112,7 @@ def write_grid_document(
                 "upper_bound": None,  # a grid says nothing between its cases
                 "low": kilonewton_from_newton(extreme.force.low),
                 "high": kilonewton_from_newton(extreme.force.high),
-                "case": record_case(extreme.governing.case),
+                "case": show_case(extreme.governing.case.values),
                 "coincident": _list_coincident(extreme.governing, member),
             }
             for member, extreme in extremes.items()
@@ -165,7 +166,7 @@ def _list_coincident(result: CaseResult, member: str) -> dict[str, float]:
 
 
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
-    cases = [record_case(result.case) for result in results]
+    cases = [show_case(result.case.values) for result in results]
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 

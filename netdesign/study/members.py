@@ -21,7 +21,7 @@ from netdesign.envelope.extremes import (
     find_extreme,
     find_extremes,
 )
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
@@ -37,9 +37,10 @@ from netdesign.study.flips import (
     find_spacing_change,
 )
 from netdesign.study.probe import Probe
-from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.record_cases import record_point
+from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.stronger_types import find_type_change
-from netdesign.units import given_degree_from_radian, kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -109,15 +110,6 @@ def record_geometry(
     return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
 
 
-def record_point(case: Case) -> CasePoint:
-    """Case in engineer's units."""
-    return CasePoint(
-        density_kg_m3=case.density,
-        friction_deg=given_degree_from_radian(case.friction_angle),
-        inclination_deg=given_degree_from_radian(case.inclination),
-    )
-
-
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     """What a row's checks of geometry need."""
     return RowGeometry(
@@ -171,17 +163,17 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         clause=result.clause,
         member=result.member,
         mode=result.mode,
-        demand_kN=_kilonewton(demand.value if demand else None),
-        demand_low_kN=_kilonewton(demand.low if demand else None),
-        demand_high_kN=_kilonewton(demand.high if demand else None),
-        resistance_kN=_kilonewton(result.design_resistance),
+        demand_kN=kilonewton_if_known(demand.value if demand else None),
+        demand_low_kN=kilonewton_if_known(demand.low if demand else None),
+        demand_high_kN=kilonewton_if_known(demand.high if demand else None),
+        resistance_kN=kilonewton_if_known(result.design_resistance),
         utilisation=utilisation.value if utilisation else None,
         verdict=result.verdict,
         case=None,
         reason=result.reason,
-        action_kN=_kilonewton(result.action.value if result.action else None),
+        action_kN=kilonewton_if_known(result.action.value if result.action else None),
         action_factor=result.action_factor,
-        resistance_characteristic_kN=_kilonewton(result.resistance),
+        resistance_characteristic_kN=kilonewton_if_known(result.resistance),
         resistance_factor=result.resistance_factor,
         resistance_basis=given.basis if given else "",
         resistance_type=given.type_id if given else "",
@@ -312,7 +304,7 @@ def _list_resistance_changes(
     change = ChangeRecord(
         quantity=say("change.characteristic_resistance"),
         unit="kN",
-        now=_kilonewton(result.resistance),
+        now=kilonewton_if_known(result.resistance),
         bound=shown,
         sense="at least",
         solves=0,
@@ -320,7 +312,3 @@ def _list_resistance_changes(
     )
     kind = find_type_change(task.site, given, result.demand.high, task.standard)
     return [change, kind] if kind else [change]
-
-
-def _kilonewton(value: float | None) -> float | None:
-    return None if value is None else kilonewton_from_newton(value)

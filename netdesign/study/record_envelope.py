@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from netdesign.envelope.parameters import PARAMETERS
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import Confirmation, RowEnvelope
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.search.sensitivity import (
@@ -20,6 +20,7 @@ from netdesign.search.sensitivity import (
     measure_sensitivity,
     measure_unexplained,
 )
+from netdesign.study.record_cases import show_case, show_parameter
 from netdesign.study.records import (
     AdditionRecord,
     AxisRecord,
@@ -31,7 +32,7 @@ from netdesign.study.records import (
     LineRecord,
     MapRecord,
 )
-from netdesign.units import given_degree_from_radian, kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton
 
 _LINE_POINTS = 25
 _MAP_POINTS = 9
@@ -39,21 +40,6 @@ _MAPS = 3
 _DRAWN_DECIMALS = 4  # of kN
 
 Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N]
-
-
-def show_parameter(name: str, value: float) -> float:
-    """Value of a parameter in the unit of its key."""
-    if PARAMETERS[name].key.endswith("_deg"):
-        return given_degree_from_radian(value)
-    return value
-
-
-def record_case(case: Case) -> dict[str, float]:
-    """Every quantity of a case under its key, in the unit of the key."""
-    return {
-        PARAMETERS[name].key: show_parameter(name, value)
-        for name, value in case.values.items()
-    }
 
 
 def record_envelope(
@@ -115,7 +101,7 @@ def _record_bound(
         quantity=member,
         max_kN=kilonewton_from_newton(envelope.force(member).value),
         upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
-        case=record_case(governing.case),
+        case=show_case(governing.case.values),
         coincident_kN={
             other: kilonewton_from_newton(governing.member_forces[other].value)
             for other in shown
@@ -268,13 +254,12 @@ def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
     def show(value: float) -> float | None:
         return kilonewton_from_newton(value) if math.isfinite(value) else None
 
-    values = envelope.task.ranges.place(one.point)
     names = envelope.quantities
     return AdditionRecord(
         round=one.round,
         reason=one.reason,
         quantity=names[one.quantity] if names else "",
-        case={PARAMETERS[k].key: show_parameter(k, v) for k, v in values.items()},
+        case=show_case(envelope.task.ranges.place(one.point)),
         predicted_kN=show(one.predicted),
         claimed_kN=show(one.standard_error),
         found_kN=show(one.found),

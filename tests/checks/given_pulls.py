@@ -13,7 +13,7 @@ from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
 from netdesign.structure import compute_anchor_forces, place_support
 from netdesign.study.cases import CheckRun
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 
 NETS = {
     "id": "R",

@@ -26,7 +26,7 @@ from netdesign.solving.solve import solve_scene
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
 from netdesign.study.cases import CheckRun, search_site, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from tests import small_site
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist

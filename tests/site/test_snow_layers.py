@@ -12,7 +12,7 @@ from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import CheckRun, search_site, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from netdesign.study.probe import build_scene
 from tests.solving.made_up_workers import Recording
 

@@ -14,7 +14,7 @@ from netdesign.site.model import MEMBER_MODES
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.cases import count_cases, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from netdesign.words.message import say
 from netdesign.words.names import name_check
 from tests.small_site import (
