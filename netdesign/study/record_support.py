@@ -22,12 +22,7 @@ def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord
         return []
     share = effects.lateral_share
     records = []
-    for name, force in (
-        (Member.FOOT_ANCHOR, anchors.foot_anchor),
-        (Member.UPHILL_ANCHOR, anchors.uphill_anchor),
-        (Member.DOWNHILL_ANCHOR, anchors.downhill_anchor),
-        (Member.POST_BASE, anchors.post_base),
-    ):
+    for name, force in anchors.on_ground.items():
         lateral = 0.0 if force.member == Member.POST else share * force.size
         direction = force.direction
         records.append(
@@ -58,7 +53,7 @@ def record_head(row: NetRow, result: CaseResult) -> list[HeadForce]:
     anchors = result.anchors
     members = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
     forces = [
-        ("net", pull.x * width, pull.y * width),
+        (Member.NET, pull.x * width, pull.y * width),
         *((force.member, -force.x, -force.y) for force in members if force.size > 0),
     ]
     return [
@@ -102,18 +97,18 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
 def _list_arrows(points: SupportPoints, anchors: AnchorForces) -> list[Arrow]:
     """Forces on the ground at their points; that on the base is drawn as the post's."""
     places = (
-        (Member.FOOT_ANCHOR, points.net_foot, anchors.foot_anchor),
-        (Member.UPHILL_ANCHOR, points.uphill_anchor, anchors.uphill_anchor),
-        (Member.DOWNHILL_ANCHOR, points.downhill_anchor, anchors.downhill_anchor),
-        (Member.POST, points.post_base, anchors.post_base),
+        points.net_foot,
+        points.uphill_anchor,
+        points.downhill_anchor,
+        points.post_base,
     )
     return [
         Arrow(
-            member=member,
+            member=Member.POST if name == Member.POST_BASE else name,
             x_m=place[0],
             y_m=place[1],
             force_x_kN=kilonewton_from_newton(force.x),
             force_y_kN=kilonewton_from_newton(force.y),
         )
-        for member, place, force in places
+        for (name, force), place in zip(anchors.on_ground.items(), places, strict=True)
     ]

@@ -10,6 +10,7 @@ from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import Case, build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
@@ -184,7 +185,7 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.other_guideline", place=place, value=found.message)
-    largest = find_largest(row, "foot_anchor")
+    largest = find_largest(row, Member.FOOT_ANCHOR)
     if largest is not None and not (
         same_point(point, largest.case)
         and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)
