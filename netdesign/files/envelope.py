@@ -7,12 +7,11 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from netdesign import __version__
-from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.extremes import Extreme, find_extremes
+from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import Grid
 from netdesign.solving.runner import Counts
-from netdesign.study.record_cases import show_case
+from netdesign.study.record_cases import show_case, show_coincident
 from netdesign.study.record_envelope import record_envelope
 from netdesign.study.records import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton
@@ -79,13 +78,13 @@ def write_envelope_document(
 
 
 def write_grid_document(
-    grid: Grid, counts: Counts, wall_s: float, language: Language = "en"
+    grid: RowGrid, counts: Counts, wall_s: float, language: Language = "en"
 ) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
     Parameters
     ----------
-    grid : Grid
+    grid : RowGrid
         All cases.
     counts : Counts
         Of the run.
@@ -95,7 +94,7 @@ def write_grid_document(
         Of the reason.
     """
     results = grid.results
-    reason = describe_gap(results)
+    reason = grid.gap
     extremes = find_extremes(results)
     return {
         "schema": SCHEMA,
@@ -113,7 +112,7 @@ def write_grid_document(
                 "low": kilonewton_from_newton(extreme.force.low),
                 "high": kilonewton_from_newton(extreme.force.high),
                 "case": show_case(extreme.governing.case.values),
-                "coincident": _list_coincident(extreme.governing, member),
+                "coincident": _list_coincident(extreme),
             }
             for member, extreme in extremes.items()
         ],
@@ -132,7 +131,8 @@ def write_grid_document(
 def _write_bound(
     envelope: RowEnvelope, bound: BoundRecord, language: Language
 ) -> dict[str, Any]:
-    band = envelope.bound(bound.quantity)
+    extreme = envelope.extremes[bound.quantity]
+    band = extreme.widened
     confirmation = None
     if bound.confirmation is not None:
         told = render(bound.confirmation.reason or "", language)
@@ -146,9 +146,7 @@ def _write_bound(
         "low": kilonewton_from_newton(band.low),
         "high": kilonewton_from_newton(band.high),
         "case": bound.case,
-        "coincident": _list_coincident(
-            envelope.governing(bound.quantity), bound.quantity
-        ),
+        "coincident": _list_coincident(extreme),
         "confirmation": confirmation,
         "sensitivity": {
             "unexplained": bound.unexplained,
@@ -157,12 +155,9 @@ def _write_bound(
     }
 
 
-def _list_coincident(result: CaseResult, member: str) -> dict[str, float]:
-    return {
-        QUANTITY_KEYS[other]: kilonewton_from_newton(band.value)
-        for other, band in result.member_forces.items()
-        if other != member
-    }
+def _list_coincident(extreme: Extreme) -> dict[str, float]:
+    found = show_coincident(extreme, tuple(QUANTITY_KEYS))
+    return {QUANTITY_KEYS[other]: force for other, force in found.items()}
 
 
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from netdesign.checks import Standard
-from netdesign.envelope.rows import RowEnvelope
-from netdesign.envelope.run import CaseResult
+from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.search import Wave
 from netdesign.site.model import Site
 from netdesign.solving.runner import Runner
@@ -67,35 +66,28 @@ def check_site(
         One for each profile.
     """
     runner, watch = runner or Runner(), watch or _Nobody()
-    envelopes: list[RowEnvelope] | None = None
+    solved: Sequence[RowGrid | RowEnvelope]
     if site.ranges.is_grid:
-        results = solve_site(site, run, runner)
+        solved = solve_site(site, run, runner)
     else:
-        envelopes = search_site(site, run, runner, watch.tell_wave)
-        results = [list(one.results) for one in envelopes]
+        solved = search_site(site, run, runner, watch.tell_wave)
     watch.enter("measured")
     measured = follow_site(site, run, runner)
     watch.enter("checks")
     probe = Probe(run.settings, run.creep_law, runner)
-    count = watch.count_piece
     studies = [
-        judge_site(site, results, one, run, probe, measured, envelopes, count)
+        judge_site(site, solved, one, run, probe, measured, watch.count_piece)
         for one in standards
     ]
-    _keep_faults(site, results, envelopes or (), runner)
+    _keep_faults(site, solved, runner)
     return studies
 
 
 def _keep_faults(
-    site: Site,
-    results: Sequence[Sequence[CaseResult]],
-    envelopes: Sequence[RowEnvelope],
-    runner: Runner,
+    site: Site, solved: Sequence[RowGrid | RowEnvelope], runner: Runner
 ) -> None:
     """Tell the runner which net rows the faults in their cases befell."""
-    for row, of_row in zip(site.rows, results, strict=True):
-        for result in of_row:
+    for row, of_row in zip(site.rows, solved, strict=True):
+        again = of_row.confirmations if isinstance(of_row, RowEnvelope) else ()
+        for result in (*of_row.results, *(one.confirmed for one in again)):
             runner.keep_fault(result.fault, row.id)
-    for row, envelope in zip(site.rows, envelopes, strict=False):
-        for one in envelope.confirmations:
-            runner.keep_fault(one.confirmed.fault, row.id)

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import repeat
 from types import MappingProxyType
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
-from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.site.model import Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
 from netdesign.study.effects import RowEffects, find_effects
-from netdesign.study.members import RowTask, check_row
+from netdesign.study.members import RowCheck, check_row
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
@@ -43,12 +42,11 @@ from netdesign.units import newton_from_kilonewton
 
 def judge_site(
     site: Site,
-    results: Sequence[Sequence[CaseResult]],
+    solved: Sequence[RowGrid | RowEnvelope],
     standard: Standard,
     run: CheckRun,
     probe: Probe | None = None,
     monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
-    envelopes: Sequence[RowEnvelope] | None = None,
     on_check: Callable[[], None] = lambda: None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
@@ -57,8 +55,8 @@ def judge_site(
     ----------
     site : Site
         What the engineer gives.
-    results : sequence of sequence of CaseResult
-        As ``solve_site`` returns them; of searched rows their ``results``.
+    solved : sequence of RowGrid or RowEnvelope
+        As ``solve_site`` or ``search_site`` returns them.
     standard : Standard
         Limit profile.
     run : CheckRun
@@ -68,8 +66,6 @@ def judge_site(
         flips. Without it a study has neither; give the same one for each profile.
     monitoring : mapping of str to list of MonitoringRecord
         As ``follow_site`` returns it; decides nothing.
-    envelopes : sequence of RowEnvelope, optional
-        As ``search_site`` returns them: their upper bounds are what is checked.
     on_check : callable, optional
         Called after each check of a force.
 
@@ -80,20 +76,17 @@ def judge_site(
     """
     rows = [
         _judge_row(
-            RowTask(
+            RowCheck(
                 site=site,
                 row=row,
-                results=of_row,
+                solved=of_row,
                 standard=standard,
                 probe=probe,
-                envelope=searched,
                 on_check=on_check,
             ),
             run,
         )
-        for row, of_row, searched in zip(
-            site.rows, results, envelopes or repeat(None, len(site.rows)), strict=True
-        )
+        for row, of_row in zip(site.rows, solved, strict=True)
     ]
     rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
@@ -108,11 +101,11 @@ def judge_site(
     )
 
 
-def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
-    row, envelope = task.row, task.envelope
-    extremes = task.extremes
-    checks = check_row(task)
-    cases = [record_case(result, run.creep_law, row) for result in task.results]
+def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
+    row, solved = task.row, task.solved
+    extremes = solved.extremes
+    checks = check_row(task, extremes)
+    cases = [record_case(result, run.creep_law, row) for result in solved.results]
     effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
@@ -124,7 +117,7 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
         verdict=merge_verdicts([*(check.verdict for check in checks), *held]),
         checks=checks,
         extremes=[
-            record_extreme(extremes[member], envelope)
+            record_extreme(extremes[member])
             for member in REPORTED_MEMBERS
             if member in extremes
         ],
@@ -142,11 +135,9 @@ def _judge_row(task: RowTask, run: CheckRun) -> RowStudy:
             *list_history_notes(extremes),
         ],
         envelope=(
-            None
-            if envelope is None
-            else record_envelope(
-                envelope, REPORTED_MEMBERS, _list_levels(checks, effects)
-            )
+            record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks, effects))
+            if isinstance(solved, RowEnvelope)
+            else None
         ),
     )
 

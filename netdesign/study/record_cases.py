@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case
-from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
@@ -74,23 +73,25 @@ def _largest_error_percent(result: CaseResult) -> float | None:
     return 100.0 * max(pull.error / pull.size for pull in pulls)
 
 
-def record_extreme(extreme: Extreme, envelope: RowEnvelope | None) -> ExtremeRecord:
+def record_extreme(extreme: Extreme) -> ExtremeRecord:
     """Largest force of a member; of a search with what may hide between its cases."""
-    coincident, upper = extreme.governing.member_forces, None
-    force = extreme.force
-    if envelope is not None:
-        force = envelope.bound(extreme.member)
-        upper = kilonewton_from_newton(envelope.upper_bound(extreme.member))
+    force = extreme.widened if extreme.is_bounded else extreme.force
     return ExtremeRecord(
         quantity=extreme.member,
         max_kN=kilonewton_from_newton(force.value),
         low_kN=kilonewton_from_newton(force.low),
         high_kN=kilonewton_from_newton(force.high),
         case=record_point(extreme.governing.case),
-        coincident_kN={
-            member: kilonewton_from_newton(coincident[member].value)
-            for member in REPORTED_MEMBERS
-            if member != extreme.member
-        },
-        upper_bound_kN=upper,
+        coincident_kN=show_coincident(extreme, REPORTED_MEMBERS),
+        upper_bound_kN=kilonewton_if_known(extreme.upper_bound),
     )
+
+
+def show_coincident(extreme: Extreme, members: Sequence[str]) -> dict[str, float]:
+    """Forces of the other members in the governing case [kN]."""
+    forces = extreme.governing.member_forces
+    return {
+        member: kilonewton_from_newton(forces[member].value)
+        for member in members
+        if member != extreme.member
+    }

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import Confirmation, RowEnvelope
@@ -20,7 +21,7 @@ from netdesign.search.sensitivity import (
     measure_sensitivity,
     measure_unexplained,
 )
-from netdesign.study.record_cases import show_case, show_parameter
+from netdesign.study.record_cases import show_case, show_coincident, show_parameter
 from netdesign.study.records import (
     AdditionRecord,
     AxisRecord,
@@ -56,7 +57,7 @@ def record_envelope(
     levels : mapping, optional
         For each member the forces at which a check of it flips, with the check's id.
     """
-    maxima, task = envelope.maxima, envelope.task
+    maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
     shown = [member for member in members if member in envelope.members]
     answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
@@ -79,7 +80,7 @@ def record_envelope(
         failed=sum(not result.is_converged for result in envelope.results),
         bounds=[
             _record_bound(
-                envelope, member, shown, (levels or {}).get(member, ()), found
+                envelope, extremes[member], shown, (levels or {}).get(member, ()), found
             )
             for member, found in zip(shown, answers, strict=True)
         ],
@@ -89,30 +90,24 @@ def record_envelope(
 
 def _record_bound(
     envelope: RowEnvelope,
-    member: str,
+    extreme: Extreme,
     shown: Sequence[str],
     levels: Sequence[tuple[str, float]],
     answers: Sequence[Sensitivity],
 ) -> BoundRecord:
-    place = envelope.members.index(member)
-    maxima = envelope.maxima
-    governing = envelope.governing(member)
+    place = envelope.members.index(extreme.member)
     return BoundRecord(
-        quantity=member,
-        max_kN=kilonewton_from_newton(envelope.force(member).value),
-        upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
-        case=show_case(governing.case.values),
-        coincident_kN={
-            other: kilonewton_from_newton(governing.member_forces[other].value)
-            for other in shown
-            if other != member
-        },
-        unexplained=measure_unexplained(maxima, place),
+        quantity=extreme.member,
+        max_kN=kilonewton_from_newton(extreme.force.value),
+        upper_bound_kN=kilonewton_from_newton(extreme.force.value + extreme.hidden),
+        case=show_case(extreme.governing.case.values),
+        coincident_kN=show_coincident(extreme, shown),
+        unexplained=measure_unexplained(envelope.maxima, place),
         drivers=_record_drivers(envelope.task.ranges.axes, answers),
         flips=_find_flips(envelope, place, levels),
         lines=_record_lines(envelope, place),
         maps=_record_maps(envelope, place),
-        confirmation=_record_confirmation(envelope, member),
+        confirmation=_record_confirmation(envelope, extreme.member),
     )
 
 

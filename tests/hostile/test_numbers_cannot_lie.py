@@ -51,11 +51,8 @@ def build_site(ranges=GRID, *, strength=STRONG, **missing):
 def judge(site, runner=None, standard=None):
     """Study of a site, searched or sampled as its ranges ask for."""
     standard = standard or load_standard(PROFILE)
-    if site.ranges.is_grid:
-        return judge_site(site, solve_site(site, RUN, runner), standard, RUN)
-    found = search_site(site, RUN, runner)
-    results = [list(one.results) for one in found]
-    return judge_site(site, results, standard, RUN, envelopes=found)
+    solve = solve_site if site.ranges.is_grid else search_site
+    return judge_site(site, solve(site, RUN, runner), standard, RUN)
 
 
 @pytest.fixture(autouse=True)
