@@ -9,7 +9,6 @@ from html.parser import HTMLParser
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.view.check_view import find_utilisation_band
 from netdesign.study.audit.comparing import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study
 from netdesign.study.values import show_value
@@ -76,7 +75,7 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
     _require_sizes(place, check)
     is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
     if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
-        _, high = find_utilisation_band(check)
+        _, high = check.utilisation_band
         if high is None or not high <= 1:
             raise NetDesignError(
                 say(
