@@ -6,6 +6,7 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
@@ -365,6 +366,14 @@ class IndependentRecord:
     value: float | None  # a share or a ratio [-]
     limit: float | None  # None where nothing bounds it
     is_met: bool
+
+
+def list_verdicts(
+    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
+) -> list[Verdict]:
+    """Verdicts that make up that of a row; a law that is not met leaves it unproven."""
+    unmet = [Verdict.NOT_PROVEN for law in independent if not law.is_met]
+    return [*(check.verdict for check in checks), *unmet]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.study.audit.comparing import tell_value, tell_verdict
-from netdesign.study.records import CheckRecord, Study
+from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 
@@ -35,8 +35,7 @@ def require_consistent(study: Study) -> None:
     _require_earned(whole, study.verdict, (row.verdict for row in study.rows))
     for row in study.rows:
         place = say("audit.row", row=row.id)
-        held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
-        parts = [*(check.verdict for check in row.checks), *held]
+        parts = list_verdicts(row.checks, row.independent)
         _require_earned(place, row.verdict, parts)
         for check in row.checks:
             where = say("audit.check", place=place, check=check.id)

@@ -14,11 +14,11 @@ from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
 from netdesign.study.effects import find_effects, load_guideline
-from netdesign.study.members import record_geometry, record_result
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
 from netdesign.study.record_cases import is_calibrated, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.row_checks import record_geometry, record_result
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
