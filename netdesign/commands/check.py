@@ -204,7 +204,7 @@ def _plan_files(
 def _show(
     studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
 ) -> None:
-    from netdesign.study.records import write_document
+    from netdesign.study.document import write_document
 
     if not as_json:
         from netdesign.report.terminal import (

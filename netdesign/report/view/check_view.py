@@ -108,22 +108,9 @@ def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     return max(known, key=_ratio, default=None)
 
 
-def find_utilisation_band(check: CheckRecord) -> tuple[float | None, float | None]:
-    """Utilisation at the low and at the high end of the demand.
-
-    A slack member uses nothing of any resistance, even of one that is not given.
-    """
-    resistance = check.resistance_kN
-    if resistance is None and check.utilisation == 0.0:
-        return 0.0, 0.0
-    if not resistance or check.demand_low_kN is None or check.demand_high_kN is None:
-        return None, None
-    return check.demand_low_kN / resistance, check.demand_high_kN / resistance
-
-
 def view_check(check: CheckRecord, words: Words) -> CheckView:
     """Put one check into words."""
-    low, high = find_utilisation_band(check)
+    low, high = check.utilisation_band
     return CheckView(
         title=show_check(words, check),
         clause=show_text(check.clause),
@@ -218,7 +205,7 @@ def _reduce_resistance(check: CheckRecord) -> Step:
 
 
 def _compare_both(check: CheckRecord, words: Words) -> Step:
-    low, high = find_utilisation_band(check)
+    low, high = check.utilisation_band
     return Step(
         symbols="μ = E_d / R_d",
         numbers=_divide(
