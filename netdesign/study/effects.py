@@ -1,4 +1,4 @@
-"""What turns a solved force into that of the worst support of a row."""
+"""Effects that turn a solved force into that of the worst support of a row."""
 
 from __future__ import annotations
 

@@ -213,7 +213,7 @@ def _audit_bound(
 
 
 def is_complete(row: RowStudy) -> bool:
-    """Whether the cases cover the ranges: none failed, nothing was left open."""
+    """The cases cover the ranges: none failed, nothing was left open."""
     record = row.envelope
     if not row.cases or len(list_solved(row)) < len(row.cases):
         return False
@@ -226,7 +226,7 @@ def is_complete(row: RowStudy) -> bool:
 
 
 def same_point(one: CasePoint | None, other: CasePoint | None) -> bool:
-    """Whether two cases are one, or both are missing."""
+    """Two cases are one, or both are missing."""
     if one is None or other is None:
         return one is other
     return all(is_same(getattr(one, key), getattr(other, key)) for key in _AXES)
