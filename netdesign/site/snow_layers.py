@@ -123,7 +123,7 @@ def check_densities(
     high: float,
     findings: list[Finding],
 ) -> None:
-    """Refuse layers of a mean outside the range, or denser than snow at its high end.
+    """Refuse layers whose mean lies outside the range, or that it makes too dense.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Effects that turn a solved force into that of the worst support of a row."""
+"""What turns a solved force into that of the worst support of a row."""
 
 from __future__ import annotations
 

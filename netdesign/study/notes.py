@@ -70,7 +70,7 @@ def _layer_notes(site: Site) -> list[Message]:
 
 
 def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
-    """Notes on what was taken for granted about this row."""
+    """What was taken for granted about this row."""
     notes = []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))

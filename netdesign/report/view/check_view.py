@@ -144,10 +144,13 @@ def _build_bar(
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check that has a demand and a resistance."""
-    case = name_case(check.case)
     needed = show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
-        title=words("show.row_at_case", check=show_check(words, check), case=case),
+        title=words(
+            "show.row_at_case",
+            check=show_check(words, check),
+            case=name_case(check.case),
+        ),
         steps=(
             *_derive_action(check),
             *_derive_resistance(check, words),

@@ -213,7 +213,7 @@ def _audit_bound(
 
 
 def is_complete(row: RowStudy) -> bool:
-    """The cases cover the ranges: none failed, nothing was left open."""
+    """Whether the cases cover the ranges: none failed, nothing was left open."""
     record = row.envelope
     if not row.cases or len(list_solved(row)) < len(row.cases):
         return False
