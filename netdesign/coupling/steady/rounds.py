@@ -354,7 +354,7 @@ def _couple(
     hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    allowed = _allow_solves(problem)
+    allowed = settings.patience * _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
     was_slow = guess is not None and guess.tangent is not None
@@ -406,7 +406,7 @@ def _couple(
 
 
 def _allow_solves(problem: SteadyProblem) -> float:
-    """Linear solves that rounds on one mesh may take."""
+    """Linear solves that rounds on one mesh usually may take."""
     least = _LEAST_WORK_LAYERED if len(problem.snow.layers) > 1 else _LEAST_WORK
     return float(max(least, _MOST_WORK / problem.template.triangles.shape[1]))
 
