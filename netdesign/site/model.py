@@ -81,6 +81,7 @@ class NetRow:
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
+    glide_factor: float | None = None  # as typed, of sliding ground
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

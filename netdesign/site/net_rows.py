@@ -180,6 +180,7 @@ def _build_net_row(
         inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        glide_factor=_find_glide_factor(row),
     )
 
 
@@ -252,6 +253,11 @@ def _understand_ground(
     if slip.state == "given":
         return GroundLaw(kind="sliding", slip_length=slip.si)
     return _build_sliding_ground(glide, thickness, findings)
+
+
+def _find_glide_factor(row: Row) -> float | None:
+    glide = row["glide_factor"]
+    return glide.number if glide.state == "given" else None
 
 
 def _build_sliding_ground(
