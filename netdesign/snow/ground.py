@@ -74,7 +74,18 @@ class GlideStep:
     slip_ratios: tuple[float, float]
 
     def interpolate(self, glide_factor: float) -> float:
-        """Slip ratio [-] of a glide factor on the line."""
+        """Slip ratio on the line.
+
+        Parameters
+        ----------
+        glide_factor : float
+            N [-], of the step.
+
+        Returns
+        -------
+        float
+            Slip length over snow thickness [-].
+        """
         (low, high), (start, end) = self.glide_factors, self.slip_ratios
         return start + (glide_factor - low) / (high - low) * (end - start)
 
@@ -95,7 +106,13 @@ class GlideTable:
     glide_factors: tuple[float, ...]
 
     def find_step(self, glide_factor: float) -> GlideStep:
-        """Neighbouring entries between which a glide factor of the table lies."""
+        """Neighbouring entries between which a glide factor lies.
+
+        Parameters
+        ----------
+        glide_factor : float
+            N [-], from 1 to the table's last.
+        """
         factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
         above = min(bisect_right(factors, glide_factor), len(factors) - 1)
         return GlideStep(
@@ -104,7 +121,18 @@ class GlideTable:
         )
 
     def find_glide_factor(self, slip_ratio: float) -> float:
-        """Glide factor [-] of a slip ratio; beyond the table that of its end."""
+        """Glide factor of a slip length.
+
+        Parameters
+        ----------
+        slip_ratio : float
+            Slip length over snow thickness [-].
+
+        Returns
+        -------
+        float
+            N [-]; beyond the table that of its end.
+        """
         factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
         return float(np.interp(slip_ratio, ratios, factors))
 
