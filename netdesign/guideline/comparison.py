@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
     LoadModel,

@@ -61,6 +61,7 @@ class InputEcho:
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above
     cell: str  # "Nets!C5", or "default"
+    derivation: Text | None = None  # how it follows from what was typed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

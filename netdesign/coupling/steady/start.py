@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from netdesign.snow.law import FlowProblem
 
 
@@ -23,9 +25,6 @@ def guess_pressure(problem: FlowProblem, aspect: float) -> float:
     float
         [rho g d].
     """
-    length = {
-        "free": aspect,
-        "no-slip": 1.0,
-        "sliding": 1.0 + problem.slip_ratio ** (1.0 / (problem.exponent + 1.0)),
-    }[problem.ground]
+    felt = math.pow(problem.slip_ratio, 1.0 / (problem.exponent + 1.0))
+    length = {"free": aspect, "no-slip": 1.0, "sliding": 1.0 + felt}[problem.ground]
     return max(0.05, problem.gravity[0]) * min(aspect, length)
