@@ -89,7 +89,7 @@ _ROWS = (
     # the guideline
     _row("height_vertical_m", "H", "m", 2),
     _row("creep_factor", "K", "", 3),
-    _row("glide_factor", "N", "", 2),
+    _row("glide_factor", "N", "", 3),
     _row("rigid_kN_per_m", "S'_N", "kN/m", 1),
     _row("load_kN_per_m", "R_x", "kN/m", 1),
     _row("load_difference_percent", "", "%", 0),

@@ -13,6 +13,7 @@ OBJECTS = (
     "reason",
     "model_reason",
     "resistance_derivation",
+    "derivation",
 )
 WORDS = ([*Verdict], [*Outcome])
 

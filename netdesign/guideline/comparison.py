@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
     LoadModel,
@@ -105,9 +103,7 @@ def find_glide_factor(
     if ground.kind == "no-slip":
         return 1.0
     table = load_glide_tables()[DEFAULT_CREEP_LAW]
-    ratio = ground.slip_length / snow_thickness
-    ratios, factors = (0.0, *table.slip_ratios), (1.0, *table.glide_factors)
-    return float(np.interp(ratio, ratios, factors))
+    return table.find_glide_factor(ground.slip_length / snow_thickness)
 
 
 def compare_with_guideline(

@@ -61,6 +61,7 @@ class InputEcho:
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above
     cell: str  # "Nets!C5", or "default"
+    derivation: Text | None = None  # how it follows from what was typed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,6 +82,7 @@ class NetRow:
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
+    glide_factor: float | None = None  # as typed, of sliding ground
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

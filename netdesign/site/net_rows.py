@@ -26,9 +26,11 @@ from netdesign.site.snow_layers import (
 from netdesign.site.tables import Table, read_rows
 from netdesign.site.type_resistances import find_tests
 from netdesign.snow.ground import (
+    DEFAULT_CREEP_LAW,
     GROUND_KINDS,
     GroundLaw,
     build_ground_from_glide_factor,
+    find_glide_step,
 )
 from netdesign.snow.snowpack import Layer
 from netdesign.structure.layout import (
@@ -181,6 +183,7 @@ def _build_net_row(
         inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        glide_factor=_find_glide_factor(row),
     )
 
 
@@ -253,6 +256,11 @@ def _understand_ground(
     if slip.state == "given":
         return GroundLaw(kind="sliding", slip_length=slip.si)
     return _build_sliding_ground(glide, thickness, findings)
+
+
+def _find_glide_factor(row: Row) -> float | None:
+    glide = row["glide_factor"]
+    return glide.number if glide.state == "given" else None
 
 
 def _build_sliding_ground(
@@ -347,15 +355,39 @@ def _echo_inputs(
     for key, reading in row.items():
         echoes.append(reading.echo())
         if key == "snow_height" and reading.state == "given":
-            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading))
+            how = _derive_thickness(reading.si, row["slope_angle"].number)
+            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading, how))
         if key == "glide_factor" and reading.state == "given":
-            echoes.append(
-                _echo_derived(row["slip_length"], ground.slip_length, reading)
-            )
+            table = _derive_slip(reading.number, thickness)
+            slip = ground.slip_length
+            echoes.append(_echo_derived(row["slip_length"], slip, reading, table))
     return tuple(echoes)
 
 
-def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
+def _derive_thickness(height: float, slope_deg: float) -> Message:
+    return say("column.thickness_of_height", height=height, slope=slope_deg)
+
+
+def _derive_slip(glide_factor: float, thickness: float) -> Message | None:
+    """How a slip length follows from the table; None of ground without slip."""
+    if glide_factor == 1.0:
+        return None
+    step = find_glide_step(glide_factor)
+    return say(
+        "column.slip_of_table",
+        thickness=thickness,
+        glide=glide_factor,
+        low=step.glide_factors[0],
+        high=step.glide_factors[1],
+        start=step.slip_ratios[0],
+        end=step.slip_ratios[1],
+        law=DEFAULT_CREEP_LAW,
+    )
+
+
+def _echo_derived(
+    what: Reading, value: float, reading: Reading, how: Message | None
+) -> InputEcho:
     name, given = what.field.name, reading.field.name
     label = say("column.derived_from", name=name, given=given)
     return InputEcho(
@@ -364,4 +396,5 @@ def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
         text=reading.text,
         value=value,
         cell=reading.place,
+        derivation=how,
     )

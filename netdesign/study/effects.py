@@ -78,7 +78,9 @@ def load_guideline() -> Standard:
 
 
 def find_row_glide_factor(row: NetRow) -> float:
-    """Glide factor of a row [-]; on a free ground the guideline's largest."""
+    """Glide factor of a row as typed [-], or that of its ground."""
+    if row.glide_factor is not None:
+        return row.glide_factor
     table = load_guideline().find_table(GLIDE_FACTORS)
     largest = max((value for _, _, value in table.rows), default=1.0) if table else 1.0
     return find_glide_factor(row.ground, row.snow_thickness, largest)
