@@ -183,7 +183,8 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
 
 def _build_layered(row: NetRow, law: CreepLaw) -> _LayeredScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    return _LayeredScenes(row=replace(row, inputs=(), resistances=()), law=law)
+    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    return _LayeredScenes(row=bare, law=law)
 
 
 def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
