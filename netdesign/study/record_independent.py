@@ -13,12 +13,7 @@ from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_turning_angles,
 )
-from netdesign.checks.laws import (
-    DIRECTION,
-    DIRECTION_ERRORS,
-    LIMITS,
-    is_law_met,
-)
+from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
 from netdesign.envelope.run import CaseResult
 from netdesign.solving.state import SolvedState
 from netdesign.study.records import HeadForce, IndependentRecord

@@ -10,21 +10,14 @@ from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import Case, build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
-from netdesign.study.check_site import (
-    is_calibrated,
-    list_case_notes,
-    list_notes,
-    list_row_notes,
-)
 from netdesign.study.effects import find_effects, load_guideline
-from netdesign.study.members import (
-    record_geometry,
-    record_point,
-    record_result,
-)
+from netdesign.study.members import record_geometry, record_result
+from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
+from netdesign.study.record_cases import is_calibrated, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.values import compare_values
@@ -57,7 +50,7 @@ def audit_site(
     parts = (
         ("project", study.project, site.project),
         ("ranges", study.range_inputs, list(site.range_inputs)),
-        ("notes", study.notes, list_notes(site, law)),
+        ("notes", study.notes, list_site_notes(site, law)),
         ("site_file", study.provenance.site_file, site.file_name),
     )
     for name, one, other in parts:
@@ -192,7 +185,7 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.other_guideline", place=place, value=found.message)
-    largest = find_largest(row, "foot_anchor")
+    largest = find_largest(row, Member.FOOT_ANCHOR)
     if largest is not None and not (
         same_point(point, largest.case)
         and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)

@@ -13,7 +13,7 @@ from netdesign.study.audit.check_audit import audit_checks
 from netdesign.study.audit.comparing import is_of_steady_states, tell_verdict
 from netdesign.study.audit.envelope_audit import Spans, audit_envelope
 from netdesign.study.audit.support_audit import audit_support
-from netdesign.study.check_site import list_reasons
+from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.message import Message, say
 
@@ -75,7 +75,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
         yield say("audit.value_twice")
     if standard is None or standard.sha256 != study.profile.sha256:
         return
-    from netdesign.study.check_site import record_profile
+    from netdesign.study.record_provenance import record_profile
 
     again = record_profile(standard)
     stored = {value.id: asdict(value) for value in study.profile.values}
