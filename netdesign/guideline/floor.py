@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 
 from netdesign.guideline.comparison import (
     GuidelineResult,
+    LoadCase,
     NetGeometry,
     list_load_cases,
     solve_load_case,
 )
-from netdesign.guideline.load_model import LoadModel
-from netdesign.structure.members import Member
+from netdesign.guideline.load_model import LoadModel, SnowLoad
+from netdesign.guideline.net_pull import NetPull
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried. Between two of them a force rises above
@@ -41,14 +42,18 @@ class FloorForce:
         Characteristic, on a support inside the row [N].
     at : LoadedNet
         Net, inclination and glide factor at which it is largest.
-    result : GuidelineResult
-        The load case that brings it.
+    case : LoadCase
+        That brings it.
+    load, pull : SnowLoad, NetPull
+        From which it follows, for each metre of width.
     """
 
     member: str
     force: float
     at: LoadedNet
-    result: GuidelineResult
+    case: LoadCase
+    load: SnowLoad
+    pull: NetPull
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,18 +109,22 @@ def find_floor(
     -----------
     tests/guideline/test_floor.py
     """
-    largest: dict[Member, FloorForce] = {}
+    largest: dict[str, FloorForce] = {}
     for at in _list_tried(nets, inclinations):
         for case in list_load_cases(model, at.net, altitude):
             result = solve_load_case(model, at.net, case, at.glide_factor)
-            if result.anchors is None:
+            if result.anchors is None or result.load is None or result.pull is None:
                 return Floor(reason=_explain(at, result))
-            forces = result.anchors.member_forces
-            for member in Member:
-                known, force = largest.get(member), forces[member]
+            for member, force in result.anchors.member_forces.items():
+                known = largest.get(member)
                 if known is None or force > known.force:
                     largest[member] = FloorForce(
-                        member=member, force=force, at=at, result=result
+                        member=member,
+                        force=force,
+                        at=at,
+                        case=case,
+                        load=result.load,
+                        pull=result.pull,
                     )
     return Floor(forces=tuple(largest.values()))
 

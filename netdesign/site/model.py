@@ -96,6 +96,11 @@ class NetRow:
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
 
+    @property
+    def has_end(self) -> bool:
+        """Whether a support is the last one: without any gap the next work goes on."""
+        return self.gap > 0.0
+
     def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
         """Resistances of a support inside the row, or of its first and last one."""
         if position == "edge" and self.end_resistances is not None:

@@ -6,13 +6,13 @@ from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,
-    NetGeometry,
     compare_with_guideline,
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.floor import build_geometry
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import GuidelineCase, GuidelineRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
@@ -58,15 +58,7 @@ def compare_case(
     standard = load_guideline()
     cases = compare_with_guideline(
         read_load_model(standard),
-        NetGeometry(
-            slope_angle=row.slope_angle,
-            snow_thickness=row.snow_thickness,
-            net_height=row.net_height,
-            inclination=case.inclination,
-            stiffness=row.net_stiffness_per_m,
-            slack=row.slack,
-            layout=row.layout,
-        ),
+        build_geometry(row, case.inclination),
         density=case.density,
         altitude=row.altitude,
         glide_factor=find_row_glide_factor(row),

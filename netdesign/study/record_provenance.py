@@ -24,6 +24,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
         sha256=standard.sha256,
         version=standard.version,
         choice=standard.choice,
+        floor=standard.floor,
         values=[
             ProfileValue(
                 id=entry.id,

@@ -3,7 +3,7 @@
 import math
 import random
 from dataclasses import replace
-from itertools import product
+from itertools import pairwise, product
 
 import pytest
 
@@ -107,7 +107,7 @@ def test_foot_of_a_short_snowpack_by_hand():
         expected.append(spacing * foot)
     found = floor.find(Member.FOOT_ANCHOR)
     assert found.force / 1e3 == pytest.approx(max(expected), rel=1e-6)
-    assert found.result.name == "load_case_2"
+    assert found.case.name == "load_case_2"
     assert max(expected) == expected[1] > 1.05 * expected[0]
 
 
@@ -135,14 +135,14 @@ def test_scan_misses_less_than_a_ten_thousandth():
 def test_largest_force_is_that_of_its_own_case_inclination_and_net():
     glide, altitude = 2.37, 2130.0
     floor = find([LoadedNet(net=a_net(), glide_factor=glide)], altitude)
-    assert {one.member for one in floor.forces} == set(Member)
+    assert {one.member for one in floor.forces} == set(Member) - {Member.NET}
     for one in floor.forces:
         names = ("load_case_1", "load_case_2")
         again = dict(
             zip(names, solve(a_net(), glide, altitude, one.at.net.inclination),
                 strict=True)
         )  # fmt: skip
-        assert again[one.result.name][one.member] == one.force
+        assert again[one.case.name][one.member] == one.force
         assert RANGE[0] <= one.at.net.inclination <= RANGE[1]
         assert all(forces[one.member] <= one.force for forces in again.values())
 
@@ -153,7 +153,7 @@ def test_altitude_counts_in_load_case_1_alone():
     assert find(nets, None) == low
     for below, above in zip(low.forces, high.forces, strict=True):
         assert above.force >= below.force
-    assert high.find(Member.UPHILL_GUY).result.name == "load_case_1"
+    assert high.find(Member.UPHILL_GUY).case.name == "load_case_1"
     ratio = high.find(Member.UPHILL_GUY).force / low.find(Member.UPHILL_GUY).force
     assert 1.2 < ratio < 1.5
 
@@ -192,7 +192,7 @@ def test_inclinations_are_close_and_hold_both_ends():
     low, high = RANGE
     found = list_inclinations(low, high)
     assert (found[0], found[-1]) == (low, high)
-    steps = [b - a for a, b in zip(found[:-1], found[1:], strict=True)]
+    steps = [b - a for a, b in pairwise(found)]
     assert 0.0 < min(steps) <= max(steps) <= SCAN_STEP * (1.0 + 1e-9)
     assert list_inclinations(low, low) == [low]
 
