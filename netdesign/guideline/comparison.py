@@ -51,7 +51,17 @@ class NetGeometry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadCase:
-    """Snow of one load case: mean density [kg/m3] and vertical height [m]."""
+    """Snow of one load case.
+
+    Attributes
+    ----------
+    name : str
+        "same_snow", "load_case_1" or "load_case_2".
+    density : float
+        Mean [kg/m3].
+    height_vertical : float
+        H [m].
+    """
 
     name: str
     density: float
@@ -184,7 +194,19 @@ def list_load_cases(
 def solve_load_case(
     model: LoadModel, net: NetGeometry, case: LoadCase, glide_factor: float
 ) -> GuidelineResult:
-    """Forces of one load case; a reason where the closed forms do not hold."""
+    """Forces of one load case; a reason where the closed forms do not hold.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Of the net row.
+    case : LoadCase
+        Its snow.
+    glide_factor : float
+        N [-].
+    """
     try:
         return _solve_case(model, net, case, glide_factor)
     except ModelError as error:

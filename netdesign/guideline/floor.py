@@ -24,7 +24,15 @@ SCAN_STEP = math.radians(0.1)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedNet:
-    """One net that the ranges of a row allow; the scan replaces its inclination."""
+    """One net that the ranges of a row allow; the scan replaces its inclination.
+
+    Attributes
+    ----------
+    net : NetGeometry
+        Of the row.
+    glide_factor : float
+        N [-].
+    """
 
     net: NetGeometry
     glide_factor: float
@@ -138,7 +146,13 @@ def _list_tried(
 
 
 def list_inclinations(low: float, high: float) -> Sequence[float]:
-    """Inclinations from low to high at most `SCAN_STEP` apart [rad]."""
+    """Inclinations from low to high, at most `SCAN_STEP` apart.
+
+    Parameters
+    ----------
+    low, high : float
+        Both included [rad].
+    """
     steps = math.ceil((high - low) / SCAN_STEP - 1e-9)
     if steps < 1:
         return [low]

@@ -197,7 +197,7 @@ class ActionRecord:
     floor_kN: float | None = None  # the guideline's, inside a row; None: no floor
     guideline_kN: float | None = None  # the same on this support
     floor_case: str = ""  # "load_case_1" or "load_case_2"
-    governs: Literal["coupled", "guideline"] = "coupled"  # the larger of the two
+    governs: str = "coupled"  # or "guideline": the larger of the two
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -442,7 +442,7 @@ class ProfileRecord:
     values: list[ProfileValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
-    floor: Literal["guideline", "none"] = "guideline"  # what no demand lies below
+    floor: str = "guideline"  # what no demand lies below: or "none"
 
 
 @dataclass(frozen=True, kw_only=True)
