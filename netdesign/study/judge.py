@@ -10,13 +10,12 @@ from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.floor import find_row_floor, record_floor
-from netdesign.study.members import RowCheck, check_row
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
@@ -37,7 +36,9 @@ from netdesign.study.records import (
     MonitoringRecord,
     RowStudy,
     Study,
+    list_verdicts,
 )
+from netdesign.study.row_checks import RowCheck, check_row
 from netdesign.units import newton_from_kilonewton
 
 
@@ -110,12 +111,11 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
-    head = record_head(row, governing) if governing else []
-    independent = record_independent(governing, head) if governing else []
-    held = [Verdict.NOT_PROVEN for one in independent if not one.is_met]
+    head = record_head(row, governing)
+    independent = record_independent(governing, head)
     return RowStudy(
         id=row.id,
-        verdict=merge_verdicts([*(check.verdict for check in checks), *held]),
+        verdict=merge_verdicts(list_verdicts(checks, independent)),
         checks=checks,
         extremes=[
             record_extreme(extremes[member])
@@ -126,7 +126,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
-        anchors=record_anchors(governing, effects) if governing else [],
+        anchors=record_anchors(governing, effects),
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,

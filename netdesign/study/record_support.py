@@ -15,14 +15,15 @@ from netdesign.units import degree_from_radian, kilonewton_from_newton
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
-def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord]:
+def record_anchors(
+    result: CaseResult | None, effects: RowEffects
+) -> list[AnchorRecord]:
     """Force vectors on the ground with their direction; slack ones have none."""
-    anchors = result.anchors
-    if anchors is None:
+    if result is None or result.anchors is None:
         return []
     share = effects.lateral_share
     records = []
-    for name, force in anchors.on_ground.items():
+    for name, force in result.anchors.on_ground.items():
         lateral = 0.0 if force.member == Member.POST else share * force.size
         direction = force.direction
         records.append(
@@ -41,13 +42,13 @@ def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord
     return records
 
 
-def record_head(row: NetRow, result: CaseResult) -> list[HeadForce]:
+def record_head(row: NetRow, result: CaseResult | None) -> list[HeadForce]:
     """Forces on the post head, the net's pull first; together they are zero.
 
     The pull is that of the solve; the members' are the reverse of what each does to
     the ground, so that an error in the support would leave the polygon open.
     """
-    if result.solution is None or result.anchors is None:
+    if result is None or result.solution is None or result.anchors is None:
         return []
     pull, width = result.solution.head, row.layout.post_spacing
     anchors = result.anchors

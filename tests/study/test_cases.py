@@ -18,9 +18,9 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
+from netdesign.study.document import read_document, write_document
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
-from netdesign.study.records import read_document, write_document
 from netdesign.words.message import say
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording

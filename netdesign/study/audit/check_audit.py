@@ -233,17 +233,15 @@ def _audit_verdict(
     """The verdict from the band, as ``checks.check`` gives it."""
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
+    used_low, used_high = check.utilisation_band
     is_known = low is not None and high is not None and check.demand_kN is not None
     if check.action_kN == 0.0 and not check.demand_high_kN and complete:
         verdict = Verdict.PASS
         if check.utilisation != 0.0:
             used = show_value(check.utilisation)
             yield say("audit.slack_but_used", place=place, used=used)
-    elif resistance and low is not None and high is not None:
-        verdict = judge(
-            low / resistance, high / resistance,
-            least=0.0, most=1.0, is_complete=complete,
-        )  # fmt: skip
+    elif resistance and used_low is not None and used_high is not None:
+        verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
     if check.verdict is not verdict and not is_held_back(check):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -19,18 +18,22 @@ from netdesign.study.audit.envelope_audit import find_largest, is_complete, same
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
 from netdesign.study.floor import find_row_floor, record_floor
-from netdesign.study.members import (
+from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
+from netdesign.study.record_cases import is_calibrated, record_point
+from netdesign.study.record_guideline import compare_case
+from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
+from netdesign.study.row_checks import (
     list_checked,
     place_check,
     record_geometry,
     record_result,
 )
-from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import is_calibrated, record_point
-from netdesign.study.record_guideline import compare_case
-from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.values import compare_values
-from netdesign.units import newton_from_kilonewton
+from netdesign.units import (
+    degree_from_radian,
+    newton_from_kilonewton,
+    radian_from_degree,
+)
 from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
@@ -100,7 +103,7 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (math.degrees(given.slope_angle), given.snow_thickness)
+        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -204,8 +207,8 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     point = stored.case
     case = Case(
         density=point.density_kg_m3,
-        friction_angle=math.radians(point.friction_deg),
-        inclination=math.radians(point.inclination_deg),
+        friction_angle=radian_from_degree(point.friction_deg),
+        inclination=radian_from_degree(point.inclination_deg),
     )
     again = compare_case(
         given,

@@ -17,8 +17,8 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
 from netdesign.study.audit import audit_study
+from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.record_provenance import record_provenance
-from netdesign.study.records import compute_digest, read_document, write_document
 from netdesign.study.repeat import list_differences
 from netdesign.words.catalogue import render
 from tests.alter_study import alter_leaf, list_leaves
