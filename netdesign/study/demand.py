@@ -10,7 +10,11 @@ from netdesign.guideline.floor import FloorForce
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import ActionRecord
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.units import (
+    given_degree_from_radian,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -80,6 +84,9 @@ class Demand:
             floor_kN=kilonewton_if_known(floor.force if floor else None),
             guideline_kN=kilonewton_if_known(self.guideline),
             floor_case=floor.case.name if floor else "",
+            floor_inclination_deg=given_degree_from_radian(floor.at.net.inclination)
+            if floor
+            else None,
             governs=self.governs,
         )
 

@@ -10,7 +10,7 @@ from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.records import FloorForceRecord, FloorRecord
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
 
 def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | None:
@@ -66,7 +66,7 @@ def _record_force(one: FloorForce) -> FloorForceRecord:
         member=one.member,
         force_kN=kilonewton_from_newton(one.force),
         load_case=one.case.name,
-        inclination_deg=degree_from_radian(one.at.net.inclination),
+        inclination_deg=given_degree_from_radian(one.at.net.inclination),
         density_kg_m3=one.case.density,
         height_vertical_m=one.case.height_vertical,
         creep_factor=one.load.creep_factor,

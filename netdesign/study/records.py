@@ -186,6 +186,7 @@ class ActionRecord:
     floor_kN: float | None = None  # the guideline's, inside a row; None: no floor
     guideline_kN: float | None = None  # the same on this support
     floor_case: str = ""  # "load_case_1" or "load_case_2"
+    floor_inclination_deg: float | None = None  # at which it is largest
     governs: str = "coupled"  # or "guideline": the larger of the two
 
 

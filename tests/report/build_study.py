@@ -364,6 +364,7 @@ def build_check(
             end_factor=1.6,
             end_length_m=1.5,
             lateral_factor=1.0,
+            coupled_kN=extreme.high_kN,
         ),
         spreads=[
             SpreadRecord(

@@ -146,6 +146,11 @@ def _audit_action(
         ("lateral_factor", record.lateral_factor, lateral),
         ("floor_kN", record.floor_kN, least.force_kN if least else None),
         ("guideline_kN", record.guideline_kN, on_support),
+        (
+            "floor_inclination_deg",
+            record.floor_inclination_deg,
+            least.inclination_deg if least else None,
+        ),
         ("action_kN", check.action_kN, max(record.solved_kN * on_row, floor)),
     ]
     if check.action_factor is not None:
