@@ -481,7 +481,7 @@ MONITORING = word_plan(
 )
 
 SHEETS: tuple[SheetPlan, ...] = (
-    *(PROJECT, NETS, ENDS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS),
     MONITORING,
 )
 # The sheet that an annotated copy lists its findings on, by language.
