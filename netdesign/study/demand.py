@@ -104,8 +104,8 @@ def build_demand(
 
 
 def tell_governing(reason: Message, action: ActionRecord) -> Message:
-    """A verdict's reason with the load that governs the demand."""
-    if action.floor_kN is None:
+    """A verdict's reason with the load that governs; of no demand at all, none does."""
+    if action.floor_kN is None or not (action.coupled_kN or action.guideline_kN):
         return reason
     load = say(f"load.{action.governs}", case=name("load_case", action.floor_case))
     return say("load.reason", reason=reason, load=load)

@@ -23,6 +23,7 @@ from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.judge import judge_site
+from netdesign.study.record_provenance import record_profile
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site, resist
 
@@ -106,6 +107,21 @@ def test_every_demand_is_the_larger_of_both_and_says_which(solved):
     assert ("intermediate", "guideline") in seen
 
 
+def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
+    """As values of the floor, unless the profile has the very same of its own."""
+    model = [one for one in SWISS.values if one.id.startswith("snow.")]
+    assert len(model) == 13
+    for profile, prefix in (("eurocode", "floor."), ("swiss-guideline-2007", "")):
+        standard = load_standard(profile)
+        found = {one.id: one for one in record_profile(standard).values}
+        for value in model:
+            one = found[f"{prefix}{value.id}"]
+            assert (one.value, one.status) == (value.value, value.status)
+        assert len(found) == len(standard.listed) + (13 if prefix else 0)
+        none = record_profile(replace(standard, floor="none"))
+        assert not [one for one in none.values if one.id.startswith("floor.")]
+
+
 @pytest.mark.parametrize("profile", ["eurocode", "nf-p-95-304-style"])
 def test_load_model_is_the_guideline_s_under_every_profile(profile):
     assert a_floor(standard=load_standard(profile)) == a_floor()
@@ -161,6 +177,10 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     )
     assert leave_out_governing(told) == reason
     assert leave_out_governing(reason) == reason
+    guy = Member.DOWNHILL_GUY
+    slack = build_demand(effects, guy, effects.supports[1], force, a_floor().find(guy))
+    assert slack.action.high == 0.0
+    assert tell_governing(reason, slack.record(effects, guy)) == reason
 
 
 def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):

@@ -297,9 +297,14 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
         steps += _describe_floor(check, action, solved)
     if action.other_width_m is not None and check.action_kN is not None:
         other = check.action_kN * action.other_width_m / action.loaded_width_m
-        width = show_with_unit("loaded_width_m", action.other_width_m)
-        force = show_with_unit("action_kN", other)
-        steps.append(("E_k (b_e ≠)", f"b_e = {width}", force))
+        width, taken = (
+            show_with_unit("loaded_width_m", one)
+            for one in (action.other_width_m, action.loaded_width_m)
+        )
+        force = show_with_unit("action_kN", check.action_kN)
+        numbers = f"{force} · {width} / {taken}"
+        shown = show_with_unit("action_kN", other)
+        steps.append(("E_k' = E_k · b_e' / b_e", numbers, shown))
     return tuple(steps)
 
 
@@ -370,6 +375,8 @@ def describe_load(check: CheckRecord, words: Words) -> str:
     action = check.action
     if action is None or action.guideline_kN is None:
         return ""
+    if not (action.coupled_kN or action.guideline_kN):
+        return ""  # slack under both
     return words(
         f"show.load_{action.governs}",
         coupled=show_with_unit("coupled_kN", action.coupled_kN),

@@ -111,9 +111,10 @@ def test_width_close_to_a_threshold_shows_both_widths_and_both_forces():
     """4.4 m are used, 3.3 m stand on the other side: three quarters of the force."""
     given = replace(ROW.checks[0].action, other_width_m=3.3)
     *_, last = describe_widths(replace(ROW.checks[0], action=given))
-    assert last[1] == "b_e = 3.30 m"
-    force = 0.75 * ROW.checks[0].action_kN
-    assert last[2] == f"{force:.1f} kN"
+    force = ROW.checks[0].action_kN
+    assert last[0] == "E_k' = E_k · b_e' / b_e"
+    assert last[1] == f"{force:.1f} kN · 3.30 m / 4.40 m"
+    assert last[2] == f"{0.75 * force:.1f} kN"
 
 
 def test_page_draws_the_polygon_of_the_head():
