@@ -138,7 +138,7 @@ def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> s
     action = check.action
     if action is None or action.governs != "guideline":
         return name_case_short(check.case) if is_short else name_case(check.case)
-    named = words.show(name("load_case", action.floor_case))
+    named = show_text(words.show(name("load_case", action.floor_case)))
     inclination = show_with_unit("inclination_deg", action.floor_inclination_deg)
     return f"{named}, θ {inclination}"
 

@@ -23,6 +23,7 @@ from netdesign.report.words import (
     show_check,
     show_member,
     show_quantity,
+    show_text,
     show_with_unit,
 )
 from netdesign.study.records import (
@@ -381,5 +382,5 @@ def describe_load(check: CheckRecord, words: Words) -> str:
         f"show.load_{action.governs}",
         coupled=show_with_unit("coupled_kN", action.coupled_kN),
         guideline=show_with_unit("guideline_kN", action.guideline_kN),
-        case=words.show(name("load_case", action.floor_case)),
+        case=show_text(words.show(name("load_case", action.floor_case))),
     )

@@ -26,7 +26,6 @@ from netdesign.report.view.check_view import (
 from netdesign.report.view.gate import require_consistent
 from netdesign.report.view.table import Table
 from netdesign.report.words import (
-    MISSING,
     VerdictWords,
     Words,
     name_case,
@@ -291,7 +290,7 @@ def _tell_floor(study: Study, words: Words) -> str:
     actions = [c.action for row in study.rows for c in row.checks if c.action]
     governed = sum(one.governs == "guideline" for one in actions)
     profiles = {row.floor.profile for row in study.rows if row.floor}
-    named = ", ".join(sorted(profiles)) or MISSING
+    named = show_text(", ".join(sorted(profiles)))
     return words("floor.told", profile=named, count=governed, all=len(actions))
 
 
