@@ -20,7 +20,7 @@ from netdesign.report.words import (
     show_verdict,
     show_with_unit,
 )
-from netdesign.study.records import CheckRecord
+from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.names import name
 
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # worst first
@@ -133,11 +133,17 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
     )
 
 
+def find_case(check: CheckRecord) -> CasePoint | None:
+    """Case of the ranges that brings the demand; None where the guideline does."""
+    action = check.action
+    return None if action and action.governs == "guideline" else check.case
+
+
 def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
     """Case that brings the demand: of the ranges, or the guideline's load case."""
-    action = check.action
+    action, case = check.action, find_case(check)
     if action is None or action.governs != "guideline":
-        return name_case_short(check.case) if is_short else name_case(check.case)
+        return name_case_short(case) if is_short else name_case(case)
     named = show_text(words.show(name("load_case", action.floor_case)))
     inclination = show_with_unit("inclination_deg", action.floor_inclination_deg)
     return f"{named}, θ {inclination}"

@@ -23,7 +23,7 @@ from netdesign.report.view.check_formulas import (
     write_unchanged,
     write_verdict,
 )
-from netdesign.report.view.check_view import CheckView
+from netdesign.report.view.check_view import CheckView, find_case
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
@@ -129,7 +129,7 @@ _TAIL = (
 _LOADS = (
     _field("Y", "coupled_kN", "high"),
     _field("Z", "guideline_kN"),
-    _Field("AA", "", "heading.governing_load", 14),
+    _Field("AA", "", "heading.governing_load", 20),
 )
 _CASES = tuple(
     _Field(letter, quantity, "", 8.5)
@@ -201,6 +201,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         "check_verdict": _VERDICT,
         "check_rank": _RANK,
         "check_unchanged": _UNCHANGED,
+        "check_load": _LOADS[2],
         **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
     }
     for name, field in named.items():
@@ -247,7 +248,7 @@ class _CheckLine:
         self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
         self._write_numbers(check)
         self._write_verdict(number, check)
-        case = check.case
+        case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
         self._write_loads(check, view)
@@ -267,10 +268,7 @@ class _CheckLine:
         bound, least, governing = _LOADS
         self._put_number(bound, action.coupled_kN if action else None)
         self._put_number(least, action.guideline_kN if action else None)
-        is_told = action is not None and bool(view.load)
-        word = f"load_name.{action.governs}" if action and is_told else ""
-        text = self._book.words(word) if word else MISSING
-        self._put(governing, Cell(text=text))
+        self._put(governing, Cell(text=show_load(check, view, self._book.words)))
 
     def _write_numbers(self, check: CheckRecord) -> None:
         actions, demands = _list_actions(check), _list_demands(check)
@@ -359,6 +357,14 @@ class _CheckLine:
         live = f'=IFERROR({formula},"{MISSING}")'
         cached = MISSING if value is None else value
         self._sheet.write_formula(self._at(field), live, form, cached)
+
+
+def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:
+    """Load that governs; that of the guideline with its case."""
+    if check.action is None or not view.load:
+        return MISSING
+    named = words(f"load_name.{check.action.governs}")
+    return f"{named}, {view.case}" if find_case(check) is None else named
 
 
 def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
