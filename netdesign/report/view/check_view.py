@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.row_tables import describe_load, describe_widths
+from netdesign.report.view.row_tables import describe_load, describe_widths, show_loads
 from netdesign.report.words import (
     MISSING,
     VerdictWords,
@@ -57,6 +57,7 @@ class CheckView:
     case_short: str
     reason: str
     load: str  # which load governs, and both values; "" without a floor
+    loads: str  # both values by their symbols
 
     @property
     def resistance_from(self) -> str:
@@ -130,6 +131,7 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
         case_short=_name_case(check, words, is_short=True),
         reason=words.show(check.reason),
         load=describe_load(check, words),
+        loads=show_loads(check),
     )
 
 

@@ -22,6 +22,7 @@ from netdesign.report.words import (
     show_band,
     show_check,
     show_member,
+    show_number,
     show_quantity,
     show_text,
     show_with_unit,
@@ -373,14 +374,30 @@ def build_floor(row: RowStudy, words: Words) -> Table:
 
 def describe_load(check: CheckRecord, words: Words) -> str:
     """Which load governs a demand, and both values; "" without a floor."""
-    action = check.action
-    if action is None or action.guideline_kN is None:
+    action = _find_loaded(check)
+    if action is None:
         return ""
-    if not (action.coupled_kN or action.guideline_kN):
-        return ""  # slack under both
     return words(
         f"show.load_{action.governs}",
         coupled=show_with_unit("coupled_kN", action.coupled_kN),
         guideline=show_with_unit("guideline_kN", action.guideline_kN),
         case=show_text(words.show(name("load_case", action.floor_case))),
     )
+
+
+def show_loads(check: CheckRecord) -> str:
+    """Both values by their symbols, characteristic; "" without a floor."""
+    action = _find_loaded(check)
+    if action is None:
+        return ""
+    coupled = show_number("coupled_kN", action.coupled_kN)
+    guideline = show_with_unit("guideline_kN", action.guideline_kN)
+    return f"E_c ≤ {coupled}, E_g = {guideline}"
+
+
+def _find_loaded(check: CheckRecord) -> ActionRecord | None:
+    """Action under a floor; None without one, and of a member slack under both."""
+    action = check.action
+    if action is None or action.guideline_kN is None:
+        return None
+    return action if action.coupled_kN or action.guideline_kN else None
