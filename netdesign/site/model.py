@@ -98,7 +98,7 @@ class NetRow:
 
     @property
     def has_end(self) -> bool:
-        """Whether a support is the last one: without any gap the next work goes on."""
+        """End of the row: there is none where the next work goes on without a gap."""
         return self.gap > 0.0
 
     def resistances_at(self, position: Position) -> tuple[Resistance, ...]:

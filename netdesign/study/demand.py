@@ -54,7 +54,7 @@ class Demand:
 
     @property
     def governs(self) -> Governing:
-        """Which of the two is larger; the coupled force counts with its upper end."""
+        """Larger one of the two; the coupled force counts with its upper end."""
         least = self.guideline
         return "guideline" if least and least >= self.coupled.high else "coupled"
 
@@ -69,7 +69,7 @@ class Demand:
         )
 
     def record(self, effects: RowEffects, member: str) -> ActionRecord:
-        """How the action follows from solve and guideline, in engineer's units."""
+        """Action with what it follows from, solve and guideline, in engineer's units."""
         width, floor = self.width, self.floor
         return ActionRecord(
             solved_kN=kilonewton_from_newton(self.solved.value),

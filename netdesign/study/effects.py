@@ -1,4 +1,4 @@
-"""What turns a solved force into those of the supports of a row."""
+"""Effects that turn a solved force into those of the supports of a row."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ class Target:
 
     @property
     def is_slack(self) -> bool:
-        """Whether the member carries nothing in any solved case."""
+        """Slackness: the member carries nothing in any solved case."""
         return all(not self.utilisation(result) for result in self.results)
 
     def utilisation(self, result: CaseResult) -> float | None:

@@ -161,7 +161,7 @@ def _list_levels(
 
 
 def _fails_by_floor(check: CheckRecord) -> bool:
-    """Whether the guideline's load alone exceeds the resistance."""
+    """Failure by the guideline's load alone."""
     least = check.action.guideline_kN if check.action else None
     demand = (least or 0.0) * (check.action_factor or 0.0)
     return check.resistance_kN is not None and demand > check.resistance_kN

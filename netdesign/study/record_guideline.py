@@ -83,7 +83,7 @@ def compare_case(
 def _explain_difference(
     row: NetRow, case: Case, foot: float, cases: Sequence[GuidelineResult]
 ) -> Message:
-    """Which of the two is larger at the foot, by how much, and the known cause."""
+    """Sentence on the larger of the two at the foot, its excess and known cause."""
     same, *governing = cases
     forces = {one.name: _find_foot(one) for one in governing}
     known = {name: force for name, force in forces.items() if force}

@@ -103,7 +103,7 @@ def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckReco
 def list_checked(
     row: NetRow, effects: RowEffects
 ) -> list[tuple[LoadedWidth, Resistance]]:
-    """What is checked of a row: each member of each support, in each mode."""
+    """Members that are checked of a row, on each support and in each mode."""
     return [
         (width, given)
         for width in effects.supports

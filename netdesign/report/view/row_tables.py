@@ -373,7 +373,7 @@ def build_floor(row: RowStudy, words: Words) -> Table:
 
 
 def describe_load(check: CheckRecord, words: Words) -> str:
-    """Which load governs a demand, and both values; "" without a floor."""
+    """Governing load of a demand, with both values; "" without a floor."""
     action = _find_loaded(check)
     if action is None:
         return ""

@@ -284,7 +284,7 @@ def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
 
 
 def _tell_floor(study: Study, words: Words) -> str:
-    """What no demand lies below, and how often it governs."""
+    """Floor of the demands, and how often it governs."""
     if study.profile.floor == "none":
         return words("floor.none")
     actions = [c.action for row in study.rows for c in row.checks if c.action]

@@ -81,7 +81,7 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
 
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
-    """Whether the row has a last support that is loaded by a rule of the profile."""
+    """Presence of a last support that a rule of the profile loads."""
     gap = say("column.Nets.gap")
     goes_on = any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
     return not goes_on and any(one.id == "end.constant" for one in profile.values)
@@ -185,7 +185,7 @@ def _audit_governing(
     record: ActionRecord,
     least: FloorForceRecord | None,
 ) -> Iterator[Message]:
-    """Which load governs, as the larger one says; the reason names it."""
+    """Governing load: the larger one, which the reason names."""
     floor = record.guideline_kN or 0.0
     governs = "guideline" if floor and floor >= record.coupled_kN else "coupled"
     case = least.load_case if least else ""

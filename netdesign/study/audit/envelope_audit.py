@@ -213,7 +213,7 @@ def _audit_bound(
 
 
 def is_complete(row: RowStudy) -> bool:
-    """Whether nothing lacks: every case solved, nothing left open, the floor known."""
+    """Completeness: every case solved, nothing left open, the floor known."""
     record = row.envelope
     if row.floor is not None and row.floor.reason is not None:
         return False
