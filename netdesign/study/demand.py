@@ -69,7 +69,7 @@ class Demand:
         )
 
     def record(self, effects: RowEffects, member: str) -> ActionRecord:
-        """Action with what it follows from, solve and guideline, in engineer's units."""
+        """Action with what it follows from, in engineer's units."""
         width, floor = self.width, self.floor
         return ActionRecord(
             solved_kN=kilonewton_from_newton(self.solved.value),
