@@ -200,12 +200,14 @@ def test_a_missing_resistance_is_named(judge):
     assert check.resistance_kN is None
     assert "no resistance is given for " in str(check.reason)
     assert "Anchors!B2" in str(check.reason)
+    end = check_of(study, "foot_anchor.pull_out.end")
     assert study.rows[0].reasons == [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode),
-            reason=check.reason,
+            check=name_check(one.member, one.mode, one.position),
+            reason=one.reason,
         )
+        for one in (check, end)
     ]
 
 

@@ -91,6 +91,10 @@ def scale_guideline(record, factor):
     for case in record["cases"]:
         for key in ("foot_difference_percent", "load_difference_percent"):
             case[key] = 100.0 * (factor * (1.0 + case[key] / 100.0) - 1.0)
+    told = record["sentence"]["arguments"]
+    told["coupled"] *= factor
+    sizes = sorted((told["coupled"], told["guideline"]))
+    told["percent"] = 100.0 * (sizes[1] / sizes[0] - 1.0)
 
 
 @alteration
