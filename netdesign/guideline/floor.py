@@ -18,7 +18,7 @@ from netdesign.guideline.net_pull import NetPull
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried. Between two of them a force rises above
-# both by less than 1e-4 of its size (tests/guideline/test_floor.py).
+# both by less than 1e-5 of its size (tests/guideline/test_floor.py).
 SCAN_STEP = math.radians(0.1)
 
 
