@@ -14,6 +14,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
@@ -83,6 +84,8 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     glide_factor: float | None = None  # as typed, of sliding ground
+    # of the first and last support; None: those of all others
+    end_resistances: tuple[Resistance, ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -94,6 +97,17 @@ class NetRow:
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    @property
+    def has_end(self) -> bool:
+        """End of the row: there is none where the next work goes on without a gap."""
+        return self.gap > 0.0
+
+    def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
+        """Resistances of a support inside the row, or of its first and last one."""
+        if position == "edge" and self.end_resistances is not None:
+            return self.end_resistances
+        return self.resistances
 
     @property
     def mean_density(self) -> float:
