@@ -91,9 +91,7 @@ def check_member(
     gaps = [gap] if gap else []
     gaps += [lack] if lack else []
     gaps += _missing(resistance, standard, on_action, on_resistance)
-    is_slack = action is not None and action.high == 0.0 and gap is None
-    if is_slack:  # nothing to resist: the utilisation is 0 of any resistance
-        utilisation, gaps = action, []
+    is_slack = action is not None and action.high == 0.0
     verdict = _judge_utilisation(utilisation, is_complete=gap is None)
     return CheckResult(
         id=f"{resistance.member}.{resistance.mode}",

@@ -31,28 +31,10 @@ def write_quotient(above: str, below: str) -> str:
     return f'IF({is_known},{above}/{below},"{MISSING}")'
 
 
-def write_ratio(
-    demand: str, resistance: str, is_slack: str, parts: Sequence[str]
-) -> str:
-    """Utilisation; of a slack member 0, where the study names no resistance for it.
-
-    ``is_slack`` is a condition, ``parts`` are the cells of resistance and factor.
-    """
-    unnamed = [f'{part}="{MISSING}"' for part in parts]
-    sound = [
-        f"OR({no},{_is_given(part, '>0')})"
-        for part, no in zip(parts, unnamed, strict=True)
-    ]
-    alone = f"AND({is_slack},OR({','.join(unnamed)}),{','.join(sound)})"
-    without = f'IF({alone},0,"{MISSING}")'
+def write_ratio(demand: str, resistance: str) -> str:
+    """Utilisation: a demand of at least zero over a resistance above zero."""
     known = f"AND({_is_number(demand, '>=0')},{_is_number(resistance, '>0')})"
-    return f"IF({known},{demand}/{resistance},{without})"
-
-
-def write_slack(demands: Sequence[str], given: str) -> str:
-    """Condition: no demand at all, and the study holds nothing back in ``given``."""
-    zeros = ",".join(_is_number(demand, "=0") for demand in demands)
-    return f'AND({zeros},{given}="{MISSING}")'
+    return f'IF({known},{demand}/{resistance},"{MISSING}")'
 
 
 def write_verdict(ends: Sequence[str], given: str, words: dict[Verdict, str]) -> str:

@@ -109,13 +109,8 @@ def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
 
 
 def find_utilisation_band(check: CheckRecord) -> tuple[float | None, float | None]:
-    """Utilisation at the low and at the high end of the demand.
-
-    A slack member uses nothing of any resistance, even of one that is not given.
-    """
+    """Utilisation at the low and at the high end of the demand."""
     resistance = check.resistance_kN
-    if resistance is None and check.utilisation == 0.0:
-        return 0.0, 0.0
     if not resistance or check.demand_low_kN is None or check.demand_high_kN is None:
         return None, None
     return check.demand_low_kN / resistance, check.demand_high_kN / resistance

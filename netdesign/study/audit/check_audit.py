@@ -150,12 +150,7 @@ def _audit_verdict(
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
     is_known = low is not None and high is not None and check.demand_kN is not None
-    if check.action_kN == 0.0 and not check.demand_high_kN and complete:
-        verdict = Verdict.PASS
-        if check.utilisation != 0.0:
-            used = show_value(check.utilisation)
-            yield say("audit.slack_but_used", place=place, used=used)
-    elif resistance and low is not None and high is not None:
+    if resistance and low is not None and high is not None:
         verdict = judge(
             low / resistance, high / resistance,
             least=0.0, most=1.0, is_complete=complete,
