@@ -28,11 +28,10 @@ MEMBER_MODES: tuple[tuple[str, str], ...] = (
     (Member.DOWNHILL_ANCHOR, "tendon"),
     (Member.DOWNHILL_ANCHOR, "pull_out"),
     (Member.POST, "compression"),
+    (Member.POST_BASE, "bearing"),
 )
-# Checked only where the workbook gives the resistance, in the sheet of that member.
-OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (
-    (Member.POST_BASE, "bearing", "post"),
-)
+# Columns that name the type of a member without a type of its own.
+NAMED_BY: Mapping[str, str] = {Member.POST_BASE: Member.POST}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
