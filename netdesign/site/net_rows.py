@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
 from netdesign.site.model import (
@@ -166,6 +167,9 @@ def _build_net_row(
     )
     if is_faulty or thickness is None or ground is None or len(findings) > count_before:
         return None
+    if is_overtopped(row["net_height"].si, thickness):
+        rule = say("nets.overtopped", thickness=thickness)
+        refuse(row["net_height"], rule, "", findings, severity="note")
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
