@@ -20,7 +20,7 @@ from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
 # What a member can fail by; the keys under which resistances are given.
-MEMBER_MODES: tuple[tuple[str, str], ...] = (
+MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.FOOT_ANCHOR, "tendon"),
     (Member.FOOT_ANCHOR, "pull_out"),
     (Member.UPHILL_GUY, "rope"),
@@ -33,7 +33,7 @@ MEMBER_MODES: tuple[tuple[str, str], ...] = (
     (Member.POST_BASE, "bearing"),
 )
 # Columns that name the type of a member without a type of its own.
-NAMED_BY: Mapping[str, str] = {Member.POST_BASE: Member.POST}
+NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +43,7 @@ class Resistance:
     ``value`` [N] is None where the workbook gives none; ``source`` is its cell.
     """
 
-    member: str
+    member: Member
     mode: str
     value: float | None
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
