@@ -72,6 +72,13 @@ class GivenResistance(Protocol):
         """Pull-out tests in the place of a value [N]; None without."""
 
 
+def tell_proof(document: str, author: str, date: str, cell: str) -> Message:
+    """Document, author, date ("" for none) and cell of a declaration as one phrase."""
+    if not date:
+        return say("check.proof_undated", document=document, author=author, cell=cell)
+    return say("check.proof", document=document, author=author, date=date, cell=cell)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
     """Somebody's word that a check is proven elsewhere.
@@ -98,11 +105,8 @@ class Declaration:
 
     @property
     def proof(self) -> Message:
-        """Document, author, date and cell as one phrase."""
-        told = {"document": self.document, "author": self.author, "cell": self.source}
-        if self.date:
-            return say("check.proof", date=self.date, **told)
-        return say("check.proof_undated", **told)
+        """Where it is proven, as one phrase."""
+        return tell_proof(self.document, self.author, self.date, self.source)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -69,7 +69,13 @@ MESH_LEVELS = tuple(
 
 
 def is_overtopped(net_height: float, thickness: float) -> bool:
-    """Whether snow stands above a net's head; both normal to the slope [m]."""
+    """Test for snow above a net's head, more than rounding of equal heights.
+
+    Parameters
+    ----------
+    net_height, thickness : float
+        Of net and snow, normal to the slope [m].
+    """
     return net_height < thickness * (1.0 - _OVERTOPPING)
 
 

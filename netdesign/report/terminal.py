@@ -23,7 +23,12 @@ if TYPE_CHECKING:
 
 _NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
 _PIPE = 160  # columns where the output is no terminal: nobody has to fold it
-_STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
+_STYLES = {
+    "pass": "green",
+    "fail": "bold red",
+    "not-proven": "yellow",
+    "declared": "cyan",
+}
 
 
 def open_console() -> Console:
@@ -135,6 +140,7 @@ def _list_lines(view: ReportView, words: Words) -> list[str]:
     lines = [name(row.id, reason) for row in view.rows for reason in row.reasons]
     lines = lines or [words("show.reasons_none")]
     lines += [name(label, text) for label, text in view.counts]
+    lines += [name(words("heading.declared_elsewhere"), one) for one in view.declared]
     assumed = view.assumed_line or words("show.none")
     notes = [words("show.note", note=note) for note in view.notes]
     return [*lines, words("show.assumed_line", values=assumed), *notes]

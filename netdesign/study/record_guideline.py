@@ -60,7 +60,7 @@ def compare_case(
         read_load_model(standard),
         NetGeometry(
             slope_angle=row.slope_angle,
-            snow_thickness=row.snow_thickness,
+            snow_thickness=row.held_thickness,
             net_height=row.net_height,
             inclination=case.inclination,
             stiffness=row.net_stiffness_per_m,

@@ -33,6 +33,7 @@ def record_profile(standard: Standard) -> ProfileRecord:
                 unit=entry.unit,
                 status=entry.status,
                 source=entry.source,
+                reason_below_one=entry.reason_below_one,
             )
             for entry in standard.listed
         ],

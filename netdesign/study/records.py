@@ -208,6 +208,16 @@ class ChangeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DeclarationRecord:
+    """Where a check is said to be proven, by whom and when."""
+
+    document: str
+    author: str
+    date: str  # "" where none is given
+    cell: str  # "Declared!B2"
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -236,6 +246,7 @@ class CheckRecord:
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     action: ActionRecord | None = None
+    declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
 
@@ -403,6 +414,7 @@ class ProfileValue:
     unit: str
     status: str  # "read", "secondary", "assumed", "user"
     source: str
+    reason_below_one: str = ""  # why a factor may lie below 1
 
 
 @dataclass(frozen=True, kw_only=True)

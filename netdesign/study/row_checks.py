@@ -8,17 +8,22 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import (
     CheckResult,
+    Declaration,
     RowGeometry,
     Standard,
     check_geometry,
     check_member,
+    declare,
+    withhold,
 )
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
-from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
+from netdesign.study.calibration import find_doubt
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
@@ -30,7 +35,12 @@ from netdesign.study.flips import (
 )
 from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    DeclarationRecord,
+    SpreadRecord,
+)
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -52,6 +62,7 @@ class RowCheck:
     row: NetRow
     solved: RowGrid | RowEnvelope
     standard: Standard
+    law: CreepLaw
     probe: Probe | None
     on_check: Callable[[], None] = lambda: None
 
@@ -66,16 +77,27 @@ def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckReco
     for given in task.row.resistances:
         checks.append(_check_one(task, given, extremes, effects))
         task.on_check()
-    return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
+    return [*checks, *record_geometry(task.site, task.row, task.standard)]
 
 
-def record_geometry(
-    row: NetRow, ranges: Ranges, standard: Standard
-) -> list[CheckRecord]:
+def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
-    geometry = [*check_geometry(read_geometry(row, ranges), standard)]
+    geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
     ends = check_ends(find_effects(row, standard))
-    return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
+    results = [*geometry, *([ends] if ends else [])]
+    return [record_result(settle_check(site, row, one)) for one in results]
+
+
+def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
+    """Check with what the workbook says beside its numbers.
+
+    Forces of a net below its snow are those of snow up to its head: information.
+    A check may be declared as proven elsewhere.
+    """
+    if row.is_overtopped and result.member != Member.NET:
+        result = withhold(result, say("check.overtopped"))
+    declaration = site.find_declaration(row.id, result.member, result.mode)
+    return declare(result, declaration)
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
@@ -100,17 +122,26 @@ def _check_one(
     extreme = extremes.get(given.member)
     gap = task.solved.gap
     if extreme is None:
-        return record_result(check_member(None, given, task.standard, gap=gap), given)
+        result = check_member(None, given, task.standard, gap=gap)
+        return record_result(settle_check(task.site, task.row, result), given)
+    doubt = find_doubt(
+        task.site,
+        task.row,
+        task.law,
+        density=extreme.governing.case.density,
+        largest=extreme.widened.high,
+    )
     factor = effects.factor(given.member)
     action = extreme.widened.times(factor)
-    result = check_member(action, given, task.standard, gap=gap)
+    result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
     before = task.probe.faults if task.probe else 0
     spreads = _list_spreads(task, extreme, result)
-    changes = _list_changes(task, given, extreme, effects, result)
+    changes = _list_changes(task, given, extreme, effects, result, doubt)
     if task.probe and task.probe.faults > before and not gap:
-        result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
+        gap = _FAULT_BESIDE
+        result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
     return replace(
-        record_result(result, given),
+        record_result(settle_check(task.site, task.row, result), given),
         case=record_point(extreme.governing.case),
         action=effects.record(given.member, extreme.force),
         spreads=spreads,
@@ -142,6 +173,18 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
         resistance_derivation=_describe_derivation(given, result),
+        declared=_record_declaration(result.declaration),
+    )
+
+
+def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
+    if given is None:
+        return None
+    return DeclarationRecord(
+        document=given.document,
+        author=given.author,
+        date=given.date,
+        cell=given.source,
     )
 
 
@@ -212,21 +255,22 @@ def _list_changes(
     extreme: Extreme,
     effects: RowEffects,
     result: CheckResult,
+    doubt: Message | None,
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check."""
-    if result.demand is None or result.demand.high == 0.0:
+    if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
         return []
     used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
     gap = task.solved.gap
-    if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
-        return []  # a case without result is not mended by any change
+    if not is_close and (result.verdict is Verdict.PASS or (used and (gap or doubt))):
+        return []  # neither a missing result nor a doubt is mended by any change
     changes = _list_resistance_changes(task, given, result)
     if used is None or result.design_resistance is None:
         return changes
     changes.append(find_spacing_change(effects, used.high))
-    if gap:
-        note = say("change.as_far_as_solved")
+    if gap or doubt:
+        note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
@@ -242,11 +286,20 @@ def _list_changes(
         results=task.solved.results,
     )
     found = (
-        find_density_change(target, task.probe),
+        _doubt_density(task, find_density_change(target, task.probe)),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
     return [*changes, *(change for change in found if change is not None)]
+
+
+def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
+    """Change of density that says where the creep law is not given for its snow."""
+    if change.bound is None or not find_doubt(
+        task.site, task.row, task.law, density=change.bound, largest=math.inf
+    ):
+        return change
+    return replace(change, note=say("change.if_law_accepted"))
 
 
 def _list_resistance_changes(

@@ -44,7 +44,8 @@ def require_consistent(study: Study) -> None:
 
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
     merged = merge_verdicts(parts)
-    is_held_back = whole is Verdict.NOT_PROVEN and merged is Verdict.PASS
+    better = (Verdict.PASS, Verdict.DECLARED)
+    is_held_back = whole is Verdict.NOT_PROVEN and merged in better
     if whole is not merged and not is_held_back:
         raise NetDesignError(tell_verdict(place, whole, merged))
 
@@ -69,6 +70,8 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
         if parts is None or not math.isclose(whole, parts, rel_tol=_TOLERANCE):
             raise NetDesignError(tell_value(place, name, whole, parts))
     _require_sizes(place, check)
+    if (check.verdict is Verdict.DECLARED) and check.declared is None:
+        raise NetDesignError(say("audit.declared_by_nobody", place=place))
     if check.verdict is Verdict.PASS and not _is_of_geometry(check):
         _, high = check.utilisation_band
         if high is None or not high <= 1:

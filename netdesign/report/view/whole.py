@@ -9,8 +9,9 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
+from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import basis_tables, envelope_tables, row_tables, tables
 from netdesign.report.view.check_view import (
@@ -29,6 +30,7 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     name_case,
+    show_check,
     show_member,
     show_own,
     show_quantity,
@@ -89,6 +91,7 @@ class ReportView:
     verification: tuple[tuple[str, str], ...]  # how a reader finds whether it is true
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
+    declared: tuple[str, ...]  # checks that are said to be proven elsewhere
     assumed: Table
     assumed_line: str
     scope: tuple[str, ...]
@@ -133,6 +136,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study, words),
+        declared=_list_declared(study, words),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
         scope=basis_tables.list_scope(words),
@@ -144,7 +148,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ),
         profile_title=_name_profile(study, words),
         profile=tables.build_profile(study, words),
-        notes=tuple(words.show(note) for note in study.notes),
+        notes=(
+            *(words.show(note) for note in study.notes),
+            *tables.list_below_one(study.profile, words),
+        ),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -277,6 +284,21 @@ def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
             words("heading.cases"),
             words("show.cases_solved", solved=cases - failed, failed=failed),
         ),
+    )
+
+
+def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
+    """Checks that count as declared, each with its row and where it is proven."""
+    return tuple(
+        words(
+            "show.declared",
+            row=show_text(row.id),
+            check=show_check(words, check),
+            proof=words.show(tell_proof(**asdict(check.declared))),
+        )
+        for row in study.rows
+        for check in row.checks
+        if check.declared and check.verdict is Verdict.DECLARED
     )
 
 

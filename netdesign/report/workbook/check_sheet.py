@@ -280,7 +280,7 @@ class _CheckLine:
         self._put(_SET, Cell(text=shown if is_set else MISSING))
         ends = [self._at(field) for field in _RATIOS]
         formula = (
-            write_verdict(ends, given, words)
+            write_verdict(ends, given, self._at(_STUDY_VERDICT), words)
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )

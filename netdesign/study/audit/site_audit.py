@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import Case, build_cases
@@ -13,12 +13,17 @@ from netdesign.structure.members import Member
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.effects import find_effects, load_guideline
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import is_calibrated, record_point
+from netdesign.study.record_cases import record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import record_geometry, record_result
+from netdesign.study.row_checks import (
+    record_geometry,
+    record_result,
+    settle_check,
+)
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
@@ -29,6 +34,16 @@ from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
 _MOST = 5  # places of one row that are named
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Basis:
+    """What the checks of a net row rest on, beside its forces."""
+
+    site: Site
+    row: NetRow
+    standard: Standard
+    law: CreepLaw
 
 
 def audit_site(
@@ -65,9 +80,8 @@ def audit_site(
         if row.id in rows:
             yield from _audit_row(row, rows[row.id], site, law)
             if standard is not None and is_known:
-                yield from _audit_judgement(
-                    row, rows[row.id], site, standard, is_steady=is_steady
-                )
+                basis = _Basis(site=site, row=rows[row.id], standard=standard, law=law)
+                yield from _audit_judgement(row, basis, is_steady=is_steady)
 
 
 def _find_law(study: Study) -> CreepLaw:
@@ -94,7 +108,7 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
+        wanted = (degree_from_radian(given.slope_angle), given.held_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -107,15 +121,16 @@ def _audit_row(
 
 
 def _audit_judgement(
-    row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
+    row: RowStudy, basis: _Basis, *, is_steady: bool
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
-    effects = find_effects(given, standard)
+    given = basis.row
+    effects = find_effects(given, basis.standard)
     members = [
-        _judge_again(row, check, resistance, standard)
+        _judge_again(row, check, resistance, basis)
         for check, resistance in zip(row.checks, given.resistances, strict=False)
     ]
-    expected = [*members, *record_geometry(given, site.ranges, standard)]
+    expected = [*members, *record_geometry(basis.site, given, basis.standard)]
     stored, again = (
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
@@ -138,7 +153,7 @@ def _audit_judgement(
 
 
 def _judge_again(
-    row: RowStudy, check: CheckRecord, given: Resistance, standard: Standard
+    row: RowStudy, check: CheckRecord, given: Resistance, basis: _Basis
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -153,7 +168,17 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    again = record_result(check_member(action, given, standard, gap=gap), given)
+    doubt = None
+    if action is not None and check.case is not None:
+        doubt = find_doubt(
+            basis.site,
+            basis.row,
+            basis.law,
+            density=check.case.density_kg_m3,
+            largest=action.high,
+        )
+    result = check_member(action, given, basis.standard, gap=gap, doubt=doubt)
+    again = record_result(settle_check(basis.site, basis.row, result), given)
     # a gap in its own words is one
     return again if is_whole else replace(again, reason=check.reason)
 

@@ -186,17 +186,17 @@ def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
         assert (texts == {changed}) is (line in spoilt), check.id
     summary = book[words("heading.summary")]
     assert summary["D3"].value == words("meaning.not_proven")
-    assert summary["M6"].value == changed
-    assert summary["J6"].value == sheet["C5"].value  # the first of those not proven
+    assert summary["N6"].value == changed
+    assert summary["K6"].value == sheet["C5"].value  # the first of those not proven
 
 
 def test_what_governs_and_why_follows_an_edited_cell(fresh):
     book = read_workbook(fresh["edited"])
     checks, summary = book["Checks"], book["Summary"]
-    assert [summary[f"J{line}"].value for line in (6, 7, 8)] == [
+    assert [summary[f"K{line}"].value for line in (6, 7, 8)] == [
         "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
     ]  # fmt: skip
-    assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
+    assert summary["L6"].value == "450 kg/m³, φ 15°, θ 35°"
     changed = ENGLISH(CHANGED)
     assert [checks[f"X{line}"].value == changed for line in (5, 6, 18, 22)] == [
         False, True, True, True
