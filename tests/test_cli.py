@@ -258,7 +258,9 @@ def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
     assert "1 DECLARED" in result.stdout
     assert proof in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     book = openpyxl.load_workbook(tmp_path / "out" / "report.xlsx")
-    assert proof in {cell.value for line in book["Summary"].iter_rows() for cell in line}
+    assert proof in {
+        cell.value for line in book["Summary"].iter_rows() for cell in line
+    }
     again = run("report", "out/study.json", "--out", "again", cwd=tmp_path)
     assert again.returncode == 6, again.stderr
 

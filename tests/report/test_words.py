@@ -2,6 +2,7 @@ import math
 
 import pytest
 
+from netdesign.commands.running import EXIT_CODES
 from netdesign.errors import SolveError
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
