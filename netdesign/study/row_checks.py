@@ -101,7 +101,7 @@ def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
-    """What a row's checks of geometry need."""
+    """Input of a row's checks of geometry."""
     return RowGeometry(
         inclination_low=ranges["inclination"].low,
         inclination_high=ranges["inclination"].high,
