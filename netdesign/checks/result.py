@@ -105,7 +105,7 @@ class Declaration:
 
     @property
     def proof(self) -> Message:
-        """Where it is proven, as one phrase."""
+        """The place of the proof, as one phrase."""
         return tell_proof(self.document, self.author, self.date, self.source)
 
 

@@ -60,7 +60,7 @@ def read_declared(
 
 
 def _meet(one: Declaration, other: Declaration) -> bool:
-    """Whether two declarations concern the same check of some net row."""
+    """Two declarations concern the same check of some net row."""
     same_row = one.row_id == other.row_id or "" in (one.row_id, other.row_id)
     return same_row and (one.member, one.mode) == (other.member, other.mode)
 

@@ -8,14 +8,14 @@ from netdesign.words.message import Message, say
 
 
 def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """Whether a law is given for the density of a case [kg/m3], and of each layer."""
+    """The law is given for the density of a case [kg/m3], and of each layer."""
     return all(law.is_calibrated(one / ICE_DENSITY) for one in _list(row, density))
 
 
 def find_doubt(
     site: Site, row: NetRow, law: CreepLaw, *, density: float, largest: float
 ) -> Message | None:
-    """Why the creep law may not hold for a member's largest force; None if it does.
+    """Doubt that the creep law holds for a member's largest force; None without.
 
     The workbook may accept the law by its name.
 

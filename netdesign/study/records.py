@@ -209,7 +209,7 @@ class ChangeRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class DeclarationRecord:
-    """Where a check is said to be proven, by whom and when."""
+    """Place of a proof elsewhere, with its author and date."""
 
     document: str
     author: str

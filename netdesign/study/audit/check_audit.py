@@ -175,7 +175,7 @@ def _audit_verdict(
 
 
 def _is_information(check: CheckRecord, row: RowStudy) -> bool:
-    """Whether a check is left open since the net stands below its snow."""
+    """The check is left open since the net stands below its snow."""
     too_low = any(
         one.id == "geometry.height" and one.verdict is Verdict.FAIL
         for one in row.checks

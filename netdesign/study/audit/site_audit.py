@@ -38,7 +38,7 @@ _MOST = 5  # places of one row that are named
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Basis:
-    """What the checks of a net row rest on, beside its forces."""
+    """Basis of the checks of a net row, beside its forces."""
 
     site: Site
     row: NetRow
