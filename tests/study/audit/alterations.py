@@ -642,3 +642,40 @@ def a_measurement_added(study):
 @alteration
 def a_layer_of_the_drawing_thinner(study):
     study["rows"][0]["drawing"]["snow_thickness_m"] *= 0.8
+
+
+def call_declared(study):
+    """A check, its row and the study take the verdict of a declaration."""
+    row = study["rows"][0]
+    for part in (row["checks"][0], row, study):
+        part["verdict"] = "declared"
+    return row["checks"][0]
+
+
+@alteration
+def a_check_declared_by_nobody(study):
+    call_declared(study)
+
+
+@alteration
+def a_declaration_forged(study):
+    check = call_declared(study)
+    check["declared"] = {
+        "document": "Report 4", "author": "N. N.", "date": "", "cell": "Declared!B2"
+    }  # fmt: skip
+    proof = {"document": "Report 4", "author": "N. N.", "cell": "Declared!B2"}
+    check["reason"] = {"key": "check.declared", "arguments": {
+        "proof": {"key": "check.proof_undated", "arguments": proof},
+        "reason": check["reason"],
+    }}  # fmt: skip
+
+
+@alteration
+def another_creep_law_accepted(study):
+    study["project"]["accepted_law"] = "boutillier-2004"
+
+
+@alteration
+def light_snow_called_that_of_the_law(study):
+    for case in study["rows"][0]["cases"]:
+        case["is_calibrated"] = True
