@@ -5,6 +5,7 @@ from netdesign.outcome import Outcome, Verdict
 OBJECTS = (
     "action",
     "case",
+    "declared",
     "drawing",
     "guideline",
     "floor",

@@ -54,6 +54,8 @@ class StandardValue:
         Such as "deg", "m" or "-".
     status : str
         "read" in the document, from a "secondary" source, "assumed", or "user".
+    reason_below_one : str
+        Why a factor may lie below 1; "" for every other value.
     """
 
     id: str
@@ -63,6 +65,7 @@ class StandardValue:
     unit: str
     status: str
     source: str
+    reason_below_one: str = ""
 
     @property
     def value_si(self) -> float:
@@ -81,7 +84,7 @@ class StandardTable:
 
     Attributes
     ----------
-    id, clause, text, status, source : str
+    id, clause, text, status, source, reason_below_one : str
         As for a `StandardValue`.
     over : str
         What is counted: "tests".
@@ -96,6 +99,7 @@ class StandardTable:
     status: str
     source: str
     rows: tuple[tuple[int, float, float], ...]
+    reason_below_one: str = ""
 
     def find(self, count: int) -> float | None:
         """Value at a count [-]; None outside the table: no extrapolation."""
@@ -117,6 +121,7 @@ class StandardTable:
                 unit="-",
                 status=self.status,
                 source=self.source,
+                reason_below_one=self.reason_below_one if value < 1.0 else "",
             )
             for low, high, value in self.rows
         )

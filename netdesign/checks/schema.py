@@ -174,10 +174,16 @@ class LimitEntry(Entry):
 
 
 class FactorEntry(Entry):
-    """A partial factor on actions or resistances."""
+    """A partial factor on actions or resistances; below 1 only with a reason."""
 
     id: Annotated[str, AfterValidator(_factor_id)]
     unit: Literal["-"]
+    reason_below_one: str = ""
+
+    @model_validator(mode="after")
+    def _check(self) -> FactorEntry:
+        _require_reason(self.id, self.value, self.reason_below_one)
+        return self
 
 
 class ModelEntry(Entry):
@@ -204,7 +210,10 @@ class TableRow(_Table):
 
 
 class TableEntry(_Table):
-    """Values by a count: rows in order, without overlap and without a gap."""
+    """Values by a count: rows in order, without overlap and without a gap.
+
+    A value below 1 needs a reason, as that of a factor does.
+    """
 
     id: Annotated[str, AfterValidator(_table_id)]
     clause: Text
@@ -213,10 +222,13 @@ class TableEntry(_Table):
     unit: Literal["-"]
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
+    reason_below_one: str = ""
     rows: Annotated[list[TableRow], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _check(self) -> TableEntry:
+        least = min(row.value for row in self.rows)
+        _require_reason(self.id, least, self.reason_below_one)
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
@@ -319,6 +331,13 @@ def _require_unit(entry: Entry, unit: str) -> None:
         )
 
 
+def _require_reason(name: str, value: float, reason: str) -> None:
+    """Refuse a factor that makes a check milder than none, unless it says why."""
+    if value < 1.0 and not reason:
+        key = "reason_below_one"
+        raise ContentError(say("standard.below_one", id=name, value=value, key=key))
+
+
 def _require_unique(ids: Sequence[str]) -> None:
     twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
     if twice:
@@ -403,7 +422,8 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields
     if depth > 1:
-        fields = TableRow.model_fields if element is TableEntry else Entry.model_fields
+        inner = TableRow if element is TableEntry else FactorEntry
+        fields = inner.model_fields
     return tuple(field.alias or name for name, field in fields.items())
 
 

@@ -21,8 +21,12 @@ from netdesign.words.names import as_given, name
 SCHEMA = "netdesign.diff/1"
 _MET, _UNMET = "met", "not met"
 _PASSING = (str(Verdict.PASS), _MET)
-_RANKS = {str(Verdict.PASS): 0, _MET: 0, str(Verdict.NOT_PROVEN): 1, _UNMET: 1}
-_WORST = 2  # rank of a failure, and of what is no longer there
+_RANKS = {
+    **{str(Verdict.PASS): 0, _MET: 0},
+    str(Verdict.DECLARED): 1,
+    **{str(Verdict.NOT_PROVEN): 2, _UNMET: 2},
+}
+_WORST = 3  # rank of a failure, and of what is no longer there
 # Values of a check that are told one by one; those that follow from them are counted.
 _OF_CHECK = (
     "utilisation",

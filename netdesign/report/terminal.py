@@ -23,7 +23,12 @@ if TYPE_CHECKING:
 
 _NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
 _PIPE = 160  # columns of an output that is no terminal, where no line is folded
-_STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
+_STYLES = {
+    "pass": "green",
+    "fail": "bold red",
+    "not-proven": "yellow",
+    "declared": "cyan",
+}
 
 
 def open_console() -> Console:
@@ -140,6 +145,7 @@ def _list_lines(view: ReportView, words: Words) -> list[str]:
         if row.governing and (load := row.governing.load)
     ]
     lines += [name(label, text) for label, text in view.counts]
+    lines += [name(words("heading.declared_elsewhere"), one) for one in view.declared]
     assumed = view.assumed_line or words("show.none")
     notes = [words("show.note", note=note) for note in view.notes]
     return [*lines, words("show.assumed_line", values=assumed), *notes]

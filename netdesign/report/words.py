@@ -52,6 +52,7 @@ VERDICTS = {
     Verdict.PASS: VerdictSigns(symbol="✓", style="pass", exit_code=0),
     Verdict.FAIL: VerdictSigns(symbol="✗", style="fail", exit_code=1),
     Verdict.NOT_PROVEN: VerdictSigns(symbol="?", style="not-proven", exit_code=4),
+    Verdict.DECLARED: VerdictSigns(symbol="†", style="declared", exit_code=6),
 }
 
 

@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from netdesign.checks import Declaration
+from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Ranges
 from netdesign.guards import require_positive, require_within
 from netdesign.resistance.pull_out import PullOutTests
@@ -29,11 +31,10 @@ MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.DOWNHILL_ANCHOR, "tendon"),
     (Member.DOWNHILL_ANCHOR, "pull_out"),
     (Member.POST, "compression"),
+    (Member.POST_BASE, "bearing"),
 )
-# Checked only where the workbook gives the resistance, in the sheet of that member.
-OPTIONAL_MODES: tuple[tuple[Member, str, Member], ...] = (
-    (Member.POST_BASE, "bearing", Member.POST),
-)
+# Columns that name the type of a member without a type of its own.
+NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,19 +111,29 @@ class NetRow:
         return self.resistances
 
     @property
+    def is_overtopped(self) -> bool:
+        """Whether the snow is thicker than the net is high."""
+        return is_overtopped(self.net_height, self.snow_thickness)
+
+    @property
+    def held_thickness(self) -> float:
+        """Thickness of the snow that is solved [m]: all of it, or up to the head."""
+        return self.net_height if self.is_overtopped else self.snow_thickness
+
+    @property
     def mean_density(self) -> float:
         """Mean density of layered snow [kg/m3]."""
         return compute_mean_density(self.layers)
 
     def layers_at(self, density: float) -> tuple[Layer, ...]:
-        """Layers scaled to a mean density [kg/m3] and to the row's snow thickness.
+        """Layers scaled to a mean density [kg/m3] and to the thickness that is solved.
 
         None for uniform snow; density and thickness keep their proportions.
         """
         if not self.layers:
             return ()
         denser = density / self.mean_density
-        thicker = self.snow_thickness / sum(layer.thickness for layer in self.layers)
+        thicker = self.held_thickness / sum(layer.thickness for layer in self.layers)
         return tuple(
             replace(
                 layer,
@@ -161,7 +172,10 @@ class MonitoringSeries:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """Identification printed on every output."""
+    """Identification printed on every output.
+
+    ``accepted_law`` names the creep law that is accepted where it is extrapolated.
+    """
 
     name: str = ""
     number: str = ""
@@ -169,6 +183,7 @@ class Project:
     checker: str = ""
     revision: str = ""
     standard: str = ""
+    accepted_law: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -185,3 +200,18 @@ class Site:
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()
+    declared: tuple[Declaration, ...] = ()
+
+    def find_declaration(
+        self, row_id: str, member: str, mode: str
+    ) -> Declaration | None:
+        """Declaration of a check of a net row; None if it is proven here or nowhere."""
+        return next(
+            (
+                one
+                for one in self.declared
+                if one.row_id in ("", row_id)
+                and (one.member, one.mode) == (member, mode)
+            ),
+            None,
+        )

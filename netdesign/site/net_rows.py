@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
+from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
 from netdesign.site.end_supports import (
@@ -17,7 +18,7 @@ from netdesign.site.end_supports import (
 )
 from netdesign.site.model import (
     MEMBER_MODES,
-    OPTIONAL_MODES,
+    NAMED_BY,
     InputEcho,
     NetRow,
     Resistance,
@@ -53,7 +54,8 @@ Types = Mapping[str, Row]  # the lines of one type sheet, by id
 TypeSheets = Mapping[str, Types | None]
 
 _MOST_PLACES = 5  # named in one finding
-_MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
+# Columns that name a type.
+_MEMBERS = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
 def build_net_rows(
@@ -192,6 +194,9 @@ def _build_net_row(
     )
     if is_faulty or thickness is None or ground is None or len(findings) > count_before:
         return None
+    if is_overtopped(row["net_height"].si, thickness):
+        rule = say("nets.overtopped", thickness=thickness)
+        refuse(row["net_height"], rule, "", findings, severity="note")
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -331,16 +336,11 @@ def _build_layout(row: Row) -> SupportLayout:
 
 
 def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
-    """Resistances of all members; of optional modes those that are given."""
-    needed = [
-        _find_resistance(row[member], mode, member, type_sheets)
+    """Resistance of every member in every mode, given or not."""
+    return tuple(
+        _find_resistance(row[NAMED_BY.get(member, member)], mode, member, type_sheets)
         for member, mode in MEMBER_MODES
-    ]
-    optional = [
-        _find_resistance(row[named_by], mode, member, type_sheets)
-        for member, mode, named_by in OPTIONAL_MODES
-    ]
-    return (*needed, *(one for one in optional if one.value is not None))
+    )
 
 
 def _find_resistance(

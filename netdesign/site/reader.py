@@ -11,6 +11,7 @@ from netdesign.site.cells.findings import Finding, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
+    DECLARED,
     ENDS,
     MONITORING,
     NETS,
@@ -23,6 +24,7 @@ from netdesign.site.columns.all_tables import (
     SNOW,
 )
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item
 from netdesign.site.model import Project, Site
@@ -40,8 +42,10 @@ from netdesign.site.tables import (
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
+_LAWS = tuple(CREEP_LAWS)
 _TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
 
 
@@ -85,7 +89,9 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     if built_ranges:
         density = built_ranges[0]["density"]
         check_densities(net_rows, snow, density.low, density.high, findings)
-    monitoring = read_monitoring(tables[MONITORING.name], _list_ids(nets), findings)
+    ids = _list_ids(nets)
+    monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
+    declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
     if built_ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings)
@@ -100,6 +106,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         range_inputs=built_ranges[1],
         project_cells=project_cells,
         monitoring=monitoring,
+        declared=declared,
     )
 
 
@@ -153,6 +160,10 @@ def _read_project(
         if field.key in values:
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
+        elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
+            refuse(
+                value, say("item.no_law"), say("accepted.words", words=_LAWS), findings
+            )
         else:
             values[field.key], cells[field.key] = value.word, value.place
     return Project(**values), cells

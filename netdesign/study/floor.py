@@ -38,7 +38,7 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry:
     """Net row as the guideline needs it, at an inclination [rad]."""
     return NetGeometry(
         slope_angle=row.slope_angle,
-        snow_thickness=row.snow_thickness,
+        snow_thickness=row.held_thickness,
         net_height=row.net_height,
         inclination=inclination,
         stiffness=row.net_stiffness_per_m,

@@ -83,6 +83,7 @@ def judge_site(
                 row=row,
                 solved=of_row,
                 standard=standard,
+                law=run.creep_law,
                 probe=probe,
                 on_check=on_check,
             ),

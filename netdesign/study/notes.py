@@ -14,6 +14,7 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
 
@@ -24,9 +25,12 @@ def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
-    """Say where the creep law is used outside the densities it was fitted to."""
+    """Say where the creep law is used outside the densities it was fitted to.
+
+    What is known of it there stands beside, and whether the workbook accepts it.
+    """
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    return [
+    outside = [
         say(
             "note.outside_calibration",
             what=what,
@@ -39,6 +43,18 @@ def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
         for what, least, largest in _list_density_spans(site)
         if least < low or largest > high
     ]
+    if not outside:
+        return []
+    accepted = site.project.accepted_law == law.name
+    cell = site.project_cells.get("accepted_law", "-")
+    consent = [say("note.law_accepted", law=law.name, cell=cell)] if accepted else []
+    return [*outside, tell_evidence(law.name), *consent]
+
+
+def tell_evidence(law: str) -> Message:
+    """What is known of a creep law outside the densities it is given for."""
+    key = f"evidence.{law}"
+    return say(key if key in load_texts("en") else "evidence.none", law=law)
 
 
 def _list_density_spans(site: Site) -> list[tuple[Message, float, float]]:
@@ -79,9 +95,8 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
             wider, other = width.width, width.other_width
             told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
             notes.append(told)
-    checked = {given.mode for given in row.resistances}
-    if "bearing" not in checked:
-        notes.append(say("row.bearing_not_checked"))
+    if row.is_overtopped:
+        notes.append(say("check.overtopped"))
     return notes
 
 

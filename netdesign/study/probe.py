@@ -25,7 +25,7 @@ def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
     return Scene(
         snowpack=Snowpack(
             slope_angle=row.slope_angle,
-            thickness=row.snow_thickness,
+            thickness=row.held_thickness,
             upslope_length=row.upslope_length,
             density=case.density,
             layers=row.layers_at(case.density),

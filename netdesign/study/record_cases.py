@@ -9,8 +9,9 @@ from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study.calibration import is_calibrated
 from netdesign.study.records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.units import (
     given_degree_from_radian,
@@ -57,12 +58,6 @@ def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
         is_calibrated=is_calibrated(law, row, result.case.density),
         **forces,
     )
-
-
-def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """The law is given for the density of a case [kg/m3], and of each layer."""
-    layers = tuple(layer.density for layer in row.layers_at(density))
-    return all(law.is_calibrated(one / ICE_DENSITY) for one in layers or (density,))
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:

@@ -56,6 +56,7 @@ def _record_value(value: StandardValue) -> ProfileValue:
         unit=value.unit,
         status=value.status,
         source=value.source,
+        reason_below_one=value.reason_below_one,
     )
 
 

@@ -215,6 +215,16 @@ class ChangeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DeclarationRecord:
+    """Place of a proof elsewhere, with its author and date."""
+
+    document: str
+    author: str
+    date: str  # "" where none is given
+    cell: str  # "Declared!B2"
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -243,23 +253,19 @@ class CheckRecord:
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     action: ActionRecord | None = None
+    declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:
-        """Utilisation at the low and at the high end of the demand [-].
-
-        A slack member uses nothing of any resistance, even of one that is not given.
-        """
+        """Utilisation at the low and at the high end of the demand [-]."""
         low, high, resistance = (
             self.demand_low_kN,
             self.demand_high_kN,
             self.resistance_kN,
         )
-        if resistance is None and self.utilisation == 0.0:
-            return 0.0, 0.0
         if not resistance or low is None or high is None:
             return None, None
         return low / resistance, high / resistance
@@ -444,6 +450,7 @@ class ProfileValue:
     unit: str
     status: str  # "read", "secondary", "assumed", "user"
     source: str
+    reason_below_one: str = ""  # why a factor may lie below 1
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,10 +8,13 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import (
     CheckResult,
+    Declaration,
     RowGeometry,
     Standard,
     check_geometry,
     check_member,
+    declare,
+    withhold,
 )
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
@@ -19,8 +22,10 @@ from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
-from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.calibration import find_doubt
 from netdesign.study.demand import Demand, build_demand, tell_governing
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
@@ -34,7 +39,12 @@ from netdesign.study.flips import (
 from netdesign.study.floor import find_row_floor
 from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    DeclarationRecord,
+    SpreadRecord,
+)
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -56,6 +66,7 @@ class RowCheck:
     row: NetRow
     solved: RowGrid | RowEnvelope
     standard: Standard
+    law: CreepLaw
     probe: Probe | None
     on_check: Callable[[], None] = lambda: None
 
@@ -64,13 +75,15 @@ class RowCheck:
 class MemberCheck:
     """One member of one support in one mode, judged.
 
-    ``extreme`` and ``demand`` are None where no case was solved.
+    ``extreme`` and ``demand`` are None where no case was solved; ``doubt`` says why
+    the creep law may not hold for the governing snow.
     """
 
     given: Resistance
     width: LoadedWidth
     extreme: Extreme | None
     demand: Demand | None
+    doubt: Message | None
     result: CheckResult
 
     @property
@@ -97,7 +110,7 @@ def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckReco
         is_worst = one is max(rivals, key=lambda other: other.ratio)
         checks.append(_record_member(task, one, effects, is_worst=is_worst))
         task.on_check()
-    return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
+    return [*checks, *record_geometry(task.site, task.row, task.standard)]
 
 
 def list_checked(
@@ -115,13 +128,24 @@ def _name_of(one: MemberCheck) -> tuple[str, str]:
     return one.given.member, one.given.mode
 
 
-def record_geometry(
-    row: NetRow, ranges: Ranges, standard: Standard
-) -> list[CheckRecord]:
+def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
-    geometry = [*check_geometry(read_geometry(row, ranges), standard)]
+    geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
     ends = check_ends(find_effects(row, standard))
-    return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
+    results = [*geometry, *([ends] if ends else [])]
+    return [record_result(settle_check(site, row, one)) for one in results]
+
+
+def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
+    """Check with what the workbook says beside its numbers.
+
+    Forces of a net below its snow are those of snow up to its head: information.
+    A check may be declared as proven elsewhere.
+    """
+    if row.is_overtopped and result.member != Member.NET:
+        result = withhold(result, say("check.overtopped"))
+    declaration = site.find_declaration(row.id, result.member, result.mode)
+    return declare(result, declaration)
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
@@ -145,11 +169,18 @@ def _judge_member(
     effects: RowEffects,
     floor: Floor | None,
 ) -> MemberCheck:
-    extreme, demand = extremes.get(given.member), None
+    extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
         least = floor.find(given.member) if floor else None
         solved = extreme.widened
         demand = build_demand(effects, given.member, width, solved, least)
+        doubt = find_doubt(
+            task.site,
+            task.row,
+            task.law,
+            density=extreme.governing.case.density,
+            largest=solved.high,
+        )
     gap = task.solved.gap or (floor.reason if floor else None)
     action = demand.action if demand else None
     return MemberCheck(
@@ -157,7 +188,8 @@ def _judge_member(
         width=width,
         extreme=extreme,
         demand=demand,
-        result=check_member(action, given, task.standard, gap=gap),
+        doubt=doubt,
+        result=check_member(action, given, task.standard, gap=gap, doubt=doubt),
     )
 
 
@@ -166,19 +198,26 @@ def _record_member(
 ) -> CheckRecord:
     given, result = one.given, one.result
     if one.extreme is None or one.demand is None:
-        return place_check(record_result(result, given), one.width)
+        settled = settle_check(task.site, task.row, result)
+        return place_check(record_result(settled, given), one.width)
     before = task.probe.faults if task.probe else 0
     spreads = _list_spreads(task, one, one.extreme)
     changes = _list_changes(task, one, effects, is_worst=is_worst)
     if task.probe and task.probe.faults > before and not task.solved.gap:
-        force = one.demand.action
-        result = check_member(force, given, task.standard, gap=_FAULT_BESIDE)
+        result = check_member(
+            one.demand.action,
+            given,
+            task.standard,
+            gap=_FAULT_BESIDE,
+            doubt=one.doubt,
+        )
+    settled = settle_check(task.site, task.row, result)
     action = one.demand.record(effects, given.member)
     return replace(
-        place_check(record_result(result, given), one.width),
+        place_check(record_result(settled, given), one.width),
         case=record_point(one.extreme.governing.case),
         action=action,
-        reason=tell_governing(result.reason, action),
+        reason=tell_governing(settled.reason, action),
         spreads=spreads,
         changes=changes,
     )
@@ -214,6 +253,18 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
         resistance_derivation=_describe_derivation(given, result),
+        declared=_record_declaration(result.declaration),
+    )
+
+
+def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
+    if given is None:
+        return None
+    return DeclarationRecord(
+        document=given.document,
+        author=given.author,
+        date=given.date,
+        cell=given.source,
     )
 
 
@@ -304,24 +355,26 @@ def _list_changes(
     that passes, the other one does.
     """
     result, used = one.result, one.result.utilisation
-    if result.demand is None or result.demand.high == 0.0:
+    if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
         return []
     is_close = used is not None and used.high >= CLOSE
     gap = task.solved.gap
-    if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
-        return []  # a case without result is not mended by any change
+    if not is_close and (
+        result.verdict is Verdict.PASS or (used and (gap or one.doubt))
+    ):
+        return []  # neither a missing result nor a doubt is mended by any change
     changes = _list_resistance_changes(task, one.given, result)
     if used is None or result.design_resistance is None:
         return changes
     changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
-    if gap:
-        note = say("change.as_far_as_solved")
+    if gap or one.doubt:
+        note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
     if task.probe is None or not is_worst:
         return changes
     target = _build_target(task, one)
     found = (
-        find_density_change(target, task.probe),
+        _doubt_density(task, find_density_change(target, task.probe)),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
@@ -352,6 +405,15 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         results=task.solved.results,
         use_floor=use_floor,
     )
+
+
+def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
+    """Change of density that says where the creep law is not given for its snow."""
+    if change.bound is None or not find_doubt(
+        task.site, task.row, task.law, density=change.bound, largest=math.inf
+    ):
+        return change
+    return replace(change, note=say("change.if_law_accepted"))
 
 
 def _list_resistance_changes(

@@ -82,7 +82,7 @@ def study_row(tmp_path: Path, profile, *, anchor, foot, head, floor="none", **ne
     ranges = workbook.create_sheet("Ranges")
     for line in (
         ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 300, 300, 1],
+        ["density [kg/m3]", 380, 380, 1],
         ["friction angle [deg]", 30, 30, 1],
         ["net inclination [deg]", 30, 30, 1],
     ):

@@ -452,22 +452,24 @@ def build_geometry_check() -> CheckRecord:
 
 
 def build_slack_check(case: CasePoint) -> CheckRecord:
-    """Check of a member that never carries: it passes without a resistance."""
+    """Check of a member that never carries."""
     return CheckRecord(
         id="downhill_guy.rope",
-        clause="-",
+        clause="6.1",
         member="downhill_guy",
         mode="rope",
         demand_kN=0.0,
         demand_low_kN=0.0,
         demand_high_kN=0.0,
-        resistance_kN=None,
+        resistance_kN=180.0 / RESISTANCE_FACTOR,
         utilisation=0.0,
         verdict=Verdict.PASS,
         case=case,
-        reason=as_given("The member is slack in every case and needs no resistance."),
+        reason=as_given("The member is slack in every case; its resistance is given."),
         action_kN=0.0,
         action_factor=ACTION_FACTOR,
+        resistance_characteristic_kN=180.0,
+        resistance_factor=RESISTANCE_FACTOR,
     )
 
 

@@ -21,6 +21,7 @@ from netdesign.report.words import (
     show_quantity,
     show_text,
 )
+from netdesign.study.notes import tell_evidence
 from netdesign.study.records import Study
 
 _SCOPE = ("scope.treated", "scope.not_treated", "scope.decision")
@@ -160,6 +161,26 @@ def _describe_laws(study: Study, words: Words) -> str:
     return words("show.other_laws_counted", count=len(above))
 
 
+def _describe_snow(study: Study, words: Words) -> str:
+    """Governing snow against the densities of its law, and what is known there."""
+    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    inside = [
+        case.is_calibrated
+        for row in study.rows
+        for check in row.checks
+        for case in row.cases
+        if check.case == case.case
+    ]
+    is_accepted = bool(law) and study.project.accepted_law == law
+    return words(
+        "show.snow_of_law",
+        inside=sum(inside),
+        count=len(inside),
+        consent=words("show.law_accepted" if is_accepted else "show.law_not_accepted"),
+        evidence=words.show(tell_evidence(law)),
+    )
+
+
 # What is asked, what the study says to it, and the section that tells more.
 _QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
     (
@@ -186,6 +207,11 @@ _QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
         "question.cases",
         _describe_cases,
         "heading.solver_quality",
+    ),
+    (
+        "question.snow_of_law",
+        _describe_snow,
+        "heading.notes",
     ),
     (
         "question.quality",

@@ -23,7 +23,8 @@ from netdesign.report.words import (
 from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.names import name
 
-SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # worst first
+# Worst first.
+SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _BAR_UNIT = 100.0  # length of a ratio bar at utilisation 1
 _BAR_END = 150.0  # longer bars are cut here
 

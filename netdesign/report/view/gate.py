@@ -45,7 +45,8 @@ def require_consistent(study: Study) -> None:
 
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
     merged = merge_verdicts(parts)
-    is_held_back = whole is Verdict.NOT_PROVEN and merged is Verdict.PASS
+    better = (Verdict.PASS, Verdict.DECLARED)
+    is_held_back = whole is Verdict.NOT_PROVEN and merged in better
     if whole is not merged and not is_held_back:
         raise NetDesignError(tell_verdict(place, whole, merged))
 
@@ -65,16 +66,14 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
             _ratio(check.demand_kN, check.resistance_kN),
         ),
     ):
-        if whole is None or parts is None:
+        if whole is None or (parts is None and name != "utilisation"):
             continue
-        if not math.isclose(whole, parts, rel_tol=_TOLERANCE):
+        if parts is None or not math.isclose(whole, parts, rel_tol=_TOLERANCE):
             raise NetDesignError(tell_value(place, name, whole, parts))
-    is_loaded = check.demand_high_kN or check.action_kN
-    if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
-        raise NetDesignError(say("audit.zero_but_loaded", place=place))
     _require_sizes(place, check)
-    is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
-    if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
+    if (check.verdict is Verdict.DECLARED) and check.declared is None:
+        raise NetDesignError(say("audit.declared_by_nobody", place=place))
+    if check.verdict is Verdict.PASS and not _is_of_geometry(check):
         _, high = check.utilisation_band
         if high is None or not high <= 1:
             raise NetDesignError(

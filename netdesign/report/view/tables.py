@@ -29,12 +29,20 @@ from netdesign.report.words import (
     show_band,
     show_member,
     show_own,
+    show_quantity,
+    show_text,
     show_unit,
     show_verdict,
 )
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.records import CasePoint, CaseRecord, RowStudy, Study
+from netdesign.study.records import (
+    CasePoint,
+    CaseRecord,
+    ProfileRecord,
+    RowStudy,
+    Study,
+)
 from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
@@ -208,6 +216,19 @@ def build_profile(study: Study, words: Words, status: str = "") -> Table:
             if status in ("", value.status)
         ),
         empty=words("show.none"),
+    )
+
+
+def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
+    """Factors below 1, each with the reason that the profile gives."""
+    return tuple(
+        words(
+            "show.label",
+            label=f"{value.id} = {show_quantity(value.value, value.unit)}",
+            text=words("note.below_one", reason=show_text(value.reason_below_one)),
+        )
+        for value in profile.values
+        if value.reason_below_one
     )
 
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
+from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import basis_tables, envelope_tables, row_tables, tables
 from netdesign.report.view.check_view import (
@@ -29,6 +30,7 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     name_case,
+    show_check,
     show_member,
     show_own,
     show_quantity,
@@ -90,6 +92,7 @@ class ReportView:
     verification: tuple[tuple[str, str], ...]  # how a reader can verify the report
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
+    declared: tuple[str, ...]  # checks that are said to be proven elsewhere
     assumed: Table
     assumed_line: str
     scope: tuple[str, ...]
@@ -134,6 +137,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study, words),
+        declared=_list_declared(study, words),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
         scope=basis_tables.list_scope(words),
@@ -145,7 +149,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ),
         profile_title=_name_profile(study, words),
         profile=tables.build_profile(study, words),
-        notes=tuple(words.show(note) for note in study.notes),
+        notes=(
+            *(words.show(note) for note in study.notes),
+            *tables.list_below_one(study.profile, words),
+        ),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -292,6 +299,21 @@ def _tell_floor(study: Study, words: Words) -> str:
     profiles = {row.floor.profile for row in study.rows if row.floor}
     named = show_text(", ".join(sorted(profiles)))
     return words("floor.told", profile=named, count=governed, all=len(actions))
+
+
+def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
+    """Checks that count as declared, each with its row and where it is proven."""
+    return tuple(
+        words(
+            "show.declared",
+            row=show_text(row.id),
+            check=show_check(words, check),
+            proof=words.show(tell_proof(**asdict(check.declared))),
+        )
+        for row in study.rows
+        for check in row.checks
+        if check.declared and check.verdict is Verdict.DECLARED
+    )
 
 
 def _list_assumed(profile: ProfileRecord) -> str:

@@ -19,7 +19,6 @@ from netdesign.report.view.check_formulas import (
     write_quotient,
     write_rank,
     write_ratio,
-    write_slack,
     write_unchanged,
     write_verdict,
 )
@@ -284,11 +283,10 @@ class _CheckLine:
         self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
         self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
         low, high = check.utilisation_band
-        is_slack = write_slack([at(field) for field in _DEMANDS], at(_SET))
         for field, demand_field, ratio in zip(
             _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
         ):
-            live = write_ratio(at(demand_field), at(_RESISTANCE), is_slack, parts)
+            live = write_ratio(at(demand_field), at(_RESISTANCE))
             self._put_number(field, ratio, live)
 
     def _write_verdict(self, number: int, check: CheckRecord) -> None:
@@ -298,7 +296,7 @@ class _CheckLine:
         self._put(_SET, Cell(text=shown if is_set else MISSING))
         ends = [self._at(field) for field in _RATIOS]
         formula = (
-            write_verdict(ends, given, words)
+            write_verdict(ends, given, self._at(_STUDY_VERDICT), words)
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )
@@ -384,9 +382,6 @@ def _is_of_forces(check: CheckRecord) -> bool:
 def _recalculate_band(check: CheckRecord) -> tuple[float | None, float | None]:
     """Band as the sheet calculates it; may differ in the last bit, at exactly 1."""
     resistance = _divide_resistance(check)
-    if check.demand_high_kN == 0.0:
-        is_named = check.resistance_characteristic_kN and check.resistance_factor
-        return (0.0, 0.0) if resistance or not is_named else (None, None)
     if resistance is None or check.action_factor is None:
         return None, None
     low, _, high = (

@@ -18,11 +18,12 @@ from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import CasePoint, RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 14, 18, 10, 12, 9, 13, 11, 8, 21, 23, 12, 32)
-_COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # columns D, E, F
-_RATIO, _LIMIT, _GOVERNING, _CASE = 6, 8, 9, 10
-_HELD, _REASONS = 11, 12
-_STUDY_REASONS, _STUDY_VERDICT = 13, 14  # hidden: what the live cells stand for
+_WIDTHS = (4, 14, 18, 10, 12, 10, 9, 13, 11, 8, 21, 23, 12, 32)
+# Columns D, E, F, G.
+_COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+_RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
+_HELD, _REASONS = 12, 13
+_STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 2
 
 
@@ -94,12 +95,11 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
     )
     sheet.write_formula(2, 2, formula, form, word)
     meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
-    passes, fails, open_ = (book.word(v) for v in Verdict)
-    meaning = (
-        f'=IF(C3="{passes}","{meanings[passes]}",IF(C3="{fails}",'
-        f'"{meanings[fails]}","{meanings[open_]}"))'
-    )
-    sheet.write_formula(2, 3, meaning, book.text(), meanings[word])
+    meaning = f'"{meanings[book.word(Verdict.NOT_PROVEN)]}"'
+    for one in (Verdict.DECLARED, Verdict.FAIL, Verdict.PASS):
+        verdict = book.word(one)
+        meaning = f'IF(C3="{verdict}","{meanings[verdict]}",{meaning})'
+    sheet.write_formula(2, 3, f"={meaning}", book.text(), meanings[word])
     names = {
         "overall_verdict": "$C$3",
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
@@ -121,7 +121,7 @@ def _write_row(
     held = row.verdict is not merge_verdicts(verdicts)
     sheet.write_number(index, 0, number, book.format(align="right"))
     formula = write_merged(
-        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEF", strict=True)},
+        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEFG", strict=True)},
         total=len(row.checks),
         held=f"{chr(ord('A') + _HELD)}{line}",
         words=_list_words(book),
@@ -202,8 +202,8 @@ def _write_reasons(
         book.write_cell(sheet, (index, column), Column(heading=""), cell)
     of_row = f"check_net_row_number,A{line}"
     formula = (
-        f"=IF(AND(C{line}=O{line},COUNTIFS({of_row},check_unchanged,1)="
-        f'COUNTIFS({of_row})),N{line},"{book.words(CHANGED)}")'
+        f"=IF(AND(C{line}=P{line},COUNTIFS({of_row},check_unchanged,1)="
+        f'COUNTIFS({of_row})),O{line},"{book.words(CHANGED)}")'
     )
     form = book.text(text_wrap=True)
     sheet.write_formula(index, _REASONS, formula, form, reasons)
@@ -253,6 +253,10 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
         ("heading.verify_report", view.verification),
         ("heading.identification", view.identification),
         ("heading.signatures", [(book.words(label), name) for label, name in signed]),
+        (
+            "heading.declared_elsewhere",
+            [("", one) for one in view.declared] or [(book.words("show.none"), "")],
+        ),
         ("heading.assumed", _list_assumed(book, view)),
     ]
     for title, pairs in blocks:

@@ -409,7 +409,10 @@ RANGES = word_plan(
 
 PROJECT_ITEMS: tuple[Field, ...] = tuple(
     word_field(Field(key=key, kind="text"), "items")
-    for key in ("name", "number", "author", "checker", "revision", "standard")
+    for key in (
+        *("name", "number", "author", "checker", "revision", "standard"),
+        "accepted_law",
+    )
 )
 PROJECT = word_plan(
     SheetPlan(
@@ -480,9 +483,44 @@ MONITORING = word_plan(
     )
 )
 
+# Checks that somebody has proven elsewhere, one a line.
+DECLARED = word_plan(
+    SheetPlan(
+        name="Declared",
+        fields=(
+            Field(
+                key="row",
+                kind="id",
+                refers_to="Nets",
+                note="id of a row of sheet Nets; left empty, the line is of all rows",
+            ),
+            Field(
+                key="check",
+                kind="text",
+                required=True,
+                note="as the reports name it: Post base, bearing",
+            ),
+            Field(
+                key="document",
+                kind="text",
+                required=True,
+                note="where it is proven; the check is shown as declared, never as "
+                "pass, and one that fails here stays failed",
+            ),
+            Field(key="author", kind="text", required=True, note="who proved it"),
+            Field(
+                key="date",
+                aliases=("date of document",),
+                kind="text",
+                note="of the document, such as 2026-05-04",
+            ),
+        ),
+    )
+)
+
 SHEETS: tuple[SheetPlan, ...] = (
     *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS),
-    MONITORING,
+    *(MONITORING, DECLARED),
 )
 # The sheet that an annotated copy lists its findings on, by language.
 FINDINGS_SHEETS: Mapping[Language, str] = {

@@ -43,13 +43,22 @@ from netdesign.words.names import name_check
 
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
-    Verdict.FAIL: ("check.fails", "check.fails_besides"),
+    Verdict.FAIL: (
+        *("check.fails", "check.fails_besides"),
+        "check.fails_though_declared",
+    ),
     Verdict.NOT_PROVEN: ("check.not_proven",),
+    Verdict.DECLARED: ("check.declared",),
 }
 
 
-def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
-    """Sentences on what cannot be true of a row's checks."""
+def audit_checks(
+    row: RowStudy, profile: ProfileRecord, *, accepts_law: bool
+) -> Iterator[Message]:
+    """Sentences on what cannot be true of a row's checks.
+
+    ``accepts_law`` says that the creep law is accepted outside its densities.
+    """
     place = say("audit.row", row=row.id)
     counts = Counter(check.id for check in row.checks)
     yield from (
@@ -76,7 +85,9 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         if check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
-            yield from _audit_verdict(where, check, complete=is_complete(row))
+            yield from _audit_verdict(where, check, row)
+            if not accepts_law:
+                yield from _audit_snow(where, check, row)
             yield from _audit_spreads(where, check)
 
 
@@ -233,27 +244,49 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
 
 
 def _audit_verdict(
-    place: Message, check: CheckRecord, *, complete: bool
+    place: Message, check: CheckRecord, row: RowStudy
 ) -> Iterator[Message]:
     """The verdict from the band, as ``checks.check`` gives it."""
+    complete = is_complete(row)
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
     used_low, used_high = check.utilisation_band
     is_known = low is not None and high is not None and check.demand_kN is not None
-    if check.action_kN == 0.0 and not check.demand_high_kN and complete:
-        verdict = Verdict.PASS
-        if check.utilisation != 0.0:
-            used = show_value(check.utilisation)
-            yield say("audit.slack_but_used", place=place, used=used)
-    elif resistance and used_low is not None and used_high is not None:
+    if resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
-    if check.verdict is not verdict and not is_held_back(check):
+    is_open = is_held_back(check) or _is_information(check, row)
+    is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
+    if is_declared and verdict is not Verdict.FAIL:
+        is_open = True
+    if check.verdict is not verdict and not is_open:
         yield tell_verdict(place, check.verdict, verdict)
     if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
+
+
+def _is_information(check: CheckRecord, row: RowStudy) -> bool:
+    """The check is left open since the net stands below its snow."""
+    too_low = any(
+        one.id == "geometry.height" and one.verdict is Verdict.FAIL
+        for one in row.checks
+    )
+    return too_low and check.verdict is Verdict.NOT_PROVEN
+
+
+def _audit_snow(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[Message]:
+    """No pass on a force of snow for which the creep law is not given."""
+    if (
+        check.verdict is Verdict.PASS
+        and check.demand_high_kN
+        and any(
+            same_point(check.case, case.case) and not case.is_calibrated
+            for case in row.cases
+        )
+    ):
+        yield say("audit.extrapolated_pass", place=place)
 
 
 def is_held_back(check: CheckRecord) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import Case, build_cases
@@ -15,11 +15,12 @@ from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import is_calibrated, record_point
+from netdesign.study.record_cases import record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import (
@@ -27,6 +28,7 @@ from netdesign.study.row_checks import (
     place_check,
     record_geometry,
     record_result,
+    settle_check,
 )
 from netdesign.study.values import compare_values
 from netdesign.units import (
@@ -38,6 +40,16 @@ from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
 _MOST = 5  # places of one row that are named
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Basis:
+    """Basis of the checks of a net row, beside its forces."""
+
+    site: Site
+    row: NetRow
+    standard: Standard
+    law: CreepLaw
 
 
 def audit_site(
@@ -74,9 +86,8 @@ def audit_site(
         if row.id in rows:
             yield from _audit_row(row, rows[row.id], site, law)
             if standard is not None and is_known:
-                yield from _audit_judgement(
-                    row, rows[row.id], site, standard, is_steady=is_steady
-                )
+                basis = _Basis(site=site, row=rows[row.id], standard=standard, law=law)
+                yield from _audit_judgement(row, basis, is_steady=is_steady)
 
 
 def _find_law(study: Study) -> CreepLaw:
@@ -103,7 +114,7 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
+        wanted = (degree_from_radian(given.slope_angle), given.held_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -116,18 +127,19 @@ def _audit_row(
 
 
 def _audit_judgement(
-    row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
+    row: RowStudy, basis: _Basis, *, is_steady: bool
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
+    given, standard = basis.row, basis.standard
     effects = find_effects(given, standard)
-    floor = find_row_floor(given, site.ranges, standard)
+    floor = find_row_floor(given, basis.site.ranges, standard)
     members = [
-        _judge_again(row, check, width, resistance, standard)
+        _judge_again(row, check, width, resistance, basis)
         for check, (width, resistance) in zip(
             row.checks, list_checked(given, effects), strict=False
         )
     ]
-    expected = [*members, *record_geometry(given, site.ranges, standard)]
+    expected = [*members, *record_geometry(basis.site, given, basis.standard)]
     stored, again = (
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
@@ -156,7 +168,7 @@ def _judge_again(
     check: CheckRecord,
     width: LoadedWidth,
     given: Resistance,
-    standard: Standard,
+    basis: _Basis,
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -171,7 +183,17 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    again = record_result(check_member(action, given, standard, gap=gap), given)
+    doubt = None
+    if action is not None and check.case is not None:
+        doubt = find_doubt(
+            basis.site,
+            basis.row,
+            basis.law,
+            density=check.case.density_kg_m3,
+            largest=action.high,
+        )
+    result = check_member(action, given, basis.standard, gap=gap, doubt=doubt)
+    again = record_result(settle_check(basis.site, basis.row, result), given)
     again = place_check(again, width)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)

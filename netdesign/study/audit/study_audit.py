@@ -53,9 +53,11 @@ def audit_study(
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
     tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
+    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
         found += audit_envelope(row, spans, tolerance)
-        found += audit_checks(row, study.profile)
+        found += audit_checks(row, study.profile, accepts_law=accepts_law)
         found += audit_support(row, study.profile, is_steady=is_steady)
         found += _audit_verdict(row)
     if site is not None and site.sha256 == study.provenance.site_sha256:

@@ -35,11 +35,23 @@ def test_the_sound_study_passes():
         (spoil(0, 0, demand_high_kN=1e4), "high end of its utilisation is"),
         (spoil(0, 0, demand_high_kN=None), "high end of its utilisation is None"),
         (spoil(2, 3, verdict=Verdict.PASS), "high end of its utilisation is None"),
-        (spoil(0, 6, demand_high_kN=1.0), "the member is not slack"),
-        (spoil(0, 0, demand_kN=None, demand_high_kN=None), "its utilisation is None"),
+        (
+            spoil(0, 6, resistance_characteristic_kN=None, resistance_kN=None),
+            "utilisation is 0.0, but None follows",
+        ),
+        (
+            spoil(
+                *(0, 6),
+                resistance_characteristic_kN=None,
+                resistance_kN=None,
+                utilisation=None,
+            ),
+            "high end of its utilisation is None",
+        ),
+        (spoil(0, 0, demand_kN=None, demand_high_kN=None), "but None follows"),
         (spoil(0, 0, demand_low_kN=1e4), "below zero or outside its band"),
         (spoil(0, 0, demand_low_kN=-1.0), "below zero or outside its band"),
-        (spoil(0, 0, resistance_factor=None, resistance_kN=None), "is None"),
+        (spoil(0, 0, resistance_factor=None, resistance_kN=None), "but None follows"),
         (
             spoil(0, 0, resistance_characteristic_kN=None, resistance_kN=-9.0),
             "not above zero",

@@ -758,3 +758,40 @@ def an_end_loaded_like_a_support_inside(study):
 def a_width_beside_a_threshold_given_the_other_side(study):
     action = next(c for c in forces(study) if c["position"] == "edge")["action"]
     action["other_width_m"] = action["loaded_width_m"] * 1.3
+
+
+def call_declared(study):
+    """A check, its row and the study take the verdict of a declaration."""
+    row = study["rows"][0]
+    for part in (row["checks"][0], row, study):
+        part["verdict"] = "declared"
+    return row["checks"][0]
+
+
+@alteration
+def a_check_declared_by_nobody(study):
+    call_declared(study)
+
+
+@alteration
+def a_declaration_forged(study):
+    check = call_declared(study)
+    check["declared"] = {
+        "document": "Report 4", "author": "N. N.", "date": "", "cell": "Declared!B2"
+    }  # fmt: skip
+    proof = {"document": "Report 4", "author": "N. N.", "cell": "Declared!B2"}
+    check["reason"] = {"key": "check.declared", "arguments": {
+        "proof": {"key": "check.proof_undated", "arguments": proof},
+        "reason": check["reason"],
+    }}  # fmt: skip
+
+
+@alteration
+def another_creep_law_accepted(study):
+    study["project"]["accepted_law"] = "boutillier-2004"
+
+
+@alteration
+def light_snow_called_that_of_the_law(study):
+    for case in study["rows"][0]["cases"]:
+        case["is_calibrated"] = True
