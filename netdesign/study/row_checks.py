@@ -64,13 +64,15 @@ class RowCheck:
 class MemberCheck:
     """One member of one support in one mode, judged.
 
-    ``extreme`` and ``demand`` are None where no case was solved.
+    ``extreme`` and ``demand`` are None where no case was solved; ``gap`` says why the
+    demand is not known as a whole, and is None if it is.
     """
 
     given: Resistance
     width: LoadedWidth
     extreme: Extreme | None
     demand: Demand | None
+    gap: Message | None
     result: CheckResult
 
     @property
@@ -157,6 +159,7 @@ def _judge_member(
         width=width,
         extreme=extreme,
         demand=demand,
+        gap=gap,
         result=check_member(action, given, task.standard, gap=gap),
     )
 
@@ -170,7 +173,7 @@ def _record_member(
     before = task.probe.faults if task.probe else 0
     spreads = _list_spreads(task, one, one.extreme)
     changes = _list_changes(task, one, effects, is_worst=is_worst)
-    if task.probe and task.probe.faults > before and not task.solved.gap:
+    if task.probe and task.probe.faults > before and not one.gap:
         force = one.demand.action
         result = check_member(force, given, task.standard, gap=_FAULT_BESIDE)
     action = one.demand.record(effects, given.member)
@@ -307,7 +310,7 @@ def _list_changes(
     if result.demand is None or result.demand.high == 0.0:
         return []
     is_close = used is not None and used.high >= CLOSE
-    gap = task.solved.gap
+    gap = one.gap
     if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
         return []  # a case without result is not mended by any change
     changes = _list_resistance_changes(task, one.given, result)
