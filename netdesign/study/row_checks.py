@@ -75,14 +75,16 @@ class RowCheck:
 class MemberCheck:
     """One member of one support in one mode, judged.
 
-    ``extreme`` and ``demand`` are None where no case was solved; ``doubt`` says why
-    the creep law may not hold for the governing snow.
+    ``extreme`` and ``demand`` are None where no case was solved; ``gap`` says why the
+    demand is not known as a whole, ``doubt`` why the creep law may not hold for the
+    governing snow; both are None if all is well.
     """
 
     given: Resistance
     width: LoadedWidth
     extreme: Extreme | None
     demand: Demand | None
+    gap: Message | None
     doubt: Message | None
     result: CheckResult
 
@@ -188,6 +190,7 @@ def _judge_member(
         width=width,
         extreme=extreme,
         demand=demand,
+        gap=gap,
         doubt=doubt,
         result=check_member(action, given, task.standard, gap=gap, doubt=doubt),
     )
@@ -203,7 +206,7 @@ def _record_member(
     before = task.probe.faults if task.probe else 0
     spreads = _list_spreads(task, one, one.extreme)
     changes = _list_changes(task, one, effects, is_worst=is_worst)
-    if task.probe and task.probe.faults > before and not task.solved.gap:
+    if task.probe and task.probe.faults > before and not one.gap:
         result = check_member(
             one.demand.action,
             given,
@@ -358,7 +361,7 @@ def _list_changes(
     if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
         return []
     is_close = used is not None and used.high >= CLOSE
-    gap = task.solved.gap
+    gap = one.gap
     if not is_close and (
         result.verdict is Verdict.PASS or (used and (gap or one.doubt))
     ):

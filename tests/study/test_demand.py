@@ -23,6 +23,7 @@ from netdesign.study.document import read_document, write_document
 from netdesign.study.effects import find_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.judge import judge_site
+from netdesign.study.probe import Probe
 from netdesign.study.record_provenance import record_profile
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site, resist
@@ -140,6 +141,7 @@ def test_floor_that_is_not_known_proves_nothing(solved):
     assert {check.verdict for check in forces} == {Verdict.NOT_PROVEN}
     for check in forces:
         assert "guideline's load, the floor of every demand" in str(check.reason)
+        assert check.changes == []  # none of them makes it known
     assert study.rows[0].floor.forces == []
     assert study.rows[0].floor.reason is not None
     assert site.rows[0].slope_angle == 0.04
@@ -264,3 +266,50 @@ def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
     assert foot.member == Member.FOOT_ANCHOR
     assert foot.force_kN == pytest.approx(again, rel=1e-9)
     assert isinstance(a_floor(), Floor)
+
+
+def test_altitude_of_the_row_counts_in_its_floor():
+    high = a_floor(replace(ROW, altitude=2470.0)).find(Member.UPHILL_GUY)
+    low = a_floor().find(Member.UPHILL_GUY)
+    assert high.case.density == pytest.approx(270.0 * (1.0 + 0.02 * 9.7))
+    assert high.force > 1.1 * low.force
+
+
+def list_changes(check):
+    return {change.quantity.key: change for change in check.changes}
+
+
+def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(solved):
+    """A free end is loaded wider: what needs solves is told there alone."""
+    site = build_site(
+        replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
+        ranges=RANGES,
+    )
+    probe = Probe(RUN.settings, RUN.creep_law)
+    checks = checks_of(judge_site(site, solved, SWISS, RUN, probe))
+    inside = list_changes(checks["foot_anchor.tendon"])
+    assert set(inside) == {"change.characteristic_resistance", "change.post_spacing"}
+    end = checks["foot_anchor.tendon.end"]
+    told = list_changes(end)
+    for key in ("change.snow_density", "change.friction_angle"):
+        assert (told[key].bound, told[key].note.key) == (None, "change.floor_stays")
+    height = told["change.snow_thickness"]
+    assert end.utilisation > 2.0
+    assert height.note.key in ("change.floor_limits", "change.not_even")
+    one = list_changes(judge_end(solved, 700e3)["foot_anchor.tendon.end"])
+    bound = one["change.snow_thickness"].bound
+    assert one["change.snow_thickness"].note.key == "change.floor_limits"
+    for thickness, is_met in ((bound, True), (bound + 0.02, False)):
+        row = replace(site.rows[0], snow_thickness=thickness)
+        force = a_floor(row).find(Member.FOOT_ANCHOR).force
+        effects = find_effects(row, SWISS)
+        factor = effects.factor(Member.FOOT_ANCHOR, effects.supports[1])
+        used = 1.5 * 1.35 * force * factor / 700e3
+        assert (used <= 1.0) is is_met
+
+
+def judge_end(solved, resistance):
+    row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
+    probe = Probe(RUN.settings, RUN.creep_law)
+    study = judge_site(build_site(row, ranges=RANGES), solved, SWISS, RUN, probe)
+    return checks_of(study)
