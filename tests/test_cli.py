@@ -577,6 +577,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
     verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
+    assert verdicts["R3"] == "declared"
     assert verdicts["R6"] == "not_proven"
     assert verdicts["R7"] == "fail"
     for row in document["rows"]:
@@ -584,7 +585,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
         assert {case["outcome"] for case in row["cases"]} == {"converged"}
         for check in row["checks"]:
             assert set(check) >= CHECK_KEYS
-            assert check["verdict"] in ("pass", "fail", "not_proven")
+            assert check["verdict"] in ("pass", "fail", "not_proven", "declared")
             assert check["reason"]
     assert listing(tmp_path) == set()
 
