@@ -51,7 +51,8 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
     sheet.freeze_panes(_HEAD_ROW + 1, 2)
     sheet.repeat_rows(_HEAD_ROW)
-    add_utilisation_chart(book, sheet, (_HEAD_ROW + 1, last), (last + 2, _LIMIT + 1))
+    rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
+    add_utilisation_chart(book, sheet, rows, columns, (last + 2, _LIMIT + 1))
     _write_below(book, sheet, view, last + 2)
 
 
