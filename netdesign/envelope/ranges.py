@@ -11,7 +11,7 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.parameters import PARAMETERS, place_scene
+from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.errors import ModelError
 from netdesign.words.message import Message, say
 
@@ -63,7 +63,7 @@ class Ranges:
     intervals: tuple[tuple[str, Interval], ...]
 
     def __post_init__(self) -> None:
-        """Refuse unknown and repeated names, and keep one order."""
+        """Refuse unknown, repeated and contradicting names, and keep one order."""
         names = [name for name, _ in self.intervals]
         known = [name for name in PARAMETERS if name in names]
         if sorted(names) != sorted(known):
@@ -74,6 +74,9 @@ class Ranges:
                     known=tuple(PARAMETERS),
                 )
             )
+        for one, other in ONE_QUANTITY:
+            if one in names and other in names:
+                raise ModelError(say("envelope.one_quantity", one=one, other=other))
         order = list(PARAMETERS)
         ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
         object.__setattr__(self, "intervals", tuple(ranked))
@@ -86,6 +89,11 @@ class Ranges:
     def __getitem__(self, name: str) -> Interval:
         """Range of a parameter by its name."""
         return dict(self.intervals)[name]
+
+    @property
+    def further(self) -> tuple[str, ...]:
+        """Names of the parameters that not every case has, in their order."""
+        return tuple(name for name, _ in self.intervals if name not in _USUAL)
 
     @property
     def is_grid(self) -> bool:

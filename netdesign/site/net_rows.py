@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
@@ -15,6 +16,7 @@ from netdesign.site.model import (
     NetRow,
     Resistance,
 )
+from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     LayersByRow,
@@ -52,6 +54,7 @@ def build_net_rows(
     snow: LayersByRow,
     findings: list[Finding],
     absent: Iterable[str] = (),
+    ends: Ends = MappingProxyType({}),
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -67,6 +70,8 @@ def build_net_rows(
         Appended to.
     absent : iterable of str
         Type sheets that the workbook does not have, under whatever name.
+    ends : mapping of str to tuple of Reading, or None
+        Ends of what ranges over all rows, by its name in sheet Ranges.
 
     Returns
     -------
@@ -80,7 +85,7 @@ def build_net_rows(
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
     built = [
-        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
+        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), ends, findings)
         for row in rows
     ]
     _refuse_missing_sheets(table, rows, absent, findings)
@@ -150,12 +155,18 @@ def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
 
 
 def _build_net_row(
-    row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
+    line: Row,
+    type_sheets: TypeSheets,
+    lines: tuple[Row, ...],
+    ends: Ends,
+    findings: list[Finding],
 ) -> NetRow | None:
     count_before = len(findings)
-    row = _fill_in_distances(row)
+    line = _fill_in_distances(line)
+    row = fill_in_ranges(line, ends, findings)
     layers = build_layers(lines, row["slope_angle"], findings)
-    thickness = _understand_thickness(row, lines, layers, findings)
+    is_ranged = not ends.keys().isdisjoint(("thickness", "snow_height"))
+    thickness = _understand_thickness(row, lines, layers, findings, is_ranged=is_ranged)
     ground = _understand_ground(row, thickness, findings)
     _check_types(row, type_sheets, findings)
     is_faulty = any(reading.state == "faulty" for reading in row.values()) or any(
@@ -177,9 +188,10 @@ def _build_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
+        inputs=(*_echo_inputs(line, thickness, ground), *echo_layers(lines)),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        glide_factor=_find_glide_factor(row),
     )
 
 
@@ -205,8 +217,13 @@ def _understand_thickness(
     lines: tuple[Row, ...],
     layers: tuple[Layer, ...],
     findings: list[Finding],
+    *,
+    is_ranged: bool,
 ) -> float | None:
-    """Snow thickness normal to the slope [m]: of one column, or of the layers."""
+    """Snow thickness normal to the slope [m]: of one column, or of the layers.
+
+    Where it ranges, the layers follow the range.
+    """
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
     if "faulty" in (thickness.state, height.state):
@@ -217,7 +234,9 @@ def _understand_thickness(
         return None
     is_normal = thickness.state == "given"
     given = thickness if is_normal else height
-    if lines:
+    if lines and not layers:  # a line of sheet Snow is faulty: a finding already
+        return None
+    if lines and not is_ranged:
         return settle_thickness(layers, given, slope_angle, findings)
     if is_normal:
         return thickness.si
@@ -252,6 +271,11 @@ def _understand_ground(
     if slip.state == "given":
         return GroundLaw(kind="sliding", slip_length=slip.si)
     return _build_sliding_ground(glide, thickness, findings)
+
+
+def _find_glide_factor(row: Row) -> float | None:
+    glide = row["glide_factor"]
+    return glide.number if glide.state == "given" else None
 
 
 def _build_sliding_ground(
