@@ -140,6 +140,10 @@ class Case:
         """All values by the names of their parameters."""
         return {name: getattr(self, name) for name in _USUAL} | dict(self.others)
 
+    def with_value(self, name: str, value: float) -> Case:
+        """Case with another value of one of its quantities."""
+        return Case.of({**self.values, name: value})
+
 
 def build_case(scene: Scene, values: Mapping[str, float]) -> Case:
     """Case of a scene with some values of its own."""

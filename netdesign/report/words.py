@@ -153,22 +153,19 @@ def show_band(words: Words, key: str, low: float | None, high: float | None) -> 
 
 
 def name_case(case: CasePoint | None) -> str:
-    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``."""
+    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``, and what else ranges."""
     if case is None:
         return MISSING
-    return (
-        f"{show_with_unit('density_kg_m3', case.density_kg_m3)}, "
-        f"φ {show_with_unit('friction_deg', case.friction_deg)}, "
-        f"θ {show_with_unit('inclination_deg', case.inclination_deg)}"
-    )
+    density, *others = case.values.items()
+    parts = [f"{QUANTITIES[key].symbol} {show_with_unit(key, x)}" for key, x in others]
+    return ", ".join((show_with_unit(*density), *parts))
 
 
 def name_case_short(case: CasePoint | None) -> str:
     """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
     if case is None:
         return MISSING
-    numbers = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
-    return " / ".join(show_given(number) for number in numbers)
+    return " / ".join(show_given(number) for number in case.values.values())
 
 
 def show_member(words: Words, member: str) -> str:

@@ -108,7 +108,8 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
 
 def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
     """Names of lines that give one quantity twice; the later of two is refused."""
-    order, doubles = list(names), []
+    order = list(names)
+    doubles: list[str] = []
     for pair in ONE_QUANTITY:
         if all(one in names for one in pair):
             first, second = sorted(pair, key=order.index)

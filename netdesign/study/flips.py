@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from netdesign.envelope.curvature import AXES
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
@@ -117,9 +116,15 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 
 
 def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
-    """Largest snow thickness, normal to the slope, at which a check passes."""
+    """Largest snow thickness, normal to the slope, at which a check passes.
+
+    Where the thickness ranges, all of it has to stay below.
+    """
 
     def build(value: float, case: Case) -> tuple[NetRow, Case]:
+        others = {k: v for k, v in case.values.items() if k != "snow_height"}
+        if len(others) < len(case.values) or "thickness" in others:
+            case = Case.of({**others, "thickness": value})
         return replace(target.row, snow_thickness=value), case
 
     thickness = target.row.snow_thickness
@@ -190,17 +195,15 @@ def _list_friction_angles(target: Target) -> list[float]:
     """Angles that stand for the whole of the other ranges, and the governing one.
 
     A search solves some angles at a few cases only; an angle counts where the corners
-    of density and inclination were solved.
+    of the other ranges were solved.
     """
-    density, inclination = target.ranges["density"], target.ranges["inclination"]
-    corners = set(
-        product((density.low, density.high), (inclination.low, inclination.high))
-    )
-    solved: dict[float, set[tuple[float, float]]] = {}
+    others = [one for one in target.ranges.intervals if one[0] != "friction_angle"]
+    corners = set(product(*((span.low, span.high) for _, span in others)))
+    solved: dict[float, set[tuple[float, ...]]] = {}
     for result in target.results:
-        case = result.case
-        at = solved.setdefault(case.friction_angle, set())
-        at.add((case.density, case.inclination))
+        values = result.case.values
+        at = solved.setdefault(values["friction_angle"], set())
+        at.add(tuple(values[name] for name, _ in others))
     whole = {angle for angle, cases in solved.items() if cases >= corners}
     return sorted(whole | {target.governing.friction_angle})
 
@@ -320,20 +323,18 @@ def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     A search crowds its cases around the largest force; what lies between those that
     are left is in the margin of the target.
     """
-    spans = {axis: ranges[axis] for axis in AXES}
     kept: list[Case] = []
     for case in cases:
-        is_beside = any(
-            all(
-                abs(getattr(case, axis) - getattr(other, axis))
-                <= _BESIDE * (span.high - span.low)
-                for axis, span in spans.items()
-            )
-            for other in kept
-        )
-        if not is_beside:
+        if not any(_is_beside(case, other, ranges) for other in kept):
             kept.append(case)
     return kept
+
+
+def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
+    return all(
+        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
+        for axis, span in ranges.intervals
+    )
 
 
 def _find_root(

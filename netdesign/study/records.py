@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
+from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.words.text_field import Text
@@ -19,11 +20,28 @@ SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
 
 @dataclass(frozen=True, kw_only=True)
 class CasePoint:
-    """One point of the ranges."""
+    """One point of the ranges; what does not range beside the first three is None.
+
+    The document leaves that out.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
 
     density_kg_m3: float
     friction_deg: float
     inclination_deg: float
+    thickness_m: float | None = None
+    height_vertical_m: float | None = None
+    upslope_length_m: float | None = None
+    slack: float | None = None
+    stiffness_kN_per_m: float | None = None
+    slip_length_m: float | None = None
+    glide_factor: float | None = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values by their keys."""
+        return list_fields(self)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from netdesign.checks import Band, Standard, check_member
-from netdesign.envelope.ranges import Case, build_cases
+from netdesign.envelope.ranges import build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
@@ -15,7 +15,7 @@ from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_v
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
 from netdesign.study.effects import find_effects, load_guideline
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import is_calibrated, record_point
+from netdesign.study.record_cases import is_calibrated, read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import record_geometry, record_result
@@ -23,7 +23,6 @@ from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
     newton_from_kilonewton,
-    radian_from_degree,
 )
 from netdesign.words.message import Message, say
 
@@ -94,7 +93,8 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
+        at = given.at(read_point(drawing.case))
+        wanted = (degree_from_radian(given.slope_angle), at.snow_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -174,14 +174,9 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     if stored is None or stored.sha256 != load_guideline().sha256:
         return
     point = stored.case
-    case = Case(
-        density=point.density_kg_m3,
-        friction_angle=radian_from_degree(point.friction_deg),
-        inclination=radian_from_degree(point.inclination_deg),
-    )
     again = compare_case(
         given,
-        case,
+        read_point(point),
         load=newton_from_kilonewton(stored.solved_load_kN_per_m),
         foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
     )
