@@ -304,17 +304,21 @@ def _find_violator(
 
 def _list_rivals(target: Target, build: Build, value: float) -> list[Case]:
     """Cases near to governing at the given value, each scene once."""
+    scenes = {build(value, case)[1]: case for case in list_near(target)}
+    return list(scenes.values())
+
+
+def list_near(target: Target) -> list[Case]:
+    """Cases whose force is near the largest, that first; of a search some of them."""
     forces = {
         result.case: result.member_forces[target.member].high
         for result in target.results
         if result.is_converged
     }
     least = _RIVAL * max(forces.values())
-    rivals = [case for case in forces if forces[case] >= least]
-    if not target.ranges.is_grid:
-        rivals = _thin_out(sorted(rivals, key=lambda c: (-forces[c], c)), target.ranges)
-    scenes = {build(value, case)[1]: case for case in rivals}
-    return list(scenes.values())
+    near = [case for case in forces if forces[case] >= least]
+    near.sort(key=lambda case: (-forces[case], case))
+    return near if target.ranges.is_grid else _thin_out(near, target.ranges)
 
 
 def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:

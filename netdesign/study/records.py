@@ -226,6 +226,25 @@ class ChangeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class HoldRecord:
+    """How far one single quantity may go, alone, before a check turns.
+
+    Of a check that passes: it holds from ``least`` to ``most``. Of one that does not:
+    it would pass from ``least`` on, and up to ``most``. None where it does not turn
+    on that side within the search. Values in the unit of ``quantity``, a key.
+    """
+
+    quantity: str  # "slack", "stiffness_kN_per_m", ...
+    now: float
+    least: float | None
+    most: float | None
+    low: float  # ends of the search
+    high: float
+    solves: int  # beyond those that other checks took
+    note: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -256,6 +275,7 @@ class CheckRecord:
     action: ActionRecord | None = None
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
+    holds: list[HoldRecord] = field(default_factory=list)
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:

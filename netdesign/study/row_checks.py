@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import (
@@ -19,6 +19,7 @@ from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
@@ -28,9 +29,15 @@ from netdesign.study.flips import (
     find_height_change,
     find_spacing_change,
 )
+from netdesign.study.holds import find_holds
 from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    HoldRecord,
+    SpreadRecord,
+)
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -66,6 +73,8 @@ def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckReco
     for given in task.row.resistances:
         checks.append(_check_one(task, given, extremes, effects))
         task.on_check()
+    holds = _find_holds(task, checks, extremes)
+    checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
     return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
 
 
@@ -230,23 +239,43 @@ def _list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
-    at_cases = find_extreme(given.member, task.solved.results).force.high
-    margin = extreme.widened.high / at_cases
-    on_force = effects.factor(given.member) * (result.action_factor or math.nan)
-    target = Target(
-        row=task.row,
-        ranges=task.site.ranges,
-        member=given.member,
-        scale=on_force * margin / result.design_resistance,
-        governing=extreme.governing.case,
-        results=task.solved.results,
-    )
+    target = _aim_at(task, extreme, used.high)
     found = (
         find_density_change(target, task.probe),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
     return [*changes, *(change for change in found if change is not None)]
+
+
+def _aim_at(task: RowCheck, extreme: Extreme, used: float) -> Target:
+    """Check as a function of a solved case; ``used`` is its utilisation's upper end."""
+    return Target(
+        row=task.row,
+        ranges=task.site.ranges,
+        member=Member(extreme.member),
+        scale=used / find_extreme(extreme.member, task.solved.results).force.high,
+        governing=extreme.governing.case,
+        results=task.solved.results,
+    )
+
+
+def _find_holds(
+    task: RowCheck, checks: Sequence[CheckRecord], extremes: Mapping[str, Extreme]
+) -> dict[str, list[HoldRecord]]:
+    """Limits of single quantities for each check whose verdict follows from forces."""
+    if task.probe is None or task.solved.gap:
+        return {}
+    targets = {}
+    for check in checks:
+        used = check.utilisation_band[1]
+        if used and check.member in extremes:
+            targets[check.id] = _aim_at(task, extremes[check.member], used)
+    return find_holds(
+        targets,
+        task.probe,
+        lambda row, member: find_effects(row, task.standard).factor(member),
+    )
 
 
 def _list_resistance_changes(

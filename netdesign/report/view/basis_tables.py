@@ -90,6 +90,14 @@ def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
     return {key: show_text(", ".join(names)) for key, names in found.items()}
 
 
+def list_defaults(study: Study, words: Words) -> str:
+    """Inputs that nobody typed, with what they were taken as and where; "" for none."""
+    return "; ".join(
+        words("show.default_taken", what=what, value=value, who=who)
+        for (what, value), who in _group_defaults(study, words).items()
+    )
+
+
 def build_checklist(study: Study, words: Words) -> Table:
     """Questions of a reviewer, each with what this document says to it."""
     keys = ("no", "question", "what_study_says", "see", "done")

@@ -12,7 +12,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.view import basis_tables, envelope_tables, row_tables, tables
+from netdesign.report.view import (
+    basis_tables,
+    envelope_tables,
+    hold_tables,
+    row_tables,
+    tables,
+)
 from netdesign.report.view.check_view import (
     SEVERITY,
     CheckView,
@@ -68,6 +74,8 @@ class RowView:
     head: Table
     spreads: Table
     changes: Table
+    holds: Table
+    held: tuple[str, ...]  # the same for the governing check, in short
     flips: tuple[str, ...]  # the same for the governing check, in short
     independent: Table
     guideline: Table
@@ -91,6 +99,7 @@ class ReportView:
     counts: tuple[tuple[str, str], ...]
     assumed: Table
     assumed_line: str
+    defaults_line: str  # inputs that nobody typed, or ""
     scope: tuple[str, ...]
     assumptions: Table
     checklist: Table
@@ -135,6 +144,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         counts=_count_all(study, words),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
+        defaults_line=basis_tables.list_defaults(study, words),
         scope=basis_tables.list_scope(words),
         assumptions=basis_tables.build_assumptions(study, words),
         checklist=basis_tables.build_checklist(study, words),
@@ -193,6 +203,8 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         head=row_tables.build_head(row, words),
         spreads=row_tables.build_spreads(shown, words),
         changes=row_tables.build_changes(row, words),
+        holds=hold_tables.build_holds(row, words),
+        held=hold_tables.list_holds(governing, words),
         flips=row_tables.list_flips(governing, words),
         independent=row_tables.build_independent(row, words),
         guideline=row_tables.build_guideline(row, words),

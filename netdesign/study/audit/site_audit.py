@@ -160,7 +160,7 @@ def _judge_again(
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
-    return replace(check, case=None, action=None, spreads=[], changes=[])
+    return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
 
 
 def _hold(force_kN: float) -> Band:
