@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -161,8 +162,18 @@ def name_case(case: CasePoint | None) -> str:
     if case is None:
         return MISSING
     density, *others = case.values.items()
-    parts = [f"{QUANTITIES[key].symbol} {show_with_unit(key, x)}" for key, x in others]
-    return ", ".join((show_with_unit(*density), *parts))
+    return ", ".join((show_with_unit(*density), *_name_values(others)))
+
+
+def name_further(case: CasePoint | None) -> str:
+    """What a case has beside the usual three, behind a comma: ``, d 2.5 m, s 0.02``."""
+    if case is None:
+        return ""
+    return "".join(f", {one}" for one in _name_values([*case.values.items()][3:]))
+
+
+def _name_values(values: Sequence[tuple[str, float]]) -> list[str]:
+    return [f"{QUANTITIES[key].symbol} {show_with_unit(key, x)}" for key, x in values]
 
 
 def name_case_short(case: CasePoint | None) -> str:

@@ -7,65 +7,69 @@ from netdesign.report.view.table import Table, given_cell, name_columns, text_ce
 from netdesign.report.words import Words, name_heading, show_check, show_given
 from netdesign.study.records import CheckRecord, HoldRecord, RowStudy
 
-# Of a check that passes, and of one that does not: one limit, two, none.
-_PHRASES = {
-    True: ("show.holds", "show.holds_both", "show.holds_nowhere"),
-    False: ("show.turns", "show.turns_both", "show.turns_nowhere"),
-}
-
 
 def build_holds(row: RowStudy, words: Words) -> Table:
-    """Every single quantity of every check: where it turns, and how far was looked."""
-    keys = ("check", "verdict", "quantity", "now", "turns", "looked_at", "solves")
-    headings = [words(f"heading.{key}") for key in (*keys, "remark")]
+    """Limits of each check by single quantity, and where it has none; a line each."""
+    keys = ("check", "turns", "does_not_turn", "solves")
+    headings = [words(f"heading.{key}") for key in keys]
     return Table(
         caption=words("caption.holds"),
-        columns=name_columns(headings, numbers=(headings[3], headings[6])),
+        columns=name_columns(headings, numbers=headings[3:]),
         rows=tuple(
             (
                 text_cell(show_check(words, check)),
-                text_cell(words(f"verdict.{check.verdict}")),
-                text_cell(name_heading(words, hold.quantity)),
-                given_cell(hold.now),
-                text_cell(_describe_limits(check, hold, words)),
-                text_cell(_span(hold, words)),
-                given_cell(hold.solves),
-                text_cell(words.show(hold.note)),
+                text_cell("; ".join(list_limits(check, words))),
+                text_cell("; ".join(_list_spans(check, words))),
+                given_cell(sum(hold.solves for hold in check.holds)),
             )
             for check in row.checks
-            for hold in check.holds
+            if check.holds
         ),
         empty=words("heading.no_single_value"),
     )
 
 
-def list_holds(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
-    """Limits of single values for one check, in short."""
+def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
+    """Where a check turns: ``holds while slack >= 0.021 (now 0.03)``, each alone."""
     if check is None:
         return ()
+    key = "show.holds" if check.verdict is Verdict.PASS else "show.turns"
     return tuple(
         words(
-            "show.hold",
+            key,
             quantity=name_heading(words, hold.quantity),
-            limits=_describe_limits(check, hold, words),
+            limit=_show_limit(check, hold, words),
             now=show_given(hold.now),
         )
         for hold in check.holds
+        if hold.least is not None or hold.most is not None
     )
 
 
-def _describe_limits(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
-    """``holds while >= 0.021``; ``would turn at >= 0.046`` of a check that fails."""
-    one, both, nowhere = _PHRASES[check.verdict is Verdict.PASS]
-    least = f"≥ {show_given(hold.least)}" if hold.least is not None else ""
-    most = f"≤ {show_given(hold.most)}" if hold.most is not None else ""
-    if not least and not most:
-        return words(nowhere, span=_span(hold, words))
-    if least and most:
-        return words(both, least=least, most=most)
-    return words(one, limit=least or most)
+def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
+    limits = [
+        f"{sign} {show_given(value)}"
+        for sign, value in (("≥", hold.least), ("≤", hold.most))
+        if value is not None
+    ]
+    if len(limits) == 1:
+        return limits[0]
+    key = "show.both" if check.verdict is Verdict.PASS else "show.either"
+    return words(key, one=limits[0], other=limits[1])
 
 
-def _span(hold: HoldRecord, words: Words) -> str:
+def _list_spans(check: CheckRecord, words: Words) -> list[str]:
+    """Quantities with which a check does not turn, and how far was looked."""
+    return [
+        _name_span(hold, words)
+        for hold in check.holds
+        if hold.least is None and hold.most is None
+    ]
+
+
+def _name_span(hold: HoldRecord, words: Words) -> str:
     low, high = show_given(hold.low), show_given(hold.high)
-    return words("show.band", low=low, high=high)
+    text = words("show.band", low=low, high=high)
+    if hold.note is not None:
+        text = words("show.with_note", text=text, note=words.show(hold.note))
+    return words("show.label", label=name_heading(words, hold.quantity), text=text)

@@ -204,7 +204,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         spreads=row_tables.build_spreads(shown, words),
         changes=row_tables.build_changes(row, words),
         holds=hold_tables.build_holds(row, words),
-        held=hold_tables.list_holds(governing, words),
+        held=hold_tables.list_limits(governing, words),
         flips=row_tables.list_flips(governing, words),
         independent=row_tables.build_independent(row, words),
         guideline=row_tables.build_guideline(row, words),

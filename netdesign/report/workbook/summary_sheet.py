@@ -10,7 +10,7 @@ from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, number_format
+from netdesign.report.words import MISSING, name_further, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
@@ -147,11 +147,13 @@ def _write_governing(
     mine = f"check_net_row_number,A{index + 1}"
     line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
     none = book.words("heading.no_check")
+    governing = find_governing(row.checks)
+    case = governing.case if governing else None
     first, second, third = (
         f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
-    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
-    governing = find_governing(row.checks)
+    further = f"&INDEX(check_case_further,{line})" if name_further(case) else ""
+    formula = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
     form = book.text(text_wrap=True)
     title = shown.governing.title if shown.governing else none
     is_there = f"COUNTIFS({mine})>0"
@@ -165,9 +167,9 @@ def _write_governing(
     sheet.write_formula(
         index,
         _CASE,
-        f'=IFERROR(IF({is_there},{case},"{MISSING}"),"{MISSING}")',
+        f'=IFERROR(IF({is_there},{formula},"{MISSING}"),"{MISSING}")',
         form,
-        _show_case(governing.case if governing else None),
+        _show_case(case),
     )
 
 
@@ -177,7 +179,7 @@ def _show_case(case: CasePoint | None) -> str:
         return MISSING
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
     first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
-    return f"{first} kg/m³, φ {second}°, θ {third}°"
+    return f"{first} kg/m³, φ {second}°, θ {third}°{name_further(case)}"
 
 
 def _write_reasons(

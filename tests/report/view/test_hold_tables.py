@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.hold_tables import build_holds, list_holds
+from netdesign.report.view.hold_tables import build_holds, list_limits
 from netdesign.report.words import Words
 from tests.report.build_study import build_study
 
@@ -14,36 +14,43 @@ ROW = build_study().rows[0]
 CHECK = next(one for one in ROW.checks if one.holds)
 
 
-def limit(verdict, least, most):
+def line(verdict, least, most):
     hold = replace(CHECK.holds[0], least=least, most=most)
     check = replace(CHECK, verdict=verdict, holds=[hold])
-    line = build_holds(replace(ROW, checks=[check]), ENGLISH).rows[0]
-    return line[4].text
+    (cells,) = build_holds(replace(ROW, checks=[check]), ENGLISH).rows
+    return [cell.text for cell in cells]
 
 
 @pytest.mark.parametrize(
     ("verdict", "least", "most", "told"),
     [
-        (Verdict.PASS, 0.0217, None, "holds while ≥ 0.0217"),
-        (Verdict.PASS, 0.0217, 0.093, "holds while ≥ 0.0217 and ≤ 0.093"),
-        (Verdict.PASS, None, None, "holds from 0 to 0.131, as far as searched"),
-        (Verdict.FAIL, 0.0463, None, "would pass with ≥ 0.0463"),
-        (Verdict.FAIL, 0.0463, 0.0021, "would pass with ≥ 0.0463 or ≤ 0.0021"),
-        (Verdict.FAIL, None, None, "does not pass from 0 to 0.131, as far as searched"),
-        (Verdict.NOT_PROVEN, None, 0.0021, "would pass with ≤ 0.0021"),
+        (Verdict.PASS, 0.0217, None, "holds while Slack ≥ 0.0217 (now 0.031)"),
+        (Verdict.PASS, 0.02, 0.093, "holds while Slack ≥ 0.02 and ≤ 0.093 (now 0.031)"),
+        (Verdict.FAIL, 0.0463, None, "would pass with Slack ≥ 0.0463 (now 0.031)"),
+        (Verdict.FAIL, 0.5, 0.1, "would pass with Slack ≥ 0.5 or ≤ 0.1 (now 0.031)"),
+        (Verdict.NOT_PROVEN, None, 0.01, "would pass with Slack ≤ 0.01 (now 0.031)"),
     ],
 )
 def test_limits_read_by_the_verdict(verdict, least, most, told):
-    assert limit(verdict, least, most) == told
+    cells = line(verdict, least, most)
+    assert cells[1:] == [told, "-", "5"]
 
 
-def test_every_single_value_of_every_check_has_a_line():
-    table = build_holds(ROW, ENGLISH)
-    assert len(table.rows) == sum(len(check.holds) for check in ROW.checks) > 1
-    assert table.rows[0][2].text == "Slack"
-    assert table.rows[0][3].number == 0.031
+@pytest.mark.parametrize("verdict", Verdict)
+def test_without_a_limit_the_search_is_told(verdict):
+    assert line(verdict, None, None)[1:3] == ["-", "Slack: 0 to 0.131"]
 
 
-def test_the_governing_check_has_them_in_short():
-    assert list_holds(CHECK, ENGLISH)[0].startswith("Slack: ")
-    assert list_holds(None, ENGLISH) == ()
+def test_every_check_with_single_values_has_one_line():
+    rows = build_holds(ROW, ENGLISH).rows
+    assert len(rows) == sum(bool(check.holds) for check in ROW.checks) > 1
+    first = [cell.text for cell in rows[0]]
+    assert "Slack" in first[1]
+    assert first[2].startswith("Glide factor: 1.01 to 2.4")
+    assert "without" in first[2]
+
+
+def test_the_governing_check_has_its_limits_in_short():
+    (told,) = list_limits(CHECK, ENGLISH)
+    assert "Slack ≥ 0.0217" in told
+    assert list_limits(None, ENGLISH) == ()
