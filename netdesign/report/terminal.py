@@ -68,7 +68,8 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
     if view.rows:
         console.print(table)
-        console.print(_explain_cases(study, words), style="dim", soft_wrap=True)
+        legend = Text(_explain_cases(study, words))
+        console.print(legend, style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
     overall = Text(words("show.overall", verdict="")).append_text(_word(view.verdict))

@@ -76,14 +76,20 @@ def _list_cells(*texts: str) -> tuple[Cell, ...]:
     return tuple(text_cell(text) for text in texts)
 
 
-def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
-    """Net rows, or the ranges, by the input that they left empty."""
+def _group_defaults(
+    study: Study, words: Words, *, of_numbers: bool = False
+) -> dict[tuple[str, str], str]:
+    """Net rows, or the ranges, by the input that they left empty.
+
+    A range without a number of samples is searched: that is no number.
+    """
     found: dict[tuple[str, str], list[str]] = {}
     places = [(words("heading.ranges"), study.range_inputs)]
     places += [(row.id, row.inputs) for row in study.rows]
     for place, inputs in places:
         for echo in inputs:
-            if echo.cell == DEFAULT and echo.value != "":
+            is_kind = isinstance(echo.value, float) or not of_numbers
+            if echo.cell == DEFAULT and echo.value != "" and is_kind:
                 shown = show_quantity(echo.value, echo.unit)
                 label = words.show(echo.label)
                 found.setdefault((label, shown), []).append(place)
@@ -91,10 +97,11 @@ def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
 
 
 def list_defaults(study: Study, words: Words) -> str:
-    """Inputs that nobody typed, with what they were taken as and where; "" for none."""
+    """Numbers that nobody typed, what they were taken as, and where; "" for none."""
+    found = _group_defaults(study, words, of_numbers=True)
     return "; ".join(
         words("show.default_taken", what=what, value=value, who=who)
-        for (what, value), who in _group_defaults(study, words).items()
+        for (what, value), who in found.items()
     )
 
 
