@@ -111,7 +111,7 @@ def _describe_change(change: ChangeRecord, words: Words) -> str:
 
 
 def _explain_cases(study: Study, words: Words) -> str:
-    """What the numbers of a case are, in their order."""
+    """Legend of the numbers of a case, in their order."""
     points = [case.case for row in study.rows for case in row.cases[:1]]
     names = (
         [name_heading(words, key) for key in [*points[0].values][3:]] if points else []

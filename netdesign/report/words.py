@@ -166,7 +166,7 @@ def name_case(case: CasePoint | None) -> str:
 
 
 def name_further(case: CasePoint | None) -> str:
-    """What a case has beside the usual three, behind a comma: ``, d 2.5 m, s 0.02``."""
+    """Values of a case beside the usual three, after a comma: ``, d 2.5 m, s 0.02``."""
     if case is None:
         return ""
     return "".join(f", {one}" for one in _name_values([*case.values.items()][3:]))

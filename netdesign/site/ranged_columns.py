@@ -74,7 +74,7 @@ def fill_in_ranges(row: Row, ends: Ends, findings: list[Finding]) -> Row:
 def _can_glide(
     row: Row, name: str, pair: tuple[Reading, Reading], findings: list[Finding]
 ) -> bool:
-    """Whether the ground slides, where that is what ranges."""
+    """True if the ground slides, or its glide does not range."""
     own, ground = _COLUMNS[name][0], row["ground_law"]
     if own not in _GLIDE or ground.word in ("sliding", ""):
         return True

@@ -16,6 +16,7 @@ from itertools import product
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
+from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects
 from netdesign.study.probe import Probe
@@ -137,6 +138,8 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
         step=_STEPS["thickness"],
         power=2.0,
     )
+    if bound is not None and bound < _find_thinnest(target):
+        note = say("change.below_range")
     return ChangeRecord(
         quantity=say("change.snow_thickness"),
         unit="m",
@@ -146,6 +149,16 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
         solves=solves,
         note=note,
     )
+
+
+def _find_thinnest(target: Target) -> float:
+    """Least thickness that the ranges have; 0 where it does not range [m]."""
+    ranges = target.ranges
+    if "thickness" in ranges.further:
+        return ranges["thickness"].low
+    if "snow_height" in ranges.further:
+        return compute_thickness(ranges["snow_height"].low, target.row.slope_angle)
+    return 0.0
 
 
 def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:

@@ -1,4 +1,4 @@
-"""How far each single quantity of a row may go before a check turns.
+"""Limits of each single quantity of a row, beyond which a check turns.
 
 A quantity that ranges is in the envelope; one that is a single value is not certain
 either. Each is moved alone, to both sides, within what is plausible: first to the ends

@@ -227,7 +227,7 @@ class ChangeRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class HoldRecord:
-    """How far one single quantity may go, alone, before a check turns.
+    """Limits of one single quantity, moved alone, beyond which a check turns.
 
     Of a check that passes: it holds from ``least`` to ``most``. Of one that does not:
     it would pass from ``least`` on, and up to ``most``. None where it does not turn

@@ -1,4 +1,4 @@
-"""How far single values may go before a check turns, in words."""
+"""Limits of single values, beyond which a check turns, in words."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def build_holds(row: RowStudy, words: Words) -> Table:
 
 
 def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
-    """Where a check turns: ``holds while slack >= 0.021 (now 0.03)``, each alone."""
+    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``."""
     if check is None:
         return ()
     key = "show.holds" if check.verdict is Verdict.PASS else "show.turns"

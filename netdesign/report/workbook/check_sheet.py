@@ -165,7 +165,7 @@ _FIELDS = (*_SHOWN, *_HIDDEN, _FURTHER)
 
 
 def has_further(study: Study) -> bool:
-    """Whether more than the usual three quantities range."""
+    """True if more than the usual three quantities range."""
     checks = (check for row in study.rows for check in row.checks)
     return any(name_further(check.case) for check in checks)
 
