@@ -7,12 +7,14 @@ OBJECTS = (
     "case",
     "drawing",
     "guideline",
+    "floor",
     "envelope",
     "confirmation",
     "note",
     "reason",
     "model_reason",
     "resistance_derivation",
+    "derivation",
 )
 WORDS = ([*Verdict], [*Outcome])
 

@@ -16,7 +16,7 @@ from netdesign.errors import ModelError
 from netdesign.words.message import Message, say
 
 # What every case has; the other parameters only where they range.
-_USUAL = ("density", "friction_angle", "inclination")
+USUAL = ("density", "friction_angle", "inclination")
 _USUAL_COUNT = 3  # of a range without a count, beside one with a count
 
 
@@ -93,7 +93,7 @@ class Ranges:
     @property
     def further(self) -> tuple[str, ...]:
         """Names of the parameters that not every case has, in their order."""
-        return tuple(name for name, _ in self.intervals if name not in _USUAL)
+        return tuple(name for name, _ in self.intervals if name not in USUAL)
 
     @property
     def is_grid(self) -> bool:
@@ -132,13 +132,13 @@ class Case:
     def of(cls, values: Mapping[str, float]) -> Case:
         """Case of values by the names of their parameters."""
         others = dict(values)
-        usual = {name: others.pop(name) for name in _USUAL}
+        usual = {name: others.pop(name) for name in USUAL}
         return cls(**usual, others=tuple(others.items()))
 
     @property
     def values(self) -> dict[str, float]:
         """All values by the names of their parameters."""
-        return {name: getattr(self, name) for name in _USUAL} | dict(self.others)
+        return {name: getattr(self, name) for name in USUAL} | dict(self.others)
 
     def with_value(self, name: str, value: float) -> Case:
         """Case with another value of one of its quantities."""

@@ -19,6 +19,7 @@ from netdesign.snow.snowpack import (
 )
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
@@ -66,6 +67,7 @@ class InputEcho:
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above
     cell: str  # "Nets!C5", or "default"
+    derivation: Text | None = None  # how it follows from what was typed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,6 +92,8 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     glide_factor: float | None = None  # as typed, of sliding ground
+    # of the first and last support; None: those of all others
+    end_resistances: tuple[Resistance, ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -101,6 +105,17 @@ class NetRow:
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    @property
+    def has_end(self) -> bool:
+        """End of the row: there is none where the next work goes on without a gap."""
+        return self.gap > 0.0
+
+    def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
+        """Resistances of a support inside the row, or of its first and last one."""
+        if position == "edge" and self.end_resistances is not None:
+            return self.end_resistances
+        return self.resistances
 
     @property
     def mean_density(self) -> float:

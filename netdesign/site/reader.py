@@ -11,6 +11,7 @@ from netdesign.site.cells.findings import Finding, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
+    ENDS,
     MONITORING,
     NETS,
     POSTS,
@@ -22,8 +23,9 @@ from netdesign.site.columns.all_tables import (
     SNOW,
 )
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item
-from netdesign.site.model import Project, Site
+from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
 from netdesign.site.ranged_columns import free_columns
@@ -68,19 +70,22 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     """
     workbook = read_cells(path, text_format)
     findings = list(workbook.remarks)
-    ends = _read_ranges(find_table(workbook, RANGES, []), []).ends
-    plans = [free_columns(plan, ends) if plan is NETS else plan for plan in SHEETS]
+    ranged = _read_ranges(find_table(workbook, RANGES, []), []).ends
+    plans = [free_columns(plan, ranged) if plan is NETS else plan for plan in SHEETS]
     tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     type_sheets = {
         plan.name: _read_types(tables[plan.name], findings) for plan in _TYPE_SHEETS
     }
     snow = read_layers(tables[SNOW.name], findings)
+    ends = read_ends(tables[ENDS.name], findings)
     nets, ranges = tables[NETS.name], tables[RANGES.name]
     absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
-    net_rows = (
-        build_net_rows(nets, type_sheets, snow, findings, absent, ends) if nets else ()
-    )
+    net_rows: tuple[NetRow, ...] = ()
+    if nets:
+        net_rows = build_net_rows(
+            nets, type_sheets, snow, findings, absent, ends, ranged
+        )
     built = _read_ranges(ranges, findings)
     if built.ranges:
         check_layers(net_rows, snow, built.ranges, findings)

@@ -85,7 +85,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     ids = {row.id for row in site.rows}
     measured = sum(one.row_id in ids for one in site.monitoring)
     histories = rows if run.method == "transient" else 0
-    checks = sum(len(row.resistances) for row in site.rows)
+    checks = sum(map(_count_checks, site.rows))
     phases = [
         _plan_envelope(site, run),
         Phase(
@@ -117,6 +117,12 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
         ),
     ]
     return [one for one in phases if one.most or one.seconds]
+
+
+def _count_checks(row: NetRow) -> int:
+    """Checks of forces, of the support inside the row and of the one at its end."""
+    ends = len(row.resistances_at("edge")) if row.has_end else 0
+    return len(row.resistances) + ends
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
@@ -192,7 +198,8 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    return _RowScenes(row=replace(row, inputs=(), resistances=()), law=law)
+    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    return _RowScenes(row=bare, law=law)
 
 
 def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:

@@ -52,32 +52,54 @@ class Span:
     high: float
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeldCheck:
+    """One check whose limits are looked for.
+
+    Attributes
+    ----------
+    target : Target
+        Check as a function of a solved case and of the row.
+    widen : callable
+        Width that loads the support of a changed row [m]: the end effect grows with
+        the glide factor.
+    """
+
+    target: Target
+    widen: Callable[[NetRow], float]
+
+    @property
+    def largest(self) -> float:
+        """Largest force of the member over the solved cases [N]."""
+        solved = (one for one in self.target.results if one.is_converged)
+        return max(self.force(one) for one in solved)
+
+    def force(self, result: CaseResult) -> float:
+        """Upper end of the member's force in a case [N]."""
+        return result.member_forces[self.target.member].high
+
+
 def find_holds(
-    targets: Mapping[str, Target],
-    probe: Probe,
-    widen: Callable[[NetRow, str], float],
+    checks: Mapping[str, HeldCheck], probe: Probe
 ) -> dict[str, list[HoldRecord]]:
     """Limits of every single quantity for every check of one row, by the check's id.
 
     Parameters
     ----------
-    targets : mapping of str to Target
+    checks : mapping of str to HeldCheck
         Checks of one row that have a force and a resistance.
     probe : Probe
         Solves what is asked for, each once.
-    widen : callable
-        Factor from a solved force of a member to that of the row's worst support: the
-        end effect grows with the glide factor.
 
     Verified by
     -----------
     tests/study/test_holds.py
     """
-    if not targets:
+    if not checks:
         return {}
-    one = next(iter(targets.values()))
+    one = next(iter(checks.values())).target
     spans = list_spans(one.row, one.ranges)
-    serving = _choose_cases(targets)
+    serving = _choose_cases(checks)
     shared = list(dict.fromkeys(case.case for case in serving.values()))
     probe.solve_all(
         [
@@ -88,10 +110,8 @@ def find_holds(
         ]
     )
     return {
-        name: [
-            _Line(target, span, serving[name], probe, widen).record() for span in spans
-        ]
-        for name, target in targets.items()
+        name: [_Line(check, span, serving[name], probe).record() for span in spans]
+        for name, check in checks.items()
     }
 
 
@@ -148,50 +168,37 @@ def move_case(case: Case, name: str, value: float) -> Case:
     return Case.of({**kept, name: value})
 
 
-def _choose_cases(targets: Mapping[str, Target]) -> dict[str, CaseResult]:
+def _choose_cases(checks: Mapping[str, HeldCheck]) -> dict[str, CaseResult]:
     """For each check a case in which its member carries about its largest force.
 
     As few as do: members share a case where they can.
     """
     chosen: dict[str, CaseResult] = {}
-    for name, target in targets.items():
-        serves = (
-            one
-            for one in chosen.values()
-            if _force(one, target) >= _SERVES * _largest(target)
-        )
-        own = next(one for one in target.results if one.case == target.governing)
+    for name, check in checks.items():
+        least, at = _SERVES * check.largest, check.target.governing
+        serves = (one for one in chosen.values() if check.force(one) >= least)
+        own = next(one for one in check.target.results if one.case == at)
         chosen[name] = next(serves, own)
     return chosen
-
-
-def _force(result: CaseResult, target: Target) -> float:
-    return result.member_forces[target.member].high
-
-
-def _largest(target: Target) -> float:
-    return max(_force(one, target) for one in target.results if one.is_converged)
 
 
 class _Line:
     """One check along one quantity."""
 
     def __init__(
-        self,
-        target: Target,
-        span: Span,
-        serving: CaseResult,
-        probe: Probe,
-        widen: Callable[[NetRow, str], float],
+        self, check: HeldCheck, span: Span, serving: CaseResult, probe: Probe
     ) -> None:
-        self._target, self._span, self._probe = target, span, probe
-        self._widen = widen
+        self._check, self._target = check, check.target
+        self._span, self._probe = span, probe
         self._parameter = PARAMETERS[span.name]
         self._serving = serving.case
         # what the serving case lacks of the largest force
-        self._lack = _largest(target) / _force(serving, target)
-        self._near = list_near(target)[:2]
-        self._passes = target.scale * _largest(target) <= 1.0
+        carried = check.force(serving)
+        self._lack = check.largest / carried if carried else 1.0
+        self._near = list_near(self._target)[:2]
+        coupled = self._target.scale * check.largest
+        self._used = max(coupled, self._target.use_floor(self._target.row))
+        self._passes = self._used <= 1.0
         self._note: Message | None = None
 
     def record(self) -> HoldRecord:
@@ -224,7 +231,7 @@ class _Line:
             return None, now
         if (used <= 1.0) is self._passes:
             return None, end
-        at_now = (now, self._target.scale * _largest(self._target))
+        at_now = (now, self._used)
         ends = (at_now, (end, used)) if self._passes else ((end, used), at_now)
         return self._refine(*ends), end
 
@@ -240,15 +247,16 @@ class _Line:
         if any(one is None for one in found):
             self._note = say("hold.no_result", value=self._parameter.show(value))
             return None
-        wider = self._compare_width(wanted[0][0].at(wanted[0][1]))
-        return lack * wider * max(one for one in found if one is not None)
+        moved = wanted[0][0].at(wanted[0][1])
+        coupled = lack * max(one for one in found if one is not None)
+        return self._compare_width(moved) * max(coupled, self._target.use_floor(moved))
 
     def _compare_width(self, moved: NetRow) -> float:
-        """Factor of a moved row over that of the row as it is."""
-        row, member = self._target.row, self._target.member
+        """Width that loads the support of a moved row over that of the row as it is."""
+        row = self._target.row
         if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
             return 1.0
-        return self._widen(moved, member) / self._widen(row, member)
+        return self._check.widen(moved) / self._check.widen(row)
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]

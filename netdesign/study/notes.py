@@ -74,8 +74,11 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
     notes = []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    if effects.width.position == "edge":
-        notes.append(say("row.edge_governs"))
+    for width in effects.supports:
+        if width.other_width is not None:
+            wider, other = width.width, width.other_width
+            told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
+            notes.append(told)
     checked = {given.mode for given in row.resistances}
     if "bearing" not in checked:
         notes.append(say("row.bearing_not_checked"))
@@ -118,7 +121,7 @@ def list_reasons(
     unproven = [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode),
+            check=name_check(check.member, check.mode, check.position),
             reason=check.reason,
         )
         for check in checks

@@ -14,7 +14,7 @@ from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.study.flips import Target
-from netdesign.study.holds import find_holds, list_spans, move_case
+from netdesign.study.holds import HeldCheck, find_holds, list_spans, move_case
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -108,7 +108,8 @@ def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
 
 
 def hold_of(target, quantity, probe=None, widen=alone):
-    found = find_holds({"c": target}, probe or MadeUpProbe(), widen)["c"]
+    held = HeldCheck(target=target, widen=widen)
+    found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
     return next(one for one in found if one.quantity == quantity)
 
 
@@ -165,9 +166,7 @@ def test_nothing_in_reach_is_no_limit():
 
 def test_the_end_effect_that_grows_with_glide_brings_the_limit_nearer():
     plain = hold_of(a_target(0.85), "glide_factor")
-    wide = hold_of(
-        a_target(0.85), "glide_factor", widen=lambda row, _: row.glide_factor
-    )
+    wide = hold_of(a_target(0.85), "glide_factor", widen=lambda row: row.glide_factor)
     assert plain.most == pytest.approx(1.62 * 0.85 ** (-1 / 1.2), rel=0.05)
     assert wide.most == pytest.approx(1.62 * 0.85 ** (-1 / 2.2), rel=0.05)
 
@@ -189,12 +188,24 @@ def test_a_rival_that_overtakes_is_confirmed_too():
     assert 0.8 * worst <= 1.0
 
 
+def test_the_guidelines_load_limits_what_the_coupled_solve_would_allow():
+    """A floor of 0.9 that rises with the thickness to the power of three."""
+    floor = replace(
+        a_target(0.6), use_floor=lambda row: 0.9 * (row.snow_thickness / 2.47) ** 3
+    )
+    hold = hold_of(floor, "thickness_m")
+    assert hold.most <= 2.47 * 0.9 ** (-1 / 3)
+    assert hold.most == pytest.approx(2.47 * 0.9 ** (-1 / 3), rel=0.03)
+    assert hold_of(a_target(0.6), "thickness_m").most is None
+
+
 def test_members_share_solves():
     """Ends of the search are solved once for all checks of a row."""
     probe, targets = MadeUpProbe(), {}
     for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
-        targets[str(k)] = a_target(used, ("foot_anchor", "post")[k % 2])
-    find_holds(targets, probe, alone)
+        target = a_target(used, ("foot_anchor", "post")[k % 2])
+        targets[str(k)] = HeldCheck(target=target, widen=alone)
+    find_holds(targets, probe)
     assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
 
 

@@ -166,7 +166,9 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
         rows=tuple(
             (
                 text_cell(words.show(echo.label)),
-                text_cell(echo.text),
+                text_cell(
+                    words.show(echo.derivation) if echo.derivation else echo.text
+                ),
                 given_cell(echo.value),
                 text_cell(show_unit(echo.unit)),
                 text_cell(

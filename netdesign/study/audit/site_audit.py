@@ -7,18 +7,27 @@ from dataclasses import replace
 
 from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import build_cases
+from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
-from netdesign.study.effects import find_effects, load_guideline
+from netdesign.study.demand import build_demand, tell_governing
+from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
 from netdesign.study.record_cases import is_calibrated, read_point, record_point
 from netdesign.study.record_guideline import compare_case
-from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import record_geometry, record_result
+from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
+from netdesign.study.row_checks import (
+    list_checked,
+    place_check,
+    record_geometry,
+    record_result,
+)
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
@@ -111,9 +120,12 @@ def _audit_judgement(
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
     effects = find_effects(given, standard)
+    floor = find_row_floor(given, site.ranges, standard)
     members = [
-        _judge_again(row, check, resistance, standard)
-        for check, resistance in zip(row.checks, given.resistances, strict=False)
+        _judge_again(row, check, width, resistance, standard)
+        for check, (width, resistance) in zip(
+            row.checks, list_checked(given, effects), strict=False
+        )
     ]
     expected = [*members, *record_geometry(given, site.ranges, standard)]
     stored, again = (
@@ -128,17 +140,23 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
+    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+        yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
-            width = effects.record(check.member, _hold(check.action.solved_kN))
-            for found in compare_values(check.action, width):
+            action = _act_again(check, check.action, effects, floor)
+            for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
 
 
 def _judge_again(
-    row: RowStudy, check: CheckRecord, given: Resistance, standard: Standard
+    row: RowStudy,
+    check: CheckRecord,
+    width: LoadedWidth,
+    given: Resistance,
+    standard: Standard,
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -154,18 +172,31 @@ def _judge_again(
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
     again = record_result(check_member(action, given, standard, gap=gap), given)
-    # a gap in its own words is one
-    return again if is_whole else replace(again, reason=check.reason)
+    again = place_check(again, width)
+    if not is_whole:  # a gap in its own words is one
+        return replace(again, reason=check.reason)
+    if check.action is None:
+        return again
+    return replace(again, reason=tell_governing(again.reason, check.action))
+
+
+def _act_again(
+    check: CheckRecord, stored: ActionRecord, effects: RowEffects, floor: Floor | None
+) -> ActionRecord:
+    """The action from its solved force, with what may hide as the study states it."""
+    width = effects.find_support(check.position)
+    value = newton_from_kilonewton(stored.solved_kN)
+    high = newton_from_kilonewton(stored.coupled_kN)
+    high /= effects.factor(check.member, width)
+    solved = Band(low=0.0, value=value, high=max(value, high))
+    least = floor.find(check.member) if floor else None
+    demand = build_demand(effects, check.member, width, solved, least)
+    return demand.record(effects, check.member)
 
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
     return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
-
-
-def _hold(force_kN: float) -> Band:
-    force = newton_from_kilonewton(force_kN)
-    return Band(low=force, value=force, high=force)
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
