@@ -55,7 +55,10 @@ _ROWS = (
     _row("friction_deg", "φ", "°", None),
     _row("inclination_deg", "θ", "°", None),
     _row("thickness_m", "d", "m", None),
-    _row("slack", "", "", None),
+    _row("upslope_length_m", "L", "m", None),
+    _row("slack", "s", "", None),
+    _row("stiffness_kN_per_m", "ES", "kN/m", None),
+    _row("slip_length_m", "D*", "m", None),
     _row("glide_factor", "N", "", None),
     # geometry
     _row("slope_deg", "ψ", "°", 1),

@@ -23,6 +23,7 @@ from netdesign.site.model import (
     NetRow,
     Resistance,
 )
+from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     LayersByRow,
@@ -65,6 +66,7 @@ def build_net_rows(
     findings: list[Finding],
     absent: Iterable[str] = (),
     ends: EndsByRow = MappingProxyType({}),
+    ranged: Ends = MappingProxyType({}),
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -82,6 +84,8 @@ def build_net_rows(
         Type sheets that the workbook does not have, under whatever name.
     ends : mapping of str to Row
         Lines of sheet Ends by net row.
+    ranged : mapping of str to tuple of Reading, or None
+        Ends of what ranges over all rows, by its name in sheet Ranges.
 
     Returns
     -------
@@ -101,6 +105,7 @@ def build_net_rows(
             type_sheets,
             snow.get(row["id"].word, ()),
             ends.get(row["id"].word),
+            ranged,
             findings,
         )
         for row in rows
@@ -172,16 +177,19 @@ def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
 
 
 def _build_net_row(
-    row: Row,
+    line: Row,
     type_sheets: TypeSheets,
     lines: tuple[Row, ...],
     end: Row | None,
+    ranged: Ends,
     findings: list[Finding],
 ) -> NetRow | None:
     count_before = len(findings)
-    row = _fill_in_distances(row)
+    line = _fill_in_distances(line)
+    row = fill_in_ranges(line, ranged, findings)
     layers = build_layers(lines, row["slope_angle"], findings)
-    thickness = _understand_thickness(row, lines, layers, findings)
+    is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
+    thickness = _understand_thickness(row, lines, layers, findings, is_ranged=is_ranged)
     ground = _understand_ground(row, thickness, findings)
     named = [row, end] if end else [row]
     for one in named:
@@ -213,7 +221,7 @@ def _build_net_row(
         if end
         else None,
         inputs=(
-            *_echo_inputs(row, thickness, ground),
+            *_echo_inputs(line, thickness, ground),
             *echo_layers(lines),
             *echo_ends(end),
         ),
@@ -245,8 +253,13 @@ def _understand_thickness(
     lines: tuple[Row, ...],
     layers: tuple[Layer, ...],
     findings: list[Finding],
+    *,
+    is_ranged: bool,
 ) -> float | None:
-    """Snow thickness normal to the slope [m]: of one column, or of the layers."""
+    """Snow thickness normal to the slope [m]: of one column, or of the layers.
+
+    Where it ranges, the layers follow the range.
+    """
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
     if "faulty" in (thickness.state, height.state):
@@ -257,7 +270,9 @@ def _understand_thickness(
         return None
     is_normal = thickness.state == "given"
     given = thickness if is_normal else height
-    if lines:
+    if lines and not layers:  # a line of sheet Snow is faulty: a finding already
+        return None
+    if lines and not is_ranged:
         return settle_thickness(layers, given, slope_angle, findings)
     if is_normal:
         return thickness.si

@@ -14,10 +14,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from netdesign.envelope.curvature import AXES
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
+from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
@@ -148,10 +148,14 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     """Largest snow thickness, normal to the slope, at which a check passes.
 
-    Coupled force and floor both rise with it; the lower of the two limits counts.
+    Where the thickness ranges, all of it has to stay below. Coupled force and floor
+    both rise with it; the lower of the two limits counts.
     """
 
     def build(value: float, case: Case) -> tuple[NetRow, Case]:
+        others = {k: v for k, v in case.values.items() if k != "snow_height"}
+        if len(others) < len(case.values) or "thickness" in others:
+            case = Case.of({**others, "thickness": value})
         return replace(target.row, snow_thickness=value), case
 
     thickness = target.row.snow_thickness
@@ -174,6 +178,8 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     limit = most if highest is None else highest
     if bound is not None and limit < most and bound > limit - _STEPS["thickness"]:
         note = say("change.floor_limits")
+    if bound is not None and bound < _find_thinnest(target):
+        note = say("change.below_range")
     return ChangeRecord(
         quantity=say("change.snow_thickness"),
         unit="m",
@@ -183,6 +189,16 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
         solves=solves,
         note=note,
     )
+
+
+def _find_thinnest(target: Target) -> float:
+    """Least thickness that the ranges have; 0 where it does not range [m]."""
+    ranges = target.ranges
+    if "thickness" in ranges.further:
+        return ranges["thickness"].low
+    if "snow_height" in ranges.further:
+        return compute_thickness(ranges["snow_height"].low, target.row.slope_angle)
+    return 0.0
 
 
 def _round_down(value: float, step: float) -> float:
@@ -257,17 +273,15 @@ def _list_friction_angles(target: Target) -> list[float]:
     """Angles that stand for the whole of the other ranges, and the governing one.
 
     A search solves some angles at a few cases only; an angle counts where the corners
-    of density and inclination were solved.
+    of the other ranges were solved.
     """
-    density, inclination = target.ranges["density"], target.ranges["inclination"]
-    corners = set(
-        product((density.low, density.high), (inclination.low, inclination.high))
-    )
-    solved: dict[float, set[tuple[float, float]]] = {}
+    others = [one for one in target.ranges.intervals if one[0] != "friction_angle"]
+    corners = set(product(*((span.low, span.high) for _, span in others)))
+    solved: dict[float, set[tuple[float, ...]]] = {}
     for result in target.results:
-        case = result.case
-        at = solved.setdefault(case.friction_angle, set())
-        at.add((case.density, case.inclination))
+        values = result.case.values
+        at = solved.setdefault(values["friction_angle"], set())
+        at.add(tuple(values[name] for name, _ in others))
     whole = {angle for angle, cases in solved.items() if cases >= corners}
     return sorted(whole | {target.governing.friction_angle})
 
@@ -368,17 +382,21 @@ def _find_violator(
 
 def _list_rivals(target: Target, build: Build, value: float) -> list[Case]:
     """Cases near to governing at the given value, each scene once."""
+    scenes = {build(value, case)[1]: case for case in list_near(target)}
+    return list(scenes.values())
+
+
+def list_near(target: Target) -> list[Case]:
+    """Cases whose force is near the largest, that first; of a search some of them."""
     forces = {
         result.case: result.member_forces[target.member].high
         for result in target.results
         if result.is_converged
     }
     least = _RIVAL * max(forces.values())
-    rivals = [case for case in forces if forces[case] >= least]
-    if not target.ranges.is_grid:
-        rivals = _thin_out(sorted(rivals, key=lambda c: (-forces[c], c)), target.ranges)
-    scenes = {build(value, case)[1]: case for case in rivals}
-    return list(scenes.values())
+    near = [case for case in forces if forces[case] >= least]
+    near.sort(key=lambda case: (-forces[case], case))
+    return near if target.ranges.is_grid else _thin_out(near, target.ranges)
 
 
 def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
@@ -387,20 +405,18 @@ def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
     A search crowds its cases around the largest force; what lies between those that
     are left is in the margin of the target.
     """
-    spans = {axis: ranges[axis] for axis in AXES}
     kept: list[Case] = []
     for case in cases:
-        is_beside = any(
-            all(
-                abs(getattr(case, axis) - getattr(other, axis))
-                <= _BESIDE * (span.high - span.low)
-                for axis, span in spans.items()
-            )
-            for other in kept
-        )
-        if not is_beside:
+        if not any(_is_beside(case, other, ranges) for other in kept):
             kept.append(case)
     return kept
+
+
+def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
+    return all(
+        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
+        for axis, span in ranges.intervals
+    )
 
 
 def _find_root(

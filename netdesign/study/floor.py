@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from netdesign.checks import Standard
-from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.envelope.ranges import USUAL, Case, Interval, Ranges
 from netdesign.guideline.comparison import NetGeometry
 from netdesign.guideline.floor import Floor, FloorForce, LoadedNet, find_floor
 from netdesign.guideline.load_model import read_load_model
@@ -25,13 +27,31 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
         read_load_model(load_guideline()),
         [
             LoadedNet(
-                net=build_geometry(row, span.low),
-                glide_factor=find_row_glide_factor(row),
+                net=build_geometry(one, span.low),
+                glide_factor=find_row_glide_factor(one),
             )
+            for one in _list_corners(row, ranges)
         ],
         inclinations=(span.low, span.high),
         altitude=row.altitude,
     )
+
+
+def _list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
+    """Rows at all ends of what ranges beside the usual three and is in the load.
+
+    The load knows no length of the snowpack.
+    """
+    names = [
+        name
+        for name in ranges.further
+        if name in ranges.axes and name != "upslope_length"
+    ]
+    usual = {name: ranges[name].low for name in USUAL}
+    ends = product(*((ranges[name].low, ranges[name].high) for name in names))
+    return [
+        row.at(Case.of({**usual, **dict(zip(names, one, strict=True))})) for one in ends
+    ]
 
 
 def build_geometry(row: NetRow, inclination: float) -> NetGeometry:

@@ -62,6 +62,7 @@ def compare_case(
         Of the foot anchor [N].
     """
     standard = load_guideline()
+    row = row.at(case)
     cases = compare_with_guideline(
         read_load_model(standard),
         build_geometry(row, case.inclination),

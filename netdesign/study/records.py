@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
+from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.words.text_field import Text
@@ -19,11 +20,28 @@ SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
 
 @dataclass(frozen=True, kw_only=True)
 class CasePoint:
-    """One point of the ranges."""
+    """One point of the ranges; what does not range beside the first three is None.
+
+    The document leaves that out.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
 
     density_kg_m3: float
     friction_deg: float
     inclination_deg: float
+    thickness_m: float | None = None
+    height_vertical_m: float | None = None
+    upslope_length_m: float | None = None
+    slack: float | None = None
+    stiffness_kN_per_m: float | None = None
+    slip_length_m: float | None = None
+    glide_factor: float | None = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values by their keys."""
+        return list_fields(self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -225,6 +243,25 @@ class DeclarationRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class HoldRecord:
+    """Limits of one single quantity, moved alone, beyond which a check turns.
+
+    Of a check that passes: it holds from ``least`` to ``most``. Of one that does not:
+    it would pass from ``least`` on, and up to ``most``. None where it does not turn
+    on that side within the search. Values in the unit of ``quantity``, a key.
+    """
+
+    quantity: str  # "slack", "stiffness_kN_per_m", ...
+    now: float
+    least: float | None
+    most: float | None
+    low: float  # ends of the search
+    high: float
+    solves: int  # beyond those that other checks took
+    note: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class CheckRecord:
     """One check. Demand and resistance are design values.
 
@@ -256,6 +293,7 @@ class CheckRecord:
     declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
+    holds: list[HoldRecord] = field(default_factory=list)
     position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
 
     @property

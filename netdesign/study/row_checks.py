@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, partial
 
 from netdesign.checks import (
     CheckResult,
@@ -37,12 +38,14 @@ from netdesign.study.flips import (
     find_spacing_change,
 )
 from netdesign.study.floor import find_row_floor
+from netdesign.study.holds import HeldCheck, find_holds
 from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
     ChangeRecord,
     CheckRecord,
     DeclarationRecord,
+    HoldRecord,
     SpreadRecord,
 )
 from netdesign.study.stronger_types import find_type_change
@@ -101,17 +104,18 @@ def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckReco
     ``extremes`` are those of its solved cases.
     """
     effects = find_effects(task.row, task.standard)
-    floor = find_row_floor(task.row, task.site.ranges, task.standard)
+    floor = _find_floor(task, task.row)
     judged = [
         _judge_member(task, given, width, extremes, effects, floor)
         for width, given in list_checked(task.row, effects)
     ]
     checks = []
     for one in judged:
-        rivals = [other for other in judged if _name_of(other) == _name_of(one)]
-        is_worst = one is max(rivals, key=lambda other: other.ratio)
+        is_worst = _is_worst(one, judged)
         checks.append(_record_member(task, one, effects, is_worst=is_worst))
         task.on_check()
+    holds = _find_holds(task, judged, checks)
+    checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
     return [*checks, *record_geometry(task.site, task.row, task.standard)]
 
 
@@ -124,6 +128,45 @@ def list_checked(
         for width in effects.supports
         for given in row.resistances_at(width.position)
     ]
+
+
+def _is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
+    """No other support uses the member more."""
+    rivals = [other for other in judged if _name_of(other) == _name_of(one)]
+    return one is max(rivals, key=lambda other: other.ratio)
+
+
+def _find_holds(
+    task: RowCheck, judged: Sequence[MemberCheck], checks: Sequence[CheckRecord]
+) -> dict[str, list[HoldRecord]]:
+    """Limits of single values for the checks that follow from forces, by their ids.
+
+    At the support that uses a member most: where that holds, the other one does.
+    """
+    if task.probe is None or task.solved.gap or task.row.is_overtopped:
+        return {}
+    find = cache(partial(_find_floor, task))  # the same for all members
+    held = {
+        check.id: HeldCheck(
+            target=_build_target(task, one, find),
+            widen=partial(_find_width, task.standard, one),
+        )
+        for one, check in zip(judged, checks, strict=True)
+        if one.ratio > 0.0 and _find_scale(one) and _is_worst(one, judged)
+    }
+    return find_holds(held, task.probe)
+
+
+def _find_floor(task: RowCheck, row: NetRow) -> Floor | None:
+    """Floor of a row that may be changed."""
+    return find_row_floor(row, task.site.ranges, task.standard)
+
+
+def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:
+    """Width that loads a support of a row that was changed [m]."""
+    supports = find_effects(row, standard).supports
+    widths = [w.width for w in supports if w.position == one.width.position]
+    return max(widths, default=one.width.width)
 
 
 def _name_of(one: MemberCheck) -> tuple[str, str]:
@@ -375,7 +418,7 @@ def _list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None or not is_worst:
         return changes
-    target = _build_target(task, one)
+    target = _build_target(task, one, partial(_find_floor, task))
     found = (
         _doubt_density(task, find_density_change(target, task.probe)),
         find_height_change(target, task.probe),
@@ -384,7 +427,9 @@ def _list_changes(
     return [*changes, *(change for change in found if change is not None)]
 
 
-def _build_target(task: RowCheck, one: MemberCheck) -> Target:
+def _build_target(
+    task: RowCheck, one: MemberCheck, find: Callable[[NetRow], Floor | None]
+) -> Target:
     """The check as a function of a solved case and of the snow height."""
     extreme, scale = one.extreme, _find_scale(one)
     if extreme is None or scale is None:
@@ -392,7 +437,7 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
     member, ranges = one.given.member, task.site.ranges
 
     def use_floor(row: NetRow) -> float:
-        floor = find_row_floor(row, ranges, task.standard)
+        floor = find(row)
         least = floor.find(member) if floor else None
         if floor is not None and least is None:
             return math.inf

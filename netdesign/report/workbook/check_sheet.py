@@ -30,6 +30,7 @@ from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
+    name_further,
     name_heading,
     number_format,
     show_number,
@@ -147,6 +148,8 @@ _STUDY_NUMBERS = (
     _Field("AH", "utilisation", "", 8, "high", is_of_study=True),
     _Field("AI", "resistance_characteristic_kN", "", 8, is_of_study=True),
 )
+# Of a study with further ranges; after the hidden ones, whose letters stay.
+_FURTHER = _Field("AJ", "", "heading.further_values", 24)
 _SHOWN = (
     *_LEAD,
     *_ACTIONS,
@@ -163,7 +166,13 @@ _SHOWN = (
     *_LOADS,
 )
 _HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
-_FIELDS = (*_SHOWN, *_HIDDEN)
+_FIELDS = (*_SHOWN, *_HIDDEN, _FURTHER)
+
+
+def has_further(study: Study) -> bool:
+    """True if more than the usual three quantities range."""
+    checks = (check for row in study.rows for check in row.checks)
+    return any(name_further(check.case) for check in checks)
 
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -175,7 +184,8 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     columns = [field.name(book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
-        options = {"hidden": field in _HIDDEN}
+        is_idle = field is _FURTHER and not has_further(study)
+        options = {"hidden": field in _HIDDEN or is_idle}
         area = f"{field.letter}:{field.letter}"
         sheet.set_column(area, field.width, None, options)
     line = HEAD_ROW + 1
@@ -202,6 +212,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         "check_unchanged": _UNCHANGED,
         "check_load": _LOADS[2],
         **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
+        "check_case_further": _FURTHER,
     }
     for name, field in named.items():
         area = f"${field.letter}${first}:${field.letter}${last}"
@@ -250,6 +261,7 @@ class _CheckLine:
         case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
+        self._put(_FURTHER, Cell(text=name_further(case)))
         self._write_loads(check, view)
         texts = (show_text(name), view.title, view.clause)
         for field, text in zip(_LEAD[1:], texts, strict=True):

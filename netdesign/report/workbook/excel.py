@@ -27,6 +27,7 @@ SHEETS = (
     "envelope",
     "cases",
     "changes",
+    "holds",
     "support",
     "guideline",
     "quality",
@@ -122,6 +123,7 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         ("envelope", "heading.largest_of_members", _list_parts(view, "extremes")),
         ("cases", "heading.all_cases", cases),
         ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
+        ("holds", "heading.single_values", _list_parts(view, "holds")),
         (
             "support",
             "heading.forces_on_ground",

@@ -10,7 +10,7 @@ from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, number_format
+from netdesign.report.words import MISSING, name_further, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
@@ -151,7 +151,9 @@ def _write_governing(
     first, second, third = (
         f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
-    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
+    has_further = any(name_further(check.case) for check in row.checks)
+    further = f"&INDEX(check_case_further,{line})" if has_further else ""
+    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
     load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
     form = book.text(text_wrap=True)
     title = shown.governing.title if shown.governing else none
@@ -185,7 +187,7 @@ def _show_case(case: CasePoint) -> str:
     """Case as the formula shows it."""
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
     first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
-    return f"{first} kg/m³, φ {second}°, θ {third}°"
+    return f"{first} kg/m³, φ {second}°, θ {third}°{name_further(case)}"
 
 
 def _write_reasons(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Band, Standard, check_member
-from netdesign.envelope.ranges import Case, build_cases
+from netdesign.envelope.ranges import build_cases
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
@@ -20,7 +20,7 @@ from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import record_point
+from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import (
@@ -34,7 +34,6 @@ from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
     newton_from_kilonewton,
-    radian_from_degree,
 )
 from netdesign.words.message import Message, say
 
@@ -114,7 +113,8 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (degree_from_radian(given.slope_angle), given.held_thickness)
+        at = given.at(read_point(drawing.case))
+        wanted = (degree_from_radian(given.slope_angle), at.held_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -218,7 +218,7 @@ def _act_again(
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
-    return replace(check, case=None, action=None, spreads=[], changes=[])
+    return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
@@ -227,14 +227,9 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     if stored is None or stored.sha256 != load_guideline().sha256:
         return
     point = stored.case
-    case = Case(
-        density=point.density_kg_m3,
-        friction_angle=radian_from_degree(point.friction_deg),
-        inclination=radian_from_degree(point.inclination_deg),
-    )
     again = compare_case(
         given,
-        case,
+        read_point(point),
         load=newton_from_kilonewton(stored.solved_load_kN_per_m),
         foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
     )
