@@ -142,7 +142,7 @@ def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
     study = judge(build_row("R1"), build_row("R2"), declared=(PULL_OUT,))
     for row in study.rows:
         declared = [k for k, c in forces(row).items() if c.verdict is Verdict.DECLARED]
-        assert declared == ["foot_anchor.pull_out"]
+        assert declared == ["foot_anchor.pull_out", "foot_anchor.pull_out.end"]
         assert row.verdict is Verdict.DECLARED
 
 
@@ -185,7 +185,7 @@ def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
     study = judge(low, build_row("R2"), ranges=ranges, probe=probe)
     first, second = study.rows
     assert first.verdict is study.verdict is Verdict.FAIL
-    assert len(forces(first)) == len(MEMBER_MODES)
+    assert len(forces(first)) == 2 * len(MEMBER_MODES)  # inside the row and its end
     for check in forces(first).values():
         assert check.verdict is Verdict.NOT_PROVEN
         assert check.utilisation is not None

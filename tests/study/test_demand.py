@@ -10,6 +10,7 @@ from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
+from netdesign.site.model import Project
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.study.audit import audit_study
@@ -58,7 +59,9 @@ def solved():
 
 
 def judge(solved, standard=SWISS, **changes):
-    site = build_site(replace(ROW, **changes), ranges=RANGES)
+    """Study of the row; its site accepts the creep law for snow as light."""
+    accepted = Project(name="Combe", accepted_law=RUN.creep_law.name)
+    site = build_site(replace(ROW, **changes), ranges=RANGES, project=accepted)
     return site, judge_site(site, solved, standard, RUN)
 
 
