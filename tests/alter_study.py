@@ -8,12 +8,14 @@ OBJECTS = (
     "declared",
     "drawing",
     "guideline",
+    "floor",
     "envelope",
     "confirmation",
     "note",
     "reason",
     "model_reason",
     "resistance_derivation",
+    "derivation",
 )
 WORDS = ([*Verdict], [*Outcome])
 

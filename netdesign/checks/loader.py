@@ -15,6 +15,7 @@ from netdesign.checks.schema import (
     FactorEntry,
     FactorsFile,
     FileT,
+    Floor,
     LimitsFile,
     ModelFile,
     TablesFile,
@@ -131,6 +132,8 @@ class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
+    ``floor`` is what no demand lies below: the guideline's load, unless the profile
+    says "none".
     """
 
     id: str
@@ -143,6 +146,7 @@ class Standard:
     what_it_is: str
     what_it_is_not: str
     choice: str = ""
+    floor: Floor = "guideline"
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -232,7 +236,8 @@ def _load_folder(folder: Path) -> Standard:
         entries += read(ModelFile, "model.toml").value
     tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
     return Standard(
-        **document.model_dump(),
+        **document.model_dump(exclude={"load"}),
+        floor=document.load.floor,
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
         tables=tuple(
             StandardTable(

@@ -90,8 +90,11 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
     notes = []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    if effects.width.position == "edge":
-        notes.append(say("row.edge_governs"))
+    for width in effects.supports:
+        if width.other_width is not None:
+            wider, other = width.width, width.other_width
+            told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
+            notes.append(told)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
     return notes
@@ -136,7 +139,7 @@ def list_reasons(
     open_: dict[Message, list[Message]] = {}
     for check in checks:
         if check.verdict is not Verdict.PASS:
-            title = name_check(check.member, check.mode)
+            title = name_check(check.member, check.mode, check.position)
             open_.setdefault(check.reason, []).append(title)
     unproven = [
         say(

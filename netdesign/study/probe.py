@@ -15,13 +15,14 @@ from netdesign.solving.runner import Runner
 
 
 def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
-    """Scene of one case of a net row.
+    """Scene of one case of a net row, with what ranges as the case has it.
 
     Raises
     ------
     ModelError
         If the model refuses it.
     """
+    row = row.at(case)
     return Scene(
         snowpack=Snowpack(
             slope_angle=row.slope_angle,

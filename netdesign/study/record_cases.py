@@ -14,7 +14,6 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.calibration import is_calibrated
 from netdesign.study.records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.units import (
-    given_degree_from_radian,
     kilonewton_from_newton,
     kilonewton_if_known,
 )
@@ -22,9 +21,7 @@ from netdesign.units import (
 
 def show_parameter(name: str, value: float) -> float:
     """Value of a parameter in the unit of its key."""
-    if PARAMETERS[name].key.endswith("_deg"):
-        return given_degree_from_radian(value)
-    return value
+    return PARAMETERS[name].show(value)
 
 
 def show_case(values: Mapping[str, float]) -> dict[str, float]:
@@ -36,8 +33,20 @@ def show_case(values: Mapping[str, float]) -> dict[str, float]:
 
 
 def record_point(case: Case) -> CasePoint:
-    """Case of a site, in which three quantities range."""
+    """Case of a site."""
     return CasePoint(**show_case(case.values))
+
+
+def read_point(point: CasePoint) -> Case:
+    """Case of a record, in SI units."""
+    found = point.values
+    return Case.of(
+        {
+            name: one.read(found[one.key])
+            for name, one in PARAMETERS.items()
+            if one.key in found
+        }
+    )
 
 
 def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:

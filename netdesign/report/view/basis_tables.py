@@ -77,18 +77,33 @@ def _list_cells(*texts: str) -> tuple[Cell, ...]:
     return tuple(text_cell(text) for text in texts)
 
 
-def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
-    """Net rows, or the ranges, by the input that they left empty."""
+def _group_defaults(
+    study: Study, words: Words, *, of_numbers: bool = False
+) -> dict[tuple[str, str], str]:
+    """Net rows, or the ranges, by the input that they left empty.
+
+    A range without a number of samples is searched: that is no number.
+    """
     found: dict[tuple[str, str], list[str]] = {}
     places = [(words("heading.ranges"), study.range_inputs)]
     places += [(row.id, row.inputs) for row in study.rows]
     for place, inputs in places:
         for echo in inputs:
-            if echo.cell == DEFAULT and echo.value != "":
+            is_kind = isinstance(echo.value, float) or not of_numbers
+            if echo.cell == DEFAULT and echo.value != "" and is_kind:
                 shown = show_quantity(echo.value, echo.unit)
                 label = words.show(echo.label)
                 found.setdefault((label, shown), []).append(place)
     return {key: show_text(", ".join(names)) for key, names in found.items()}
+
+
+def list_defaults(study: Study, words: Words) -> str:
+    """Numbers that nobody typed, what they were taken as, and where; "" for none."""
+    found = _group_defaults(study, words, of_numbers=True)
+    return "; ".join(
+        words("show.default_taken", what=what, value=value, who=who)
+        for (what, value), who in found.items()
+    )
 
 
 def build_checklist(study: Study, words: Words) -> Table:
