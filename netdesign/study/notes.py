@@ -132,15 +132,22 @@ def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
 def list_reasons(
     checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
 ) -> list[Message]:
-    """Why a row does not pass: each check that does not, each law that is not met."""
+    """Reasons of a row that does not pass: of its checks, and of laws not met.
+
+    Checks with the same reason stand before it together.
+    """
+    open_: dict[Message, list[Message]] = {}
+    for check in checks:
+        if check.verdict is not Verdict.PASS:
+            title = name_check(check.member, check.mode, check.position)
+            open_.setdefault(check.reason, []).append(title)
     unproven = [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode, check.position),
-            reason=check.reason,
+            check=tuple(titles) if len(titles) > 1 else titles[0],
+            reason=reason,
         )
-        for check in checks
-        if check.verdict is not Verdict.PASS
+        for reason, titles in open_.items()
     ]
     unmet = [
         say("row.law_not_met", law=name("law", one.name))

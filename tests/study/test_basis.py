@@ -209,3 +209,12 @@ def test_a_net_counts_as_overtopped_beyond_rounding_only(height, expected):
     row = build_row("R1", net_height=height)
     assert row.is_overtopped is expected
     assert row.held_thickness == (height if expected else 2.5)
+
+
+def test_checks_with_one_reason_are_told_in_one_sentence(judge):
+    study = judge(build_row("R1", net_height=2.2))
+    forces_told, height_told = map(str, study.rows[0].reasons)
+    titles, _, reason = forces_told.partition(": ")
+    assert titles.count(";") == len(MEMBER_MODES) - 1
+    assert "overtops the net" in reason
+    assert height_told.startswith("Net, height: The net height 2.2 m")
