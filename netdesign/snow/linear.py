@@ -148,7 +148,7 @@ class Ordering:
     known : dict
         Places found before, shape (n,), by the arrays of unknowns they are of.
     patterns : dict
-        Sparse patterns found before, shapes as of `Pattern`, in the same way.
+        Sparse patterns found before, of shape (n,), in the same way.
     """
 
     place: Ints
