@@ -142,7 +142,7 @@ def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
     study = judge(build_row("R1"), build_row("R2"), declared=(PULL_OUT,))
     for row in study.rows:
         declared = [k for k, c in forces(row).items() if c.verdict is Verdict.DECLARED]
-        assert declared == ["foot_anchor.pull_out"]
+        assert declared == ["foot_anchor.pull_out", "foot_anchor.pull_out.end"]
         assert row.verdict is Verdict.DECLARED
 
 
@@ -185,7 +185,7 @@ def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
     study = judge(low, build_row("R2"), ranges=ranges, probe=probe)
     first, second = study.rows
     assert first.verdict is study.verdict is Verdict.FAIL
-    assert len(forces(first)) == len(MEMBER_MODES)
+    assert len(forces(first)) == 2 * len(MEMBER_MODES)  # inside the row, at its end
     for check in forces(first).values():
         assert check.verdict is Verdict.NOT_PROVEN
         assert check.utilisation is not None
@@ -213,8 +213,11 @@ def test_a_net_counts_as_overtopped_beyond_rounding_only(height, expected):
 
 def test_checks_with_one_reason_are_told_in_one_sentence(judge):
     study = judge(build_row("R1", net_height=2.2))
-    forces_told, height_told = map(str, study.rows[0].reasons)
-    titles, _, reason = forces_told.partition(": ")
-    assert titles.count(";") == len(MEMBER_MODES) - 1
-    assert "overtops the net" in reason
+    *forces_told, height_told = map(str, study.rows[0].reasons)
+    parts = [told.partition(": ") for told in forces_told]
+    reasons = [reason for _, _, reason in parts]
+    assert all("overtops the net" in reason for reason in reasons)
+    assert len(set(reasons)) == len(reasons)
+    named = sum(1 + titles.count(";") for titles, _, _ in parts)
+    assert named == 2 * len(MEMBER_MODES)
     assert height_told.startswith("Net, height: The net height 2.2 m")
