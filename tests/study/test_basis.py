@@ -185,7 +185,7 @@ def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
     study = judge(low, build_row("R2"), ranges=ranges, probe=probe)
     first, second = study.rows
     assert first.verdict is study.verdict is Verdict.FAIL
-    assert len(forces(first)) == 2 * len(MEMBER_MODES)  # inside the row, at its end
+    assert len(forces(first)) == 2 * len(MEMBER_MODES)  # inside the row and its end
     for check in forces(first).values():
         assert check.verdict is Verdict.NOT_PROVEN
         assert check.utilisation is not None

@@ -10,6 +10,7 @@ from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
+from netdesign.site.model import Project
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.study.audit import audit_study
@@ -58,7 +59,9 @@ def solved():
 
 
 def judge(solved, standard=SWISS, **changes):
-    site = build_site(replace(ROW, **changes), ranges=RANGES)
+    """Study of the row; its site accepts the creep law for snow as light."""
+    accepted = Project(name="Combe", accepted_law=RUN.creep_law.name)
+    site = build_site(replace(ROW, **changes), ranges=RANGES, project=accepted)
     return site, judge_site(site, solved, standard, RUN)
 
 
@@ -144,6 +147,12 @@ def test_floor_that_is_not_known_proves_nothing(solved):
         assert check.changes == []  # none of them makes it known
     assert study.rows[0].floor.forces == []
     assert study.rows[0].floor.reason is not None
+    assert audit_study(study) == []
+    first, *others = study.rows[0].checks
+    passed = replace(first, verdict=Verdict.PASS, reason=say("check.passes"))
+    row = replace(study.rows[0], checks=[passed, *others])
+    told = [str(one) for one in audit_study(replace(study, rows=[row]))]
+    assert any("says PASS, but its parts give NOT PROVEN" in one for one in told)
     assert site.rows[0].slope_angle == 0.04
 
 
