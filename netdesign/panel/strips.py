@@ -1,0 +1,169 @@
+"""Strips of the net, hung again between two ropes under the forces that they had.
+
+Nodal forces stay vectors at their material points, so that foot and head together
+keep their sum. Theory: panel/THEORY.md, section 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.cable.funicular import Funicular, solve_funicular, tension_offsets
+from netdesign.cable.net import Net
+from netdesign.coupling.solution import Solution
+from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome
+from netdesign.panel.inputs import Panel
+from netdesign.panel.stations import Stations
+from netdesign.words.message import say
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Strip:
+    """A metre of net as the section at the post has it.
+
+    Attributes
+    ----------
+    forces : ndarray, shape (2, 2 n + 1)
+        Of the snow on its nodes, foot to head [N/m].
+    shares : ndarray, shape (n,)
+        Unstressed lengths of its elements over that of the whole [-].
+    stiffness : float
+        ES [N/m].
+    head : ndarray, shape (2,)
+        Position of the post's head [m].
+    slack : float
+        Of the net, over its chord [-].
+    pull : ndarray, shape (2,)
+        Tension vector near its foot [N/m].
+    """
+
+    forces: Floats
+    shares: Floats
+    stiffness: float
+    head: Floats
+    slack: float
+    pull: Floats
+
+    @property
+    def load(self) -> Floats:
+        """Sum of the forces, shape (2,) [N/m]."""
+        return np.asarray(self.forces.sum(axis=1))
+
+    @property
+    def chord(self) -> float:
+        """Distance of foot and head [m]."""
+        return float(np.hypot(*self.head))
+
+
+def build_strip(solution: Solution) -> Strip:
+    """Strip of a net at rest.
+
+    The unstressed lengths follow from the curve: each element is as long as it would
+    be without the tension that the forces leave in it.
+
+    Parameters
+    ----------
+    solution : Solution
+        A steady state: of a history no instant has both the forces and the curve.
+
+    Raises
+    ------
+    ModelError
+        If the solution is no steady state of a net.
+    """
+    net = solution.scene.net
+    if solution.method != "steady" or not isinstance(net, Net):
+        raise ModelError(say("panel.steady_only", method=solution.method))
+    curve, forces = solution.net_curve, solution.net_forces
+    above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
+    forces = np.concatenate([forces, above], axis=1)
+    bend = -0.75 * forces[:, 1::2]
+    foot_pull = np.array([solution.foot.x, solution.foot.y])
+    pull = foot_pull + 2.0 / 3.0 * bend[:, 0] - forces[:, 0]  # (C5)
+    tension = pull[:, None, None] + tension_offsets(forces, bend)
+    give = 1.0 / np.hypot(*tension) + 1.0 / net.stiffness_per_m
+    reach = (tension * give).mean(axis=1)  # of an element, over its length
+    lengths = np.hypot(*np.diff(curve[:, ::2])) / np.hypot(*reach)
+    return Strip(
+        forces=forces,
+        shares=lengths / lengths.sum(),
+        stiffness=net.stiffness_per_m,
+        head=net.head,
+        slack=net.slack,
+        pull=pull,
+    )
+
+
+def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
+    """Unstressed length of the strip at each station and in mid-panel, (P4).
+
+    Parameters
+    ----------
+    panel : Panel
+        Its cut, and the ropes that it may follow.
+    strip : Strip
+        The net at the post.
+    stations : Stations
+        Places of the strips.
+
+    Returns
+    -------
+    ndarray, shape (K + 1,)
+        [m].
+
+    Raises
+    ------
+    SolveError
+        If the ropes hang lower than the net is high.
+    """
+    lowered = np.zeros(stations.xi.size + 1)
+    if panel.cut in ("upper", "fitted"):
+        lowered += panel.upper.sag * stations.upper.drape
+    if panel.cut == "fitted":
+        lowered += panel.lower.sag * stations.lower.drape
+    lengths = strip.chord - panel.post_spacing * lowered
+    if not lengths.min() > 0.0:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
+    return np.asarray((1.0 + strip.slack) * lengths)
+
+
+def hang_strips(
+    strip: Strip, lengths: Floats, displacements: Floats, pulls: Sequence[Floats]
+) -> list[Funicular]:
+    """Strips between displaced ropes.
+
+    Parameters
+    ----------
+    strip : Strip
+        Forces and shares of the length.
+    lengths : ndarray, shape (K,)
+        Unstressed [m].
+    displacements : ndarray, shape (2, 2, K)
+        Of the lower and the upper rope, (x, y) at each station [m].
+    pulls : sequence of ndarray, shape (2,)
+        Tension vector near the foot of each strip as it hung last [N/m].
+
+    Returns
+    -------
+    list of Funicular
+        Curves count from the foot of each strip.
+
+    Raises
+    ------
+    SolveError
+        If one of them finds no equilibrium.
+    """
+    reach = strip.head[:, None] + displacements[1] - displacements[0]
+    hung = [
+        solve_funicular(strip.forces, strip.shares * length, strip.stiffness, end, pull)
+        for length, end, pull in zip(lengths, reach.T, pulls, strict=True)
+    ]
+    for cable in hung:
+        if cable.outcome is not Outcome.CONVERGED:
+            raise SolveError(cable.outcome, say("panel.strip_not_found"))
+    return hung
