@@ -1,4 +1,4 @@
-"""What an engineer gives of a panel: its ropes, and how its net is cut."""
+"""Inputs of a panel: its ropes, and how its net is cut."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ class RopeForces:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PanelBalance:
-    """What is missing, over the load of the bay (times the chord, of moments).
+    """Forces and moments that are missing, over the load (and the chord).
 
     Attributes
     ----------

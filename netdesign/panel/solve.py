@@ -5,8 +5,8 @@ Theory: panel/THEORY.md, section 3.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from netdesign.cable.funicular import Funicular
 from netdesign.coupling.solution import Solution
 from netdesign.errors import SolveError
+from netdesign.guards import require_within
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
@@ -30,8 +31,10 @@ from netdesign.panel.strips import Strip, build_strip, cut_lengths, hang_strips
 from netdesign.structure.layout import Point
 from netdesign.words.message import say
 
-# Stations of half a panel: the error falls tenfold or more with each; 4 leave 1e-4.
+# Stations of half a panel: the error falls to a tenth or so with each.
 STATIONS = 4
+STATIONS_MID_ANCHORED = 6
+LARGEST_COUNT = 10  # the polynomial through more loses digits
 _STILL = 1e-10  # movement of a rope in the last round, over the chord
 _MOST_ROUNDS = 200
 _DEPTH = 8
@@ -72,7 +75,7 @@ class _Round:
 
 
 def solve_panel(
-    solution: Solution, panel: Panel, *, stations: int = STATIONS
+    solution: Solution, panel: Panel, *, stations: int | None = None
 ) -> PanelSolution | FailedPanel:
     """Panel whose post section has been solved.
 
@@ -82,8 +85,9 @@ def solve_panel(
         Steady state at the post.
     panel : Panel
         Spacing, ropes and cut.
-    stations : int
-        K, strips on half the panel [-].
+    stations : int, optional
+        K, strips on half the panel, 1 to 10 [-]; default is 4, with anchors in
+        mid-panel 6.
 
     Returns
     -------
@@ -93,12 +97,15 @@ def solve_panel(
     Raises
     ------
     ModelError
-        If the solution is no steady state of a net.
+        If the solution is no steady state of a net, or K is out of its range.
 
     Verified by
     -----------
     tests/verification/test_panel.py
     """
+    if stations is None:
+        stations = STATIONS_MID_ANCHORED if panel.has_mid_anchors else STATIONS
+    require_within("stations", stations, 1, LARGEST_COUNT)
     strip = build_strip(solution)
     try:
         return _solve(_build_problem(strip, panel, stations))
@@ -237,13 +244,15 @@ def _require_clear_of_ground(problem: _Problem, curves: Floats) -> None:
 def _measure_balance(
     problem: _Problem, end: _Round, curves: Floats, lower: Floats, upper: Floats
 ) -> PanelBalance:
-    """What is missing, from curves and supports, not from the equations solved (P6)."""
+    """Missing forces and moments, from curves and supports as they came out (P6)."""
     strip, half = problem.strip, problem.half
     load, weights = strip.load, problem.stations.weights
     size, chord = float(np.hypot(*load)), strip.chord
     force = lower.sum(axis=1) + upper.sum(axis=1) - 2.0 * half * load
     ends = [end.image[0], end.image[1] + strip.head[:, None]]
-    held = sum(_cross(at[:, :-1], pull) for at, pull in zip(ends, end.pulls, strict=True))
+    held = sum(
+        _cross(at[:, :-1], pull) for at, pull in zip(ends, end.pulls, strict=True)
+    )
     turned = _cross(curves[:-1].transpose(1, 0, 2), strip.forces[:, None]).sum(axis=1)
     lever = half**2 / 2.0 * load - half * (lower[:, 1] + upper[:, 1]) / 2.0
     for along, moved in zip(end.along, end.image, strict=True):

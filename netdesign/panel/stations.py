@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats
+from netdesign.numerics.arrays import Floats, Ints
 
 _ROPE_POINTS = 24  # of the length of a rope: exact to rounding up to steep slopes
 
@@ -81,7 +81,7 @@ def build_stations(count: int, *, has_mid_anchors: bool) -> Stations:
         points, doubled = np.polynomial.legendre.leggauss(2 * count)
         xi, weights = points[count:], doubled[count:]
         powers = 2 * np.arange(count)
-    fit = np.linalg.inv(xi[:, None] ** powers)
+    fit = np.asarray(np.linalg.inv(xi[:, None] ** powers), dtype=float)
     points, rope_weights = _place_gauss_points(_ROPE_POINTS)
     return Stations(
         xi=xi,
@@ -99,7 +99,7 @@ def _place_gauss_points(count: int) -> tuple[Floats, Floats]:
 
 
 def _build_span(
-    xi: Floats, powers: Floats, fit: Floats, points: Floats, *, is_held: bool
+    xi: Floats, powers: Ints, fit: Floats, points: Floats, *, is_held: bool
 ) -> Span:
     """Rope that is held in mid-panel too, or is level there."""
     places = np.append(xi, 0.0)
