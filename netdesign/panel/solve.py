@@ -38,6 +38,7 @@ LARGEST_COUNT = 10  # the polynomial through more loses digits
 _STILL = 1e-10  # movement of a rope in the last round, over the chord
 _MOST_ROUNDS = 200
 _DEPTH = 8
+_HALVINGS = 8
 _START_SAG = 0.02  # at least: a straight rope would have no direction
 _BALANCED = 1e-8
 _ON_GROUND = 1e-9  # depth below the ground, over the chord
@@ -68,10 +69,11 @@ class _Problem:
 class _Round:
     """Strips on given ropes, and the ropes under these strips."""
 
+    point: Floats  # displacements of the ropes (2, 2, K + 1) [m]
     strips: Sequence[Funicular]
     pulls: Floats  # on lower and upper rope (2, 2, K) [N/m]
     along: Sequence[float]  # of the two ropes [N]
-    image: Floats  # their displacements (2, 2, K) [m]
+    image: Floats  # displacements under these pulls (2, 2, K + 1) [m]
 
 
 def solve_panel(
@@ -124,18 +126,30 @@ def _build_problem(strip: Strip, panel: Panel, count: int) -> _Problem:
 
 
 def _solve(problem: _Problem) -> PanelSolution:
-    points, played = [_start(problem)], list[_Round]()
+    played, wanted = list[_Round](), _start(problem)
     while len(played) < _MOST_ROUNDS:
-        now = _play(problem, points[-1], played[-1] if played else None)
+        now = _play_between(problem, wanted, played[-1] if played else None)
         played.append(now)
-        moved = float(np.abs(now.image - points[-1]).max())
+        moved = float(np.abs(now.image - now.point).max())
         if not math.isfinite(moved):
             raise SolveError(Outcome.NONFINITE)
         if moved <= _STILL * problem.strip.chord:
             return _build_solution(problem, now, len(played))
-        images = [one.image for one in played]
-        points.append(mix_anderson(points, images, depth=_DEPTH))
+        points, images = [one.point for one in played], [one.image for one in played]
+        wanted = mix_anderson(points, images, depth=_DEPTH)
     raise SolveError(Outcome.MAX_ITERATIONS)
+
+
+def _play_between(problem: _Problem, wanted: Floats, last: _Round | None) -> _Round:
+    """Round on the wanted ropes, or as near to them as strips can be hung."""
+    if last is None:
+        return _play(problem, wanted, last)
+    for _ in range(_HALVINGS):
+        try:
+            return _play(problem, wanted, last)
+        except SolveError:  # ropes that passed each other on the way
+            wanted = (wanted + last.point) / 2.0
+    return _play(problem, wanted, last)
 
 
 def _start(problem: _Problem) -> Floats:
@@ -169,7 +183,13 @@ def _play(problem: _Problem, displacements: Floats, last: _Round | None) -> _Rou
         half**2 / force * load @ span.deflection.T
         for force, load, (_, span) in zip(along, pulls, problem.ropes, strict=True)
     ]
-    return _Round(strips=hung, pulls=pulls, along=along, image=np.array(image))
+    return _Round(
+        point=displacements,
+        strips=hung,
+        pulls=pulls,
+        along=along,
+        image=np.array(image),
+    )
 
 
 def _find_along(
