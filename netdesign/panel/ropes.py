@@ -14,6 +14,7 @@ from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Rope
+from netdesign.panel.stations import ROPE_POINTS, place_gauss_points
 from netdesign.words.message import say
 
 _STILL = 1e-12  # last step of log H
@@ -21,8 +22,10 @@ _LONGEST_STEP = 2.0  # of log H
 _MOST_STEPS = 100
 
 
-def compute_unstressed_length(sag: float) -> float:
-    """Length of a parabola over its span, L_r / span of (P2).
+def compute_excess_length(sag: float) -> float:
+    """Length of a parabola over its span, less 1: L_r / span - 1 of (P2).
+
+    Its integral is taken, not its closed form: of a flat parabola that keeps no digits.
 
     Parameters
     ----------
@@ -32,12 +35,10 @@ def compute_unstressed_length(sag: float) -> float:
     Returns
     -------
     float
-        At least 1 [-].
+        [-]; from 0, for a straight rope.
     """
-    slope = 4.0 * sag  # at the ends
-    if slope < 1e-4:  # asinh(b) / b has lost its digits
-        return 1.0 + slope**2 / 6.0
-    return (math.sqrt(1.0 + slope**2) + math.asinh(slope) / slope) / 2.0
+    places, weights = place_gauss_points(ROPE_POINTS)
+    return float(weights @ _exceed((4.0 * sag * places) ** 2))
 
 
 def estimate_force_along(load: float, span: float, rope: Rope) -> tuple[float, float]:
@@ -97,7 +98,7 @@ def solve_force_along(
     tests/verification/test_panel.py
     """
     across = np.einsum("ij,ij->j", shear, shear)
-    wanted = compute_unstressed_length(rope.sag)
+    wanted = compute_excess_length(rope.sag)
     point, low, high = math.log(start), -math.inf, math.inf
     for _ in range(_MOST_STEPS):
         gap, slope = _measure_length(across, weights, rope.stiffness, math.exp(point))
@@ -115,11 +116,15 @@ def solve_force_along(
 def _measure_length(
     across: Floats, weights: Floats, stiffness: float, along: float
 ) -> tuple[float, float]:
-    """Left side of (P2) over the span, and its derivative by log H."""
+    """Left side of (P2) over the span, less 1, and its derivative by log H."""
     ratio = across / along**2
-    stretched = np.sqrt(1.0 + ratio)
-    give = 1.0 + along / stiffness * stretched
-    length = stretched / give
-    slope = -(ratio / stretched + along / stiffness * stretched**2) / give**2
-    # d/dlogH of w / (1 + H w / EA), with dw/dlogH = -ratio / w
-    return float(weights @ length), float(weights @ slope)
+    excess = _exceed(ratio)  # w - 1
+    strain = along / stiffness * (1.0 + excess)
+    give = 1.0 + strain
+    slope = -(ratio / (1.0 + excess) + strain * (1.0 + excess)) / give**2
+    return float(weights @ ((excess - strain) / give)), float(weights @ slope)
+
+
+def _exceed(ratio: Floats) -> Floats:
+    """Length over its projection, less 1, of slopes with these squares."""
+    return np.asarray(ratio / (1.0 + np.sqrt(1.0 + ratio)))

@@ -12,7 +12,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
 
-_ROPE_POINTS = 24  # of the length of a rope: exact to rounding up to steep slopes
+ROPE_POINTS = 24  # of the length of a rope: exact to rounding up to steep slopes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,14 +75,14 @@ def build_stations(count: int, *, has_mid_anchors: bool) -> Stations:
         The lower rope is held in mid-panel too.
     """
     if has_mid_anchors:
-        xi, weights = _place_gauss_points(count)
+        xi, weights = place_gauss_points(count)
         powers = np.arange(count)
     else:
         points, doubled = np.polynomial.legendre.leggauss(2 * count)
         xi, weights = points[count:], doubled[count:]
         powers = 2 * np.arange(count)
     fit = np.asarray(np.linalg.inv(xi[:, None] ** powers), dtype=float)
-    points, rope_weights = _place_gauss_points(_ROPE_POINTS)
+    points, rope_weights = place_gauss_points(ROPE_POINTS)
     return Stations(
         xi=xi,
         weights=weights,
@@ -92,8 +92,19 @@ def build_stations(count: int, *, has_mid_anchors: bool) -> Stations:
     )
 
 
-def _place_gauss_points(count: int) -> tuple[Floats, Floats]:
-    """Gauss points and weights on 0 to 1."""
+def place_gauss_points(count: int) -> tuple[Floats, Floats]:
+    """Gauss points and weights on 0 to 1.
+
+    Parameters
+    ----------
+    count : int
+        Number of points [-].
+
+    Returns
+    -------
+    ndarray, ndarray, shape (count,)
+        [-].
+    """
     points, weights = np.polynomial.legendre.leggauss(count)
     return (1.0 + points) / 2.0, weights / 2.0
 
