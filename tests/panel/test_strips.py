@@ -1,0 +1,117 @@
+"""Strips: taken from a solution, cut to ropes, hung again."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.errors import ModelError, SolveError
+from netdesign.outcome import Outcome
+from netdesign.panel.inputs import Panel, Rope
+from netdesign.panel.stations import build_stations
+from netdesign.panel.strips import build_strip, cut_lengths, hang_strips
+from netdesign.snow.snowpack import Layer, Snowpack
+
+QUICK = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
+
+
+def solve_layered(scene: Scene):
+    layers = (
+        Layer(thickness=1.6, density=412.0),
+        Layer(thickness=1.1, density=317.0),
+        Layer(thickness=1.3, density=233.0),
+    )
+    density = sum(one.thickness * one.density for one in layers) / 4.0
+    pack = Snowpack(
+        slope_angle=scene.snowpack.slope_angle,
+        thickness=4.0,
+        upslope_length=20.0,
+        density=density,
+        layers=layers,
+    )
+    return solve_steady(replace(scene, snowpack=pack), QUICK, on_failure="raise")
+
+
+@pytest.mark.parametrize("kind", ["plain", "freeboard", "layered"])
+def test_strip_hangs_as_the_section_does(a_scene, kind):
+    """Also where the snow ends below the head, and where nodes lie on layers."""
+    scene = a_scene(
+        inclination_deg=27.0,
+        slack=0.031,
+        ground="no-slip",
+        height_m=4.43 if kind == "freeboard" else None,
+    )
+    solution = (
+        solve_layered(scene)
+        if kind == "layered"
+        else solve_steady(scene, QUICK, on_failure="raise")
+    )
+    strip = build_strip(solution)
+    length = np.array([scene.net.unstressed_length])
+    (hung,) = hang_strips(strip, length, np.zeros((2, 2, 1)), [strip.pull])
+    scale = solution.foot.size
+    foot = [solution.foot.x, solution.foot.y]
+    head = [solution.head.x, solution.head.y]
+    np.testing.assert_allclose(hung.foot_pull, foot, atol=1e-8 * scale)
+    np.testing.assert_allclose(hung.head_pull, head, atol=1e-8 * scale)
+    np.testing.assert_allclose(hung.curve, solution.net_curve, atol=1e-8)
+    assert strip.shares.sum() == pytest.approx(1.0, abs=1e-14)
+    np.testing.assert_allclose(strip.load, np.add(foot, head), atol=1e-8 * scale)
+
+
+def test_pulls_keep_their_sum_between_moved_ropes(solved):
+    strip = build_strip(solved(inclination_deg=30.0))
+    moved = np.random.default_rng(7).uniform(-0.21, 0.17, (2, 2, 3))
+    lengths = strip.chord * np.array([0.93, 1.02, 1.11])
+    hung = hang_strips(strip, lengths, moved, [strip.pull] * 3)
+    for cable, foot, head in zip(hung, moved[0].T, moved[1].T, strict=True):
+        pulls = cable.foot_pull + cable.head_pull
+        np.testing.assert_allclose(pulls, strip.load, rtol=1e-12)
+        reach = strip.head + head - foot
+        np.testing.assert_allclose(cable.curve[:, -1], reach, atol=1e-10)
+
+
+def test_only_a_net_at_rest_has_strips(solved):
+    history = replace(solved(inclination_deg=30.0), method="transient")
+    with pytest.raises(ModelError, match="steady state of a net, not on method trans"):
+        build_strip(history)
+
+
+@pytest.mark.parametrize("mid", [False, True])
+@pytest.mark.parametrize("cut", ["uniform", "upper", "fitted"])
+def test_cut_follows_the_ropes(solved, cut, mid):
+    strip = build_strip(solved(inclination_deg=30.0, slack=0.04, ground="no-slip"))
+    panel = Panel(
+        post_spacing=3.7,
+        lower=Rope(stiffness=2e7, sag=0.043),
+        upper=Rope(stiffness=1e7, sag=0.091),
+        cut=cut,
+        has_mid_anchors=mid,
+    )
+    stations = build_stations(4, has_mid_anchors=mid)
+    lengths = cut_lengths(panel, strip, stations)
+    chord = 4.0 / math.cos(math.radians(30))
+    upper = 3.7 * 0.091  # in mid-panel
+    lower = 0.0 if mid else 3.7 * 0.043
+    less = {"uniform": 0.0, "upper": upper, "fitted": upper + lower}[cut]
+    assert lengths[-1] == pytest.approx(1.04 * (chord - less), rel=1e-12)
+    assert (np.diff(lengths[np.argsort(stations.xi)]) >= 0.0).all() or cut == "fitted"
+
+
+def test_cut_that_leaves_no_net_is_named(solved):
+    strip = build_strip(solved(inclination_deg=30.0))
+    slack = Rope(stiffness=2e7, sag=0.3)
+    panel = Panel(post_spacing=8.1, lower=slack, upper=slack, cut="fitted")
+    with pytest.raises(SolveError, match="leaves no net") as caught:
+        cut_lengths(panel, strip, build_stations(4, has_mid_anchors=False))
+    assert caught.value.outcome is Outcome.OUT_OF_VALIDITY
+
+
+def test_strip_that_nothing_holds_is_named(solved):
+    """A length at which no number comes out."""
+    strip = build_strip(solved(inclination_deg=30.0))
+    with pytest.raises(SolveError, match="Nothing holds a strip"):
+        hang_strips(strip, np.array([math.nan]), np.zeros((2, 2, 1)), [strip.pull])
