@@ -21,6 +21,9 @@ from netdesign.panel.inputs import Panel
 from netdesign.panel.stations import Stations
 from netdesign.words.message import say
 
+# Share of the chord that a cut must leave between two ropes; choice of this program.
+LEAST_NET = 0.1
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Strip:
@@ -119,7 +122,7 @@ def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     Raises
     ------
     SolveError
-        If the ropes hang lower than the net is high.
+        If the ropes hang so low that less than ``LEAST_NET`` is left of the chord.
     """
     lowered = np.zeros(stations.xi.size + 1)
     if panel.cut in ("upper", "fitted"):
@@ -127,7 +130,7 @@ def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     if panel.cut == "fitted":
         lowered += panel.lower.sag * stations.lower.drape
     lengths = strip.chord - panel.post_spacing * lowered
-    if not lengths.min() > 0.0:
+    if not lengths.min() > LEAST_NET * strip.chord:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
     return np.asarray((1.0 + strip.slack) * lengths)
 
@@ -159,10 +162,13 @@ def hang_strips(
         If one of them finds no equilibrium.
     """
     reach = strip.head[:, None] + displacements[1] - displacements[0]
-    hung = [
-        solve_funicular(strip.forces, strip.shares * length, strip.stiffness, end, pull)
-        for length, end, pull in zip(lengths, reach.T, pulls, strict=True)
-    ]
+    with np.errstate(divide="ignore", invalid="ignore"):  # what fails has an outcome
+        hung = [
+            solve_funicular(
+                strip.forces, strip.shares * length, strip.stiffness, end, pull
+            )
+            for length, end, pull in zip(lengths, reach.T, pulls, strict=True)
+        ]
     for cable in hung:
         if cable.outcome is not Outcome.CONVERGED:
             raise SolveError(cable.outcome, say("panel.strip_not_found"))

@@ -103,7 +103,21 @@ def test_cut_without_net_is_a_result(section):
     failed = solve_panel(section, panel)
     assert isinstance(failed, FailedPanel)
     assert failed.outcome is Outcome.OUT_OF_VALIDITY
-    assert "leaves no net" in str(failed.reason)
+    assert "leaves next to no net" in str(failed.reason)
+
+
+def test_soft_ropes_that_pass_each_other_on_the_way(solved):
+    """A strip then hangs from nothing; half the way brings the rounds to their end."""
+    low = solved(thickness_m=1.7, inclination_deg=3.0, slack=0.06, slope_deg=47.0)
+    panel = Panel(
+        post_spacing=5.9,
+        lower=Rope(stiffness=1.2e6, sag=0.05),
+        upper=Rope(stiffness=2.4e6, sag=0.05),
+        cut="fitted",
+    )
+    soft = solve_panel(low, panel)
+    assert isinstance(soft, PanelSolution)
+    assert soft.balance.largest < 1e-8
 
 
 @pytest.mark.parametrize("stations", [0, 11])

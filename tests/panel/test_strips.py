@@ -103,11 +103,15 @@ def test_cut_follows_the_ropes(solved, cut, mid):
 
 def test_cut_that_leaves_no_net_is_named(solved):
     strip = build_strip(solved(inclination_deg=30.0))
-    slack = Rope(stiffness=2e7, sag=0.3)
-    panel = Panel(post_spacing=8.1, lower=slack, upper=slack, cut="fitted")
-    with pytest.raises(SolveError, match="leaves no net") as caught:
+    spacing = 0.91 * strip.chord / 0.4
+    slack = Rope(stiffness=2e7, sag=0.2)
+    panel = Panel(post_spacing=spacing, lower=slack, upper=slack, cut="fitted")
+    with pytest.raises(SolveError, match="leaves next to no net") as caught:
         cut_lengths(panel, strip, build_stations(4, has_mid_anchors=False))
     assert caught.value.outcome is Outcome.OUT_OF_VALIDITY
+    narrower = replace(panel, post_spacing=0.89 * strip.chord / 0.4)
+    lengths = cut_lengths(narrower, strip, build_stations(4, has_mid_anchors=False))
+    assert lengths.min() == pytest.approx(0.11 * strip.chord, rel=1e-9)
 
 
 def test_strip_that_nothing_holds_is_named(solved):
