@@ -1,7 +1,7 @@
 """Panels between posts against a prototype, statics, closed forms and a net in space.
 
 Truth: FACTS.md, section 13, read from its tables; equilibrium of half a panel from its
-supports, curves and nodal forces alone; the cable net of ``cable_net.py``.
+supports, curves and nodal forces alone; the net of ``net_in_space.py``.
 """
 
 import math
@@ -16,6 +16,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.evidence.verification.net_in_space import solve_net_in_space
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.ropes import estimate_force_along, solve_force_along
 from netdesign.panel.row_forces import compute_end_forces, compute_interior_forces
@@ -26,7 +27,6 @@ from netdesign.panel.strips import build_strip
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure import SupportLayout, place_support
-from tests.verification.cable_net import solve_cable_net
 
 FACTS = (Path(__file__).parent / "FACTS.md").read_text(encoding="utf-8")
 SECTION = FACTS.partition("## 13 ")[2]
@@ -351,7 +351,7 @@ ROPES = {"usual": ROPE, "stiff": Rope(stiffness=1e9, sag=0.0)}
 def test_net_in_space_with_ropes_along_its_height_only(number, cut, rope):
     """Bars that may lean along the row, another discretisation, another solver."""
     solved = solve(number, cut, ROPES[rope])
-    net = solve_cable_net(build_strip(solve_section(number)), solved.panel)
+    net = solve_net_in_space(build_strip(solve_section(number)), solved.panel)
     assert np.hypot(*(net.foot - solved.foot)) < 0.02 * math.hypot(*solved.foot)
     assert np.hypot(*(net.head - solved.head)) < 0.02 * math.hypot(*solved.head)
     assert net.lower_along == pytest.approx(solved.lower.along, rel=0.02)
