@@ -14,7 +14,7 @@ from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Rope
-from netdesign.panel.stations import ROPE_POINTS, place_gauss_points
+from netdesign.panel.stations import ROPE_POINTS, ROPE_WEIGHTS
 from netdesign.words.message import say
 
 _STILL = 1e-12  # last step of log H
@@ -37,8 +37,7 @@ def compute_excess_length(sag: float) -> float:
     float
         [-]; from 0, for a straight rope.
     """
-    places, weights = place_gauss_points(ROPE_POINTS)
-    return float(weights @ _exceed((4.0 * sag * places) ** 2))
+    return float(ROPE_WEIGHTS @ _exceed((4.0 * sag * ROPE_POINTS) ** 2))
 
 
 def estimate_force_along(load: float, span: float, rope: Rope) -> tuple[float, float]:
@@ -67,17 +66,13 @@ def estimate_force_along(load: float, span: float, rope: Rope) -> tuple[float, f
     return load * span**2 / (8.0 * sag), sag
 
 
-def solve_force_along(
-    shear: Floats, weights: Floats, rope: Rope, start: float
-) -> float:
+def solve_force_along(shear: Floats, rope: Rope, start: float) -> float:
     """Force along the row for which the rope has its unstressed length, (P2).
 
     Parameters
     ----------
-    shear : ndarray, shape (2, n)
-        V at points of integration [N].
-    weights : ndarray, shape (n,)
-        Of the mean over these points [-].
+    shear : ndarray, shape (2, 24)
+        V at ``ROPE_POINTS`` [N].
     rope : Rope
         Its stiffness and as-built sag.
     start : float
@@ -101,7 +96,7 @@ def solve_force_along(
     wanted = compute_excess_length(rope.sag)
     point, low, high = math.log(start), -math.inf, math.inf
     for _ in range(_MOST_STEPS):
-        gap, slope = _measure_length(across, weights, rope.stiffness, math.exp(point))
+        gap, slope = _measure_length(across, rope.stiffness, math.exp(point))
         gap -= wanted
         low, high = (point, high) if gap > 0.0 else (low, point)
         step = min(max(-gap / slope, -_LONGEST_STEP), _LONGEST_STEP)
@@ -114,7 +109,7 @@ def solve_force_along(
 
 
 def _measure_length(
-    across: Floats, weights: Floats, stiffness: float, along: float
+    across: Floats, stiffness: float, along: float
 ) -> tuple[float, float]:
     """Left side of (P2) over the span, less 1, and its derivative by log H."""
     ratio = across / along**2
@@ -122,7 +117,8 @@ def _measure_length(
     strain = along / stiffness * (1.0 + excess)
     give = 1.0 + strain
     slope = -(ratio / (1.0 + excess) + strain * (1.0 + excess)) / give**2
-    return float(weights @ ((excess - strain) / give)), float(weights @ slope)
+    length = (excess - strain) / give
+    return float(ROPE_WEIGHTS @ length), float(ROPE_WEIGHTS @ slope)
 
 
 def _exceed(ratio: Floats) -> Floats:

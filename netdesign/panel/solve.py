@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.funicular import Funicular
 from netdesign.coupling.solution import Solution
 from netdesign.errors import SolveError
 from netdesign.guards import require_within
@@ -27,7 +26,13 @@ from netdesign.panel.solution import (
     RopeForces,
 )
 from netdesign.panel.stations import Span, Stations, build_stations
-from netdesign.panel.strips import Strip, build_strip, cut_lengths, hang_strips
+from netdesign.panel.strips import (
+    Strip,
+    build_strip,
+    cut_lengths,
+    draw_strip,
+    pull_strips,
+)
 from netdesign.structure.layout import Point
 from netdesign.words.message import say
 
@@ -67,10 +72,9 @@ class _Problem:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Round:
-    """Strips on given ropes, and the ropes under these strips."""
+    """Pulls of strips on given ropes, and the ropes under these pulls."""
 
     point: Floats  # displacements of the ropes (2, 2, K + 1) [m]
-    strips: Sequence[Funicular]
     pulls: Floats  # on lower and upper rope (2, 2, K) [N/m]
     along: Sequence[float]  # of the two ropes [N]
     image: Floats  # displacements under these pulls (2, 2, K + 1) [m]
@@ -164,15 +168,13 @@ def _start(problem: _Problem) -> Floats:
 
 def _play(problem: _Problem, displacements: Floats, last: _Round | None) -> _Round:
     """Strips on these ropes, then the ropes under what the strips pull with."""
-    strip, half, count = problem.strip, problem.half, problem.stations.xi.size
-    known = [one.pull for one in last.strips] if last else [strip.pull] * count
-    hung = hang_strips(strip, problem.lengths[:-1], displacements[..., :-1], known)
-    pulls = np.array(
-        [
-            np.transpose([one.foot_pull for one in hung]),
-            np.transpose([one.head_pull for one in hung]),
-        ]
+    strip, half = problem.strip, problem.half
+    known = (
+        last.pulls[0]
+        if last
+        else np.repeat(strip.foot_pull[:, None], problem.stations.xi.size, axis=1)
     )
+    pulls = pull_strips(strip, problem.lengths[:-1], displacements[..., :-1], known)
     along = tuple(
         _find_along(problem, rope, span, load, last.along[number] if last else None)
         for number, ((rope, span), load) in enumerate(
@@ -185,7 +187,6 @@ def _play(problem: _Problem, displacements: Floats, last: _Round | None) -> _Rou
     ]
     return _Round(
         point=displacements,
-        strips=hung,
         pulls=pulls,
         along=along,
         image=np.array(image),
@@ -200,7 +201,7 @@ def _find_along(
         mean = float(np.hypot(*(load @ problem.stations.weights)))
         known, _ = estimate_force_along(mean, problem.panel.post_spacing, rope)
     shear = problem.half * load @ span.shear.T
-    return solve_force_along(shear, problem.stations.rope_weights, rope, known)
+    return solve_force_along(shear, rope, known)
 
 
 def _build_solution(problem: _Problem, end: _Round, rounds: int) -> PanelSolution:
@@ -243,14 +244,9 @@ def _describe_rope(along: float, supports: Floats, moved: Floats) -> RopeForces:
 
 def _draw_curves(problem: _Problem, end: _Round) -> Floats:
     """Curves of the strips and of the one in mid-panel, in the section's axes."""
-    (middle,) = hang_strips(
-        problem.strip,
-        problem.lengths[-1:],
-        end.image[..., -1:],
-        [end.strips[-1].pull],
-    )
-    hung = np.array([one.curve for one in (*end.strips, middle)])
-    return np.asarray(hung + end.image[0].T[:, :, None])
+    known = np.column_stack([end.pulls[0], end.pulls[0][:, -1]])
+    each = zip(problem.lengths, end.image.transpose(2, 0, 1), known.T, strict=True)
+    return np.array([draw_strip(problem.strip, *one) for one in each])
 
 
 def _require_clear_of_ground(problem: _Problem, curves: Floats) -> None:

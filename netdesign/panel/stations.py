@@ -7,12 +7,21 @@ points, so that its integrals are exact. Theory: panel/THEORY.md, (P1) and (P5).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
 
-ROPE_POINTS = 24  # of the length of a rope: exact to rounding up to steep slopes
+
+def _place_gauss_points(count: int) -> tuple[Floats, Floats]:
+    """Gauss points and weights on 0 to 1."""
+    points, weights = np.polynomial.legendre.leggauss(count)
+    return (1.0 + points) / 2.0, weights / 2.0
+
+
+# Points of the integral over a rope's length: exact to rounding up to steep slopes.
+ROPE_POINTS, ROPE_WEIGHTS = _place_gauss_points(24)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -47,19 +56,17 @@ class Stations:
         1 at the post, 0 in mid-panel [-].
     weights : ndarray, shape (K,)
         Of the mean over the half panel [-].
-    rope_weights : ndarray, shape (24,)
-        Of the mean over the points of integration [-].
     lower, upper : Span
         Of the two ropes.
     """
 
     xi: Floats
     weights: Floats
-    rope_weights: Floats
     lower: Span
     upper: Span
 
 
+@lru_cache(maxsize=4)
 def build_stations(count: int, *, has_mid_anchors: bool) -> Stations:
     """Stations and spans of a panel.
 
@@ -75,43 +82,22 @@ def build_stations(count: int, *, has_mid_anchors: bool) -> Stations:
         The lower rope is held in mid-panel too.
     """
     if has_mid_anchors:
-        xi, weights = place_gauss_points(count)
+        xi, weights = _place_gauss_points(count)
         powers = np.arange(count)
     else:
         points, doubled = np.polynomial.legendre.leggauss(2 * count)
         xi, weights = points[count:], doubled[count:]
         powers = 2 * np.arange(count)
     fit = np.asarray(np.linalg.inv(xi[:, None] ** powers), dtype=float)
-    points, rope_weights = place_gauss_points(ROPE_POINTS)
     return Stations(
         xi=xi,
         weights=weights,
-        rope_weights=rope_weights,
-        lower=_build_span(xi, powers, fit, points, is_held=has_mid_anchors),
-        upper=_build_span(xi, powers, fit, points, is_held=False),
+        lower=_build_span(xi, powers, fit, is_held=has_mid_anchors),
+        upper=_build_span(xi, powers, fit, is_held=False),
     )
 
 
-def place_gauss_points(count: int) -> tuple[Floats, Floats]:
-    """Gauss points and weights on 0 to 1.
-
-    Parameters
-    ----------
-    count : int
-        Number of points [-].
-
-    Returns
-    -------
-    ndarray, ndarray, shape (count,)
-        [-].
-    """
-    points, weights = np.polynomial.legendre.leggauss(count)
-    return (1.0 + points) / 2.0, weights / 2.0
-
-
-def _build_span(
-    xi: Floats, powers: Ints, fit: Floats, points: Floats, *, is_held: bool
-) -> Span:
+def _build_span(xi: Floats, powers: Ints, fit: Floats, *, is_held: bool) -> Span:
     """Rope that is held in mid-panel too, or is level there."""
     places = np.append(xi, 0.0)
 
@@ -128,7 +114,7 @@ def _build_span(
 
     return Span(
         deflection=deflect(places),
-        shear=shear(points),
+        shear=shear(ROPE_POINTS),
         end_shear=shear(np.array([1.0, 0.0])),
         drape=2.0 * places * (1.0 - places) if is_held else 1.0 - places**2,
     )

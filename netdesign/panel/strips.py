@@ -6,12 +6,12 @@ keep their sum. Theory: panel/THEORY.md, section 1.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.funicular import Funicular, solve_funicular, tension_offsets
+from netdesign.cable.alike import AlikeCables, build_alike, find_pulls
+from netdesign.cable.funicular import solve_funicular, tension_offsets
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import Solution
 from netdesign.errors import ModelError, SolveError
@@ -41,8 +41,10 @@ class Strip:
         Position of the post's head [m].
     slack : float
         Of the net, over its chord [-].
-    pull : ndarray, shape (2,)
-        Tension vector near its foot [N/m].
+    foot_pull : ndarray, shape (2,)
+        On its foot [N/m].
+    alike : AlikeCables
+        What it has in common with the strips between posts [N/m].
     """
 
     forces: Floats
@@ -50,12 +52,13 @@ class Strip:
     stiffness: float
     head: Floats
     slack: float
-    pull: Floats
+    foot_pull: Floats
+    alike: AlikeCables
 
     @property
     def load(self) -> Floats:
         """Sum of the forces, shape (2,) [N/m]."""
-        return np.asarray(self.forces.sum(axis=1))
+        return self.alike.load
 
     @property
     def chord(self) -> float:
@@ -85,20 +88,22 @@ def build_strip(solution: Solution) -> Strip:
     curve, forces = solution.net_curve, solution.net_forces
     above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
     forces = np.concatenate([forces, above], axis=1)
-    bend = -0.75 * forces[:, 1::2]
     foot_pull = np.array([solution.foot.x, solution.foot.y])
+    bend = -0.75 * forces[:, 1::2]
     pull = foot_pull + 2.0 / 3.0 * bend[:, 0] - forces[:, 0]  # (C5)
     tension = pull[:, None, None] + tension_offsets(forces, bend)
     give = 1.0 / np.hypot(*tension) + 1.0 / net.stiffness_per_m
     reach = (tension * give).mean(axis=1)  # of an element, over its length
     lengths = np.hypot(*np.diff(curve[:, ::2])) / np.hypot(*reach)
+    shares = lengths / lengths.sum()
     return Strip(
         forces=forces,
-        shares=lengths / lengths.sum(),
+        shares=shares,
         stiffness=net.stiffness_per_m,
         head=net.head,
         slack=net.slack,
-        pull=pull,
+        foot_pull=foot_pull,
+        alike=build_alike(forces, shares, net.stiffness_per_m),
     )
 
 
@@ -135,10 +140,10 @@ def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     return np.asarray((1.0 + strip.slack) * lengths)
 
 
-def hang_strips(
-    strip: Strip, lengths: Floats, displacements: Floats, pulls: Sequence[Floats]
-) -> list[Funicular]:
-    """Strips between displaced ropes.
+def pull_strips(
+    strip: Strip, lengths: Floats, displacements: Floats, start: Floats
+) -> Floats:
+    """Pulls of the strips between displaced ropes.
 
     Parameters
     ----------
@@ -148,28 +153,61 @@ def hang_strips(
         Unstressed [m].
     displacements : ndarray, shape (2, 2, K)
         Of the lower and the upper rope, (x, y) at each station [m].
-    pulls : sequence of ndarray, shape (2,)
-        Tension vector near the foot of each strip as it hung last [N/m].
+    start : ndarray, shape (2, K)
+        What each pulled with on the lower rope last [N/m].
 
     Returns
     -------
-    list of Funicular
-        Curves count from the foot of each strip.
+    ndarray, shape (2, 2, K)
+        On the lower and the upper rope [N/m].
 
     Raises
     ------
     SolveError
         If one of them finds no equilibrium.
     """
-    reach = strip.head[:, None] + displacements[1] - displacements[0]
-    with np.errstate(divide="ignore", invalid="ignore"):  # what fails has an outcome
-        hung = [
-            solve_funicular(
-                strip.forces, strip.shares * length, strip.stiffness, end, pull
-            )
-            for length, end, pull in zip(lengths, reach.T, pulls, strict=True)
-        ]
-    for cable in hung:
-        if cable.outcome is not Outcome.CONVERGED:
-            raise SolveError(cable.outcome, say("panel.strip_not_found"))
-    return hung
+    cables = strip.alike
+    ends = strip.head[:, None] + displacements[1] - displacements[0]
+    to_foot = cables.to_foot[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):  # then nothing is found
+        pulls = find_pulls(cables, ends / lengths, start - to_foot)
+    if pulls is None:
+        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.strip_not_found"))
+    foot = pulls + to_foot
+    return np.array([foot, cables.load[:, None] - foot])
+
+
+def draw_strip(strip: Strip, length: float, ends: Floats, foot_pull: Floats) -> Floats:
+    """Curve of a strip in the section's axes.
+
+    Parameters
+    ----------
+    strip : Strip
+        Forces and shares of the length.
+    length : float
+        Unstressed [m].
+    ends : ndarray, shape (2, 2)
+        Displacement of its foot and of its head [m].
+    foot_pull : ndarray, shape (2,)
+        About what it pulls with on its foot [N/m].
+
+    Returns
+    -------
+    ndarray, shape (2, 2 n + 1)
+        Nodes, foot to head [m].
+
+    Raises
+    ------
+    SolveError
+        If it finds no equilibrium.
+    """
+    cable = solve_funicular(
+        strip.forces,
+        strip.shares * length,
+        strip.stiffness,
+        strip.head + ends[1] - ends[0],
+        foot_pull,
+    )
+    if cable.outcome is not Outcome.CONVERGED:
+        raise SolveError(cable.outcome, say("panel.strip_not_found"))
+    return np.asarray(cable.curve + ends[0][:, None])

@@ -12,7 +12,12 @@ from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.stations import build_stations
-from netdesign.panel.strips import build_strip, cut_lengths, hang_strips
+from netdesign.panel.strips import (
+    build_strip,
+    cut_lengths,
+    draw_strip,
+    pull_strips,
+)
 from netdesign.snow.snowpack import Layer, Snowpack
 
 QUICK = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
@@ -50,14 +55,16 @@ def test_strip_hangs_as_the_section_does(a_scene, kind):
         else solve_steady(scene, QUICK, on_failure="raise")
     )
     strip = build_strip(solution)
-    length = np.array([scene.net.unstressed_length])
-    (hung,) = hang_strips(strip, length, np.zeros((2, 2, 1)), [strip.pull])
+    length = scene.net.unstressed_length
+    still = np.zeros((2, 2, 1))
+    pulls = pull_strips(strip, np.array([length]), still, np.ones((2, 1)))
+    curve = draw_strip(strip, length, still[..., 0], np.ones(2))
     scale = solution.foot.size
     foot = [solution.foot.x, solution.foot.y]
     head = [solution.head.x, solution.head.y]
-    np.testing.assert_allclose(hung.foot_pull, foot, atol=1e-8 * scale)
-    np.testing.assert_allclose(hung.head_pull, head, atol=1e-8 * scale)
-    np.testing.assert_allclose(hung.curve, solution.net_curve, atol=1e-8)
+    np.testing.assert_allclose(pulls[0, :, 0], foot, atol=1e-8 * scale)
+    np.testing.assert_allclose(pulls[1, :, 0], head, atol=1e-8 * scale)
+    np.testing.assert_allclose(curve, solution.net_curve, atol=1e-8)
     assert strip.shares.sum() == pytest.approx(1.0, abs=1e-14)
     np.testing.assert_allclose(strip.load, np.add(foot, head), atol=1e-8 * scale)
 
@@ -66,12 +73,22 @@ def test_pulls_keep_their_sum_between_moved_ropes(solved):
     strip = build_strip(solved(inclination_deg=30.0))
     moved = np.random.default_rng(7).uniform(-0.21, 0.17, (2, 2, 3))
     lengths = strip.chord * np.array([0.93, 1.02, 1.11])
-    hung = hang_strips(strip, lengths, moved, [strip.pull] * 3)
-    for cable, foot, head in zip(hung, moved[0].T, moved[1].T, strict=True):
-        pulls = cable.foot_pull + cable.head_pull
-        np.testing.assert_allclose(pulls, strip.load, rtol=1e-12)
-        reach = strip.head + head - foot
-        np.testing.assert_allclose(cable.curve[:, -1], reach, atol=1e-10)
+    start = np.repeat(strip.foot_pull[:, None], 3, axis=1)
+    pulls = pull_strips(strip, lengths, moved, start)
+    for number, length in enumerate(lengths):
+        both = pulls[..., number].sum(axis=0)
+        np.testing.assert_allclose(both, strip.load, rtol=1e-12)
+        ends = moved[..., number]
+        curve = draw_strip(strip, length, ends, strip.foot_pull)
+        np.testing.assert_allclose(curve[:, 0], ends[0], atol=1e-14)
+        np.testing.assert_allclose(curve[:, -1], strip.head + ends[1], atol=1e-10)
+        turned = curve[0] * strip.forces[1] - curve[1] * strip.forces[0]
+        places = (ends[0], strip.head + ends[1])
+        held = sum(
+            x * pull[1] - y * pull[0]
+            for (x, y), pull in zip(places, pulls[..., number], strict=True)
+        )
+        assert turned.sum() == pytest.approx(held, abs=1e-9 * np.hypot(*strip.load))
 
 
 def test_only_a_net_at_rest_has_strips(solved):
@@ -117,5 +134,8 @@ def test_cut_that_leaves_no_net_is_named(solved):
 def test_strip_that_nothing_holds_is_named(solved):
     """A length at which no number comes out."""
     strip = build_strip(solved(inclination_deg=30.0))
+    still = np.zeros((2, 2, 1))
     with pytest.raises(SolveError, match="Nothing holds a strip"):
-        hang_strips(strip, np.array([math.nan]), np.zeros((2, 2, 1)), [strip.pull])
+        pull_strips(strip, np.array([math.nan]), still, np.ones((2, 1)))
+    with pytest.raises(SolveError, match="Nothing holds a strip"):
+        draw_strip(strip, math.nan, still[..., 0], np.ones(2))
