@@ -21,7 +21,7 @@ _ACCEPTED_CLIMB = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class AlikeCables:
-    """What the cables have in common.
+    """Common part of cables that differ in length and ends.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class AlikeCables:
 
 
 def build_alike(forces: Floats, shares: Floats, stiffness: float) -> AlikeCables:
-    """What cables under these forces have in common.
+    """Common part of cables under these forces.
 
     Parameters
     ----------
