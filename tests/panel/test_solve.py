@@ -11,7 +11,7 @@ from netdesign.outcome import Outcome
 from netdesign.panel import solve as solving
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import STATIONS, solve_panel
 
 PANEL = Panel(
     post_spacing=3.8,
@@ -35,9 +35,8 @@ def test_result_is_whole_and_in_balance(section, mid):
     both = np.array(solved.foot) + solved.mid_foot + solved.head
     load = np.array([section.foot.x + section.head.x, section.foot.y + section.head.y])
     np.testing.assert_allclose(both, 3.8 * load, rtol=1e-9)
-    count = 6 if mid else 4
-    assert solved.stations.shape == (count + 1,)
-    assert solved.curves.shape == (count + 1, *section.net_curve.shape)
+    assert solved.stations.shape == (STATIONS + 1,)
+    assert solved.curves.shape == (STATIONS + 1, *section.net_curve.shape)
     assert solved.stations[-1] == 1.9
     assert (solved.mid_foot == (0.0, 0.0)) is not mid
 

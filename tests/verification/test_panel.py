@@ -21,7 +21,7 @@ from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.ropes import estimate_force_along, solve_force_along
 from netdesign.panel.row_forces import compute_end_forces, compute_interior_forces
 from netdesign.panel.solution import PanelSolution
-from netdesign.panel.solve import solve_panel
+from netdesign.panel.solve import STATIONS, solve_panel
 from netdesign.panel.stations import ROPE_POINTS, build_stations
 from netdesign.panel.strips import build_strip
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -88,7 +88,7 @@ def solve(
     return solve_wide(number, spacing(number), cut, rope, **others)
 
 
-def solve_wide(number, width, cut, rope, *, mid=False, count=None):
+def solve_wide(number, width, cut, rope, *, mid=False, count=STATIONS):
     panel = Panel(
         post_spacing=width, lower=rope, upper=rope, cut=cut, has_mid_anchors=mid
     )
@@ -282,6 +282,7 @@ def test_stations_converge(number, cut):
     ratios = np.array(errors[1:]) / errors[:-1]
     assert ratios.max() < 0.2
     assert errors[3] / np.hypot(*truth[:2]) < 5e-5
+    assert errors[5] / np.hypot(*truth[:2]) < 2e-6
 
 
 def test_shallow_rope_under_uniform_load():
