@@ -44,19 +44,21 @@ class Verdict(StrEnum):
     PASS = "pass"
     FAIL = "fail"
     NOT_PROVEN = "not_proven"
+    DECLARED = "declared"  # somebody says that it is proven elsewhere: never a pass
 
 
 def merge_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
     """Verdict of a whole from the verdicts of its parts.
 
-    ==================  =====================  ===========
-    any part fails      any part not proven    whole
-    ==================  =====================  ===========
-    yes                 no or yes              fail
-    no                  yes                    not proven
-    no                  no                     pass
-    no part at all                             not proven
-    ==================  =====================  ===========
+    ==============  ===================  =================  ===========
+    any part fails  any part not proven  any part declared  whole
+    ==============  ===================  =================  ===========
+    yes             no or yes            no or yes          fail
+    no              yes                  no or yes          not proven
+    no              no                   yes                declared
+    no              no                   no                 pass
+    no part at all                                          not proven
+    ==============  ===================  =================  ===========
 
     Examples
     --------
@@ -70,4 +72,4 @@ def merge_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
         return Verdict.FAIL
     if not parts or Verdict.NOT_PROVEN in parts:
         return Verdict.NOT_PROVEN
-    return Verdict.PASS
+    return Verdict.DECLARED if Verdict.DECLARED in parts else Verdict.PASS

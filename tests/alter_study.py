@@ -5,14 +5,17 @@ from netdesign.outcome import Outcome, Verdict
 OBJECTS = (
     "action",
     "case",
+    "declared",
     "drawing",
     "guideline",
+    "floor",
     "envelope",
     "confirmation",
     "note",
     "reason",
     "model_reason",
     "resistance_derivation",
+    "derivation",
 )
 WORDS = ([*Verdict], [*Outcome])
 

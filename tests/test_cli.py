@@ -23,6 +23,7 @@ from netdesign.site.template.workbook import load_example
 from netdesign.study.document import read_document, write_document
 from netdesign.words.message import dump, restore, say
 from netdesign.words.names import name_check
+from tests.report.reading import read_workbook
 
 PROGRAM = (str(Path(sys.executable).with_name("netdesign")),)
 PROFILE = "nf-p-95-304-style"
@@ -60,7 +61,10 @@ SHEETS = {
         ["A1", 4000, 3000, "tested"],
     ],
     "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 2500]],
-    "Posts": [["id", "compression resistance [kN]"], ["P1", 3800]],
+    "Posts": [
+        ["id", "compression resistance [kN]", "bearing resistance [kN]"],
+        ["P1", 3800, 3600],
+    ],
 }
 
 SCENE = """
@@ -221,8 +225,45 @@ def test_a_net_overtopped_by_snow_ends_with_1_and_says_why(tmp_path):
     assert verdicts.pop("geometry.inclination") == "pass"
     assert verdicts.pop("geometry.slope") == "pass"
     assert set(verdicts.values()) == {"not_proven"}
-    assert {case["outcome"] for case in row["cases"]} == {"out_of_validity"}
+    assert {case["outcome"] for case in row["cases"]} == {"converged"}
     assert "overtops the net" in str(restore(row["reasons"][0]))
+
+
+def test_a_dry_run_says_beforehand_that_snow_overtops_a_net(tmp_path):
+    def bury(sheets):
+        sheets["Nets"][1][5] = 2.4
+
+    write_site(tmp_path / "site.xlsx", bury)
+    shown = run("check", "site.xlsx", "--dry-run", cwd=tmp_path)
+    assert shown.returncode == 0, shown.stderr
+    assert "Nets › F2" in shown.stdout
+    assert "the check of the height fails" in shown.stdout
+    as_json = run("check", "site.xlsx", "--dry-run", "--json", cwd=tmp_path)
+    (note,) = json.loads(as_json.stdout)["notes"]
+    assert "is less than the snow thickness of 2.5 m" in note
+
+
+def test_a_declared_check_ends_with_6_and_is_named_on_every_output(tmp_path):
+    def declare(sheets):
+        sheets["Posts"][1][2] = None
+        sheets["Declared"] = [
+            ["net row", "check", "document", "author", "date"],
+            [None, "Post base, bearing", "Report G-17", "B. Rüegg", "2026-03-09"],
+        ]
+
+    write_site(tmp_path / "site.xlsx", declare)
+    result = run("check", "site.xlsx", "--out", "out", *QUICK, cwd=tmp_path)
+    assert result.returncode == 6, result.stderr
+    proof = "R1 Post base, bearing: Report G-17, B. Rüegg, 2026-03-09, cell Declared!B2"
+    assert f"Declared as proven elsewhere: {proof}" in result.stdout
+    assert "1 DECLARED" in result.stdout
+    assert proof in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    book = read_workbook((tmp_path / "out" / "report.xlsx").read_bytes())
+    assert proof in {
+        cell.value for line in book["Summary"].iter_rows() for cell in line
+    }
+    again = run("report", "out/study.json", "--out", "again", cwd=tmp_path)
+    assert again.returncode == 6, again.stderr
 
 
 def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
@@ -232,7 +273,11 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
     write_site(tmp_path / "site.xlsx", weaken)
     result = run("check", "site.xlsx", "--explain", *QUICK, cwd=tmp_path)
     assert result.returncode == 1, result.stderr
-    told = [line for line in result.stdout.splitlines() if "tendon (FAIL)" in line]
+    told = [
+        line
+        for line in result.stdout.splitlines()
+        if "tendon" in line and "(FAIL)" in line
+    ]
     for quantity in ("characteristic resistance at least", "post spacing", "density"):
         assert any(quantity in line for line in told), quantity
     assert all("Foot anchor" in line or "Uphill anchor" in line for line in told)
@@ -537,6 +582,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
     assert document["verdict"] == "fail"
     assert set(document) >= STUDY_KEYS
     verdicts = {row["id"]: row["verdict"] for row in document["rows"]}
+    assert verdicts["R3"] == "declared"
     assert verdicts["R6"] == "not_proven"
     assert verdicts["R7"] == "fail"
     for row in document["rows"]:
@@ -544,7 +590,7 @@ def test_example_fails_as_meant_with_the_keys_of_the_interface(tmp_path):
         assert {case["outcome"] for case in row["cases"]} == {"converged"}
         for check in row["checks"]:
             assert set(check) >= CHECK_KEYS
-            assert check["verdict"] in ("pass", "fail", "not_proven")
+            assert check["verdict"] in ("pass", "fail", "not_proven", "declared")
             assert check["reason"]
     assert listing(tmp_path) == set()
 
@@ -657,7 +703,9 @@ def test_standards_shows_every_value_with_its_status(tmp_path, study):
     result = run("standards", "show", PROFILE, cwd=tmp_path)
     assert result.returncode == 0
     assert study["profile"]["sha256"] in result.stdout
-    for value in study["profile"]["values"]:
+    own = [v for v in study["profile"]["values"] if not v["id"].startswith("floor.")]
+    assert len(own) < len(study["profile"]["values"])
+    for value in own:
         line = f"{value['id']} = {value['value']:g} {value['unit']}"
         assert f"{line}  [{value['status']}]" in result.stdout
 

@@ -65,7 +65,7 @@ THIRD_PARTY = {
             "search.*",
             "solving.*",
         ),
-        *("guideline.comparison", "files.solution", "evidence.*"),
+        *("files.solution", "evidence.*"),
         *("study.record_envelope", "study.record_monitoring"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),

@@ -15,6 +15,7 @@ from netdesign.errors import (
 from netdesign.outcome import Outcome, Verdict, merge_verdicts
 
 PASS, FAIL, OPEN = Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN
+TOLD = Verdict.DECLARED
 
 # The table of the docstring: parts, whole.
 ROWS = [
@@ -25,6 +26,10 @@ ROWS = [
     ([OPEN], OPEN),
     ([OPEN, PASS], OPEN),
     ([OPEN, PASS, PASS], OPEN),
+    ([TOLD], TOLD),
+    ([TOLD, PASS, PASS], TOLD),
+    ([TOLD, OPEN], OPEN),
+    ([TOLD, FAIL, PASS], FAIL),
     ([PASS], PASS),
     ([PASS, PASS, PASS], PASS),
     ([], OPEN),
@@ -54,7 +59,8 @@ def test_merging_by_groups_gives_the_same():
 
 
 def test_words_are_those_of_the_interface():
-    assert [verdict.value for verdict in Verdict] == ["pass", "fail", "not_proven"]
+    words = ["pass", "fail", "not_proven", "declared"]
+    assert [verdict.value for verdict in Verdict] == words
     assert Outcome.CONVERGED.value == "converged"
 
 

@@ -1,6 +1,12 @@
 """Demands against the limits of a profile: pass, fail or not proven."""
 
-from netdesign.checks.check import check_member, find_characteristic, judge
+from netdesign.checks.check import (
+    check_member,
+    declare,
+    find_characteristic,
+    judge,
+    withhold,
+)
 from netdesign.checks.geometry import RowGeometry, check_geometry, check_inclination
 from netdesign.checks.loader import (
     Standard,
@@ -9,11 +15,12 @@ from netdesign.checks.loader import (
     list_standards,
     load_standard,
 )
-from netdesign.checks.result import Band, CheckResult, GivenResistance
+from netdesign.checks.result import Band, CheckResult, Declaration, GivenResistance
 
 __all__ = [
     "Band",
     "CheckResult",
+    "Declaration",
     "GivenResistance",
     "RowGeometry",
     "Standard",
@@ -22,8 +29,10 @@ __all__ = [
     "check_geometry",
     "check_inclination",
     "check_member",
+    "declare",
     "find_characteristic",
     "judge",
     "list_standards",
     "load_standard",
+    "withhold",
 ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from netdesign.checks.loader import Standard, StandardValue
-from netdesign.checks.result import Band, CheckResult, GivenResistance
+from netdesign.checks.result import Band, CheckResult, Declaration, GivenResistance
 from netdesign.checks.schema import (
     ACTION_FACTOR,
     CORRELATION_LEAST,
@@ -59,6 +60,7 @@ def check_member(
     standard: Standard,
     *,
     gap: Message | None,
+    doubt: Message | None = None,
 ) -> CheckResult:
     """Check one member in one mode: factored action against factored resistance.
 
@@ -74,6 +76,8 @@ def check_member(
     gap : Message or None
         Why the action does not cover every case ("3 of 40 cases failed"); None if it
         does. With a gap nothing passes.
+    doubt : Message, optional
+        Why the model itself may not hold for the action. With a doubt nothing passes.
 
     Returns
     -------
@@ -88,13 +92,11 @@ def check_member(
     characteristic, lack = find_characteristic(resistance, standard)
     strength = _design_resistance(characteristic, on_resistance)
     utilisation = demand.over(strength) if demand and strength else None
-    gaps = [gap] if gap else []
-    gaps += [lack] if lack else []
+    open_points = [one for one in (gap, doubt) if one]
+    gaps = [*open_points, *([lack] if lack else [])]
     gaps += _missing(resistance, standard, on_action, on_resistance)
-    is_slack = action is not None and action.high == 0.0 and gap is None
-    if is_slack:  # nothing to resist: the utilisation is 0 of any resistance
-        utilisation, gaps = action, []
-    verdict = _judge_utilisation(utilisation, is_complete=gap is None)
+    is_slack = action is not None and action.high == 0.0
+    verdict = _judge_utilisation(utilisation, is_complete=not open_points)
     return CheckResult(
         id=f"{resistance.member}.{resistance.mode}",
         clause=on_resistance.clause if on_resistance else "-",
@@ -111,6 +113,30 @@ def check_member(
         utilisation=utilisation,
         assumed=list_assumed(on_action, on_resistance),
     )
+
+
+def declare(result: CheckResult, declaration: Declaration | None) -> CheckResult:
+    """Check with what somebody declares of it: never a pass, and no failure less.
+
+    What is computed stays beside it: numbers, and what they say.
+    """
+    if declaration is None:
+        return result
+    told = {"reason": result.reason, "proof": declaration.proof}
+    if result.verdict is Verdict.FAIL:
+        reason = say("check.fails_though_declared", **told)
+        return replace(result, reason=reason, declaration=declaration)
+    return replace(
+        result,
+        verdict=Verdict.DECLARED,
+        reason=say("check.declared", **told),
+        declaration=declaration,
+    )
+
+
+def withhold(result: CheckResult, reason: Message) -> CheckResult:
+    """Check whose numbers are information only, and prove nothing either way."""
+    return replace(result, verdict=Verdict.NOT_PROVEN, reason=not_proven(reason))
 
 
 def find_characteristic(

@@ -164,16 +164,18 @@ def check_height(
 ) -> CheckResult | None:
     """Check the net's height against the snow, both normal to the slope [m].
 
-    None where the profile has no such limit.
+    A net below its snow fails under every profile; else None where the profile has no
+    such limit.
     """
     ratio = standard.find(HEIGHT_RATIO)
-    if ratio is None:
+    if ratio is None and net_height >= snow_thickness:
         return None
-    needed = ratio.value * snow_thickness
+    limits = [ratio] if ratio else []
+    needed = max([1.0, *(limit.value for limit in limits)]) * snow_thickness
     verdict = judge(net_height, net_height, least=needed, most=math.inf)
     key = _HEIGHTS[verdict is Verdict.PASS]
     reason = say(key, height=net_height, needed=needed)
-    return _result("height", verdict, reason, ratio)
+    return _result("height", verdict, reason, *limits)
 
 
 def compute_largest_row_spacing(

@@ -15,6 +15,7 @@ from netdesign.checks.schema import (
     FactorEntry,
     FactorsFile,
     FileT,
+    Floor,
     LimitsFile,
     ModelFile,
     TablesFile,
@@ -53,6 +54,8 @@ class StandardValue:
         Such as "deg", "m" or "-".
     status : str
         "read" in the document, from a "secondary" source, "assumed", or "user".
+    reason_below_one : str
+        Why a factor may lie below 1; "" for every other value.
     """
 
     id: str
@@ -62,6 +65,7 @@ class StandardValue:
     unit: str
     status: str
     source: str
+    reason_below_one: str = ""
 
     @property
     def value_si(self) -> float:
@@ -80,7 +84,7 @@ class StandardTable:
 
     Attributes
     ----------
-    id, clause, text, status, source : str
+    id, clause, text, status, source, reason_below_one : str
         As for a `StandardValue`.
     over : str
         What is counted: "tests".
@@ -95,6 +99,7 @@ class StandardTable:
     status: str
     source: str
     rows: tuple[tuple[int, float, float], ...]
+    reason_below_one: str = ""
 
     def find(self, count: int) -> float | None:
         """Value at a count [-]; None outside the table: no extrapolation."""
@@ -116,6 +121,7 @@ class StandardTable:
                 unit="-",
                 status=self.status,
                 source=self.source,
+                reason_below_one=self.reason_below_one if value < 1.0 else "",
             )
             for low, high, value in self.rows
         )
@@ -126,6 +132,8 @@ class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
+    ``floor`` is what no demand lies below: the guideline's load, unless the profile
+    says "none".
     """
 
     id: str
@@ -138,6 +146,7 @@ class Standard:
     what_it_is: str
     what_it_is_not: str
     choice: str = ""
+    floor: Floor = "guideline"
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -227,7 +236,8 @@ def _load_folder(folder: Path) -> Standard:
         entries += read(ModelFile, "model.toml").value
     tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
     return Standard(
-        **document.model_dump(),
+        **document.model_dump(exclude={"load"}),
+        floor=document.load.floor,
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
         tables=tuple(
             StandardTable(

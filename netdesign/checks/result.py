@@ -72,6 +72,43 @@ class GivenResistance(Protocol):
         """Pull-out tests in the place of a value [N]; None without."""
 
 
+def tell_proof(document: str, author: str, date: str, cell: str) -> Message:
+    """Document, author, date ("" for none) and cell of a declaration as one phrase."""
+    if not date:
+        return say("check.proof_undated", document=document, author=author, cell=cell)
+    return say("check.proof", document=document, author=author, date=date, cell=cell)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Declaration:
+    """Somebody's word that a check is proven elsewhere.
+
+    Attributes
+    ----------
+    row_id : str
+        Net row; "" for all of them.
+    member, mode : str
+        Which check.
+    document, author, date : str
+        Where it is proven, by whom and when; the date may be "".
+    source : str
+        Cell, as in "Declared!B2".
+    """
+
+    row_id: str
+    member: str
+    mode: str
+    document: str
+    author: str
+    date: str
+    source: str
+
+    @property
+    def proof(self) -> Message:
+        """The place of the proof, as one phrase."""
+        return tell_proof(self.document, self.author, self.date, self.source)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckResult:
     """One check. A number that does not exist is None, and never leads to a pass.
@@ -96,6 +133,8 @@ class CheckResult:
         Demand over design resistance [-].
     assumed : tuple of str
         Ids of the profile's values in this check that are only assumed.
+    declaration : Declaration or None
+        Where it is said to be proven, whatever the verdict.
     """
 
     id: str
@@ -112,3 +151,4 @@ class CheckResult:
     design_resistance: float | None = None
     utilisation: Band | None = None
     assumed: tuple[str, ...] = ()
+    declaration: Declaration | None = None

@@ -37,6 +37,8 @@ CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
 MODES = ("tendon", "pull_out", "rope", "compression", "bearing")
 BASES = ("tested", "computed", "declared")
+# What no demand lies below: the guideline's load, or nothing.
+Floor = Literal["guideline", "none"]
 
 # Accepted values of each file, with the unit in which they stand there.
 LIMIT_UNITS = {
@@ -126,6 +128,12 @@ class _Table(BaseModel):
 Text = Annotated[str, Field(min_length=1)]
 
 
+class LoadTable(_Table):
+    """``load``: which load governs; "none" takes the floor away and is written."""
+
+    floor: Floor = "guideline"
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -139,6 +147,7 @@ class DocumentFile(_Table):
     what_it_is: Text
     what_it_is_not: Text
     choice: str = ""  # one of those in choices.toml
+    load: LoadTable = LoadTable()
 
 
 class Entry(_Table):
@@ -165,10 +174,16 @@ class LimitEntry(Entry):
 
 
 class FactorEntry(Entry):
-    """A partial factor on actions or resistances."""
+    """A partial factor on actions or resistances; below 1 only with a reason."""
 
     id: Annotated[str, AfterValidator(_factor_id)]
     unit: Literal["-"]
+    reason_below_one: str = ""
+
+    @model_validator(mode="after")
+    def _check(self) -> FactorEntry:
+        _require_reason(self.id, self.value, self.reason_below_one)
+        return self
 
 
 class ModelEntry(Entry):
@@ -195,7 +210,10 @@ class TableRow(_Table):
 
 
 class TableEntry(_Table):
-    """Values by a count: rows in order, without overlap and without a gap."""
+    """Values by a count: rows in order, without overlap and without a gap.
+
+    A value below 1 needs a reason, as that of a factor does.
+    """
 
     id: Annotated[str, AfterValidator(_table_id)]
     clause: Text
@@ -204,10 +222,13 @@ class TableEntry(_Table):
     unit: Literal["-"]
     status: Literal["read", "secondary", "assumed", "user"]
     source: Text
+    reason_below_one: str = ""
     rows: Annotated[list[TableRow], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _check(self) -> TableEntry:
+        least = min(row.value for row in self.rows)
+        _require_reason(self.id, least, self.reason_below_one)
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
@@ -310,6 +331,13 @@ def _require_unit(entry: Entry, unit: str) -> None:
         )
 
 
+def _require_reason(name: str, value: float, reason: str) -> None:
+    """Refuse a factor that makes a check milder than none, unless it says why."""
+    if value < 1.0 and not reason:
+        key = "reason_below_one"
+        raise ContentError(say("standard.below_one", id=name, value=value, key=key))
+
+
 def _require_unique(ids: Sequence[str]) -> None:
     twice = tuple(sorted({name for name in ids if ids.count(name) > 1}))
     if twice:
@@ -388,11 +416,14 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     depth = sum(isinstance(part, int) for part in detail["loc"])
     fields = shape.model_fields
+    if detail["loc"][0] == "load" and len(detail["loc"]) > 1:
+        fields = LoadTable.model_fields
     if depth:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields
     if depth > 1:
-        fields = TableRow.model_fields if element is TableEntry else Entry.model_fields
+        inner = TableRow if element is TableEntry else FactorEntry
+        fields = inner.model_fields
     return tuple(field.alias or name for name, field in fields.items())
 
 

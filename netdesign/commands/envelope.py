@@ -43,8 +43,12 @@ _OPTIONS = (
     ("--inclination", "inclination", "Net inclination [degrees]."),
     ("--slope", "slope_angle", "Slope angle [degrees]."),
     ("--thickness", "thickness", "Snow thickness normal to the slope [m]."),
+    ("--height", "snow_height", "Vertical snow height, instead of a thickness [m]."),
+    ("--length", "upslope_length", "Snowpack that the net carries, upslope [m]."),
     ("--slack", "slack", "Slack of the net [-]."),
-    ("--glide", "glide_factor", "Glide factor [-]."),
+    ("--stiffness", "net_stiffness", "Net stiffness per metre of width [kN/m]."),
+    ("--slip", "slip_length", "Slip length of sliding ground [m]."),
+    ("--glide", "glide_factor", "Glide factor, instead of a slip length [-]."),
 )
 _NOT_PROVEN = 4
 _MOST_RANGES = 6
@@ -177,19 +181,14 @@ def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
 def _build_ranges(given: dict[str, GivenRange]) -> Ranges:
     from netdesign.envelope.parameters import PARAMETERS
     from netdesign.envelope.ranges import Interval, Ranges
-    from netdesign.units import radian_from_degree
-
-    def convert(name: str, value: float) -> float:
-        is_angle = PARAMETERS[name].key.endswith("_deg")
-        return radian_from_degree(value) if is_angle else value
 
     return Ranges(
         intervals=tuple(
             (
                 name,
                 Interval(
-                    low=convert(name, one.low),
-                    high=convert(name, one.high),
+                    low=PARAMETERS[name].read(one.low),
+                    high=PARAMETERS[name].read(one.high),
                     count=one.count or 2,
                 ),
             )

@@ -19,4 +19,4 @@ def glide() -> None:
     for name, table in load_glide_tables().items():
         for ratio, stored in zip(table.slip_ratios, table.glide_factors, strict=True):
             measured = measure_glide_factor(CREEP_LAWS[name], ratio)
-            click.echo(f"{name:18} {ratio:15g} {stored:10.3f} {measured:12.3f}")
+            click.echo(f"{name:18} {ratio:15g} {stored:10.4f} {measured:12.4f}")

@@ -16,7 +16,12 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from netdesign.words.catalogue import Language
 
-EXIT_CODES = {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
+EXIT_CODES = {
+    Verdict.PASS: 0,
+    Verdict.FAIL: 1,
+    Verdict.NOT_PROVEN: 4,
+    Verdict.DECLARED: 6,  # no pass: a script that knows nothing of it stops
+}
 
 
 def own_command() -> str:

@@ -57,6 +57,8 @@ def show_profile(name: str, *, language: Language) -> None:
     tell(told, language)
     if profile.choice:
         tell(say("standard.choice", choice=profile.choice), language)
+    floor = f"floor.profile_{profile.floor}"
+    tell(say(floor), language)
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:
@@ -67,6 +69,9 @@ def show_profile(name: str, *, language: Language) -> None:
             say("standard.clause", clause=entry.clause, source=source), language
         )
         click.echo(f"    {show_own(words, entry.text)}\n    {clause}")
+        if entry.reason_below_one:
+            why = say("note.below_one", reason=entry.reason_below_one)
+            click.echo(f"    {render(why, language)}")
 
 
 @standards.command("validate")

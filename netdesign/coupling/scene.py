@@ -68,6 +68,17 @@ MESH_LEVELS = tuple(
 )
 
 
+def is_overtopped(net_height: float, thickness: float) -> bool:
+    """Test for snow above a net's head, more than rounding of equal heights.
+
+    Parameters
+    ----------
+    net_height, thickness : float
+        Of net and snow, normal to the slope [m].
+    """
+    return net_height < thickness * (1.0 - _OVERTOPPING)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """A snowpack on its ground, against a net or a rigid wall.
@@ -99,7 +110,7 @@ class Scene:
     def __post_init__(self) -> None:
         """Refuse combinations that the model cannot represent."""
         height, thickness = self.net.height_normal, self.snowpack.thickness
-        if height < thickness * (1.0 - _OVERTOPPING):
+        if is_overtopped(height, thickness):
             raise ModelError(
                 say("scene.net_too_low", height=height, thickness=thickness)
             )

@@ -93,13 +93,17 @@ def _write_key(key: str) -> str:
 def list_fields(value: Any) -> dict[str, Any]:
     """Fields of a dataclass as they are; quicker than a copy of all that is in them.
 
-    Of a mapping that cannot be changed, its members.
+    Of a mapping that cannot be changed, its members. A class with a true
+    ``LEAVES_OUT_NONE`` has no field that is None.
     """
     if isinstance(value, MappingProxyType):
         return dict(value)
     shape: type = type(value)
     names, read = _open_shape(shape)
-    return dict(zip(names, read(value), strict=True))
+    pairs = zip(names, read(value), strict=True)
+    if getattr(shape, "LEAVES_OUT_NONE", False):
+        return {name: one for name, one in pairs if one is not None}
+    return dict(pairs)
 
 
 @lru_cache(maxsize=256)

@@ -9,8 +9,6 @@ from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 
-AXES = ("density", "friction_angle", "inclination")
-
 
 def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
     """Extreme with the largest rise of a parabola over its samples.
@@ -36,10 +34,10 @@ def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
         for result in results
         if result.is_converged
     }
-    cases = [result.case for result in results]
+    cases = [result.case.values for result in results]
     size, unknown = 0.0, []
-    for axis in AXES:
-        samples = sorted({getattr(case, axis) for case in cases})
+    for axis in extreme.governing.case.values:
+        samples = sorted({values[axis] for values in cases})
         if len(samples) == 1:
             continue
         difference = _second_difference(extreme.governing.case, axis, samples, forces)
@@ -56,11 +54,10 @@ def _second_difference(
     """Second difference of the force beside a case along an axis, or None."""
     if len(samples) < 3:
         return None
-    place = samples.index(getattr(case, axis))
+    place = samples.index(case.values[axis])
     middle = min(max(place, 1), len(samples) - 2)
     values = [
-        forces.get(replace(case, **{axis: samples[middle + step]}))  # type: ignore[arg-type]
-        for step in (-1, 0, 1)
+        forces.get(case.with_value(axis, samples[middle + step])) for step in (-1, 0, 1)
     ]
     before, at, after = values
     if before is None or at is None or after is None:

@@ -11,12 +11,12 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.parameters import PARAMETERS, place_scene
+from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.errors import ModelError
 from netdesign.words.message import Message, say
 
 # What every case has; the other parameters only where they range.
-_USUAL = ("density", "friction_angle", "inclination")
+USUAL = ("density", "friction_angle", "inclination")
 _USUAL_COUNT = 3  # of a range without a count, beside one with a count
 
 
@@ -63,7 +63,7 @@ class Ranges:
     intervals: tuple[tuple[str, Interval], ...]
 
     def __post_init__(self) -> None:
-        """Refuse unknown and repeated names, and keep one order."""
+        """Refuse unknown, repeated and contradicting names, and keep one order."""
         names = [name for name, _ in self.intervals]
         known = [name for name in PARAMETERS if name in names]
         if sorted(names) != sorted(known):
@@ -74,6 +74,9 @@ class Ranges:
                     known=tuple(PARAMETERS),
                 )
             )
+        for one, other in ONE_QUANTITY:
+            if one in names and other in names:
+                raise ModelError(say("envelope.one_quantity", one=one, other=other))
         order = list(PARAMETERS)
         ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
         object.__setattr__(self, "intervals", tuple(ranked))
@@ -86,6 +89,11 @@ class Ranges:
     def __getitem__(self, name: str) -> Interval:
         """Range of a parameter by its name."""
         return dict(self.intervals)[name]
+
+    @property
+    def further(self) -> tuple[str, ...]:
+        """Names of the parameters that not every case has, in their order."""
+        return tuple(name for name, _ in self.intervals if name not in USUAL)
 
     @property
     def is_grid(self) -> bool:
@@ -124,13 +132,17 @@ class Case:
     def of(cls, values: Mapping[str, float]) -> Case:
         """Case of values by the names of their parameters."""
         others = dict(values)
-        usual = {name: others.pop(name) for name in _USUAL}
+        usual = {name: others.pop(name) for name in USUAL}
         return cls(**usual, others=tuple(others.items()))
 
     @property
     def values(self) -> dict[str, float]:
         """All values by the names of their parameters."""
-        return {name: getattr(self, name) for name in _USUAL} | dict(self.others)
+        return {name: getattr(self, name) for name in USUAL} | dict(self.others)
+
+    def with_value(self, name: str, value: float) -> Case:
+        """Case with another value of one of its quantities."""
+        return Case.of({**self.values, name: value})
 
 
 def build_case(scene: Scene, values: Mapping[str, float]) -> Case:

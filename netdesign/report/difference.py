@@ -21,8 +21,12 @@ from netdesign.words.names import as_given, name
 SCHEMA = "netdesign.diff/1"
 _MET, _UNMET = "met", "not met"
 _PASSING = (str(Verdict.PASS), _MET)
-_RANKS = {str(Verdict.PASS): 0, _MET: 0, str(Verdict.NOT_PROVEN): 1, _UNMET: 1}
-_WORST = 2  # rank of a failure, and of what is no longer there
+_RANKS = {
+    **{str(Verdict.PASS): 0, _MET: 0},
+    str(Verdict.DECLARED): 1,
+    **{str(Verdict.NOT_PROVEN): 2, _UNMET: 2},
+}
+_WORST = 3  # rank of a failure, and of what is no longer there
 # Values of a check that are told one by one; those that follow from them are counted.
 _OF_CHECK = (
     "utilisation",
@@ -36,6 +40,7 @@ _OF_CHECK = (
     "resistance_basis",
     "resistance_type",
     "clause",
+    "declared",
 )
 _MOST_DIGITS = 17  # tell any two numbers apart
 _Value = TypeVar("_Value")
@@ -256,12 +261,19 @@ def _list_governing(row: RowStudy) -> Named:
 
 def _list_checks(row: RowStudy) -> Named:
     return {
-        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): getattr(
-            check, key
+        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): (
+            _name_proof(check) if key == "declared" else getattr(check, key)
         )
         for title, check in _name_checks(row).items()
         for key in _OF_CHECK
     }
+
+
+def _name_proof(check: CheckRecord) -> str | None:
+    """Place of the proof of a declared check, as the workbook has it."""
+    if check.declared is None:
+        return None
+    return ", ".join(text for text in asdict(check.declared).values() if text)
 
 
 def _list_project(study: Study) -> Named:
@@ -288,6 +300,7 @@ def _list_profile(study: Study) -> Named:
         say("diff.edition"): profile.edition,
         say("diff.version"): profile.version,
         say("diff.choice"): profile.choice,
+        say("diff.floor"): profile.floor,
         **values,
     }
 

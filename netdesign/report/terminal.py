@@ -11,6 +11,7 @@ from netdesign.report.words import (
     MISSING,
     VerdictWords,
     Words,
+    name_heading,
     show_check,
     show_text,
 )
@@ -23,7 +24,12 @@ if TYPE_CHECKING:
 
 _NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
 _PIPE = 160  # columns of an output that is no terminal, where no line is folded
-_STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
+_STYLES = {
+    "pass": "green",
+    "fail": "bold red",
+    "not-proven": "yellow",
+    "declared": "cyan",
+}
 
 
 def open_console() -> Console:
@@ -67,7 +73,8 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
     if view.rows:
         console.print(table)
-        console.print(words("show.legend"), style="dim", soft_wrap=True)
+        legend = Text(_explain_cases(study, words))
+        console.print(legend, style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
     overall = Text(words("show.overall", verdict="")).append_text(_word(view.verdict))
@@ -108,6 +115,18 @@ def _describe_change(change: ChangeRecord, words: Words) -> str:
     return words("show.with_note", text=text, note=words.show(change.note))
 
 
+def _explain_cases(study: Study, words: Words) -> str:
+    """Legend of the numbers of a case, in their order."""
+    points = [case.case for row in study.rows for case in row.cases[:1]]
+    names = (
+        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
+    )
+    legend = words("show.legend")
+    if not names:
+        return legend
+    return words("show.legend_further", legend=legend, names=" / ".join(names))
+
+
 def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:
     from rich.text import Text
 
@@ -134,7 +153,13 @@ def _list_lines(view: ReportView, words: Words) -> list[str]:
 
     lines = [name(row.id, reason) for row in view.rows for reason in row.reasons]
     lines = lines or [words("show.reasons_none")]
+    lines += [
+        name(words("show.label", label=row.id, text=row.governing.title), load)
+        for row in view.rows
+        if row.governing and (load := row.governing.load)
+    ]
     lines += [name(label, text) for label, text in view.counts]
+    lines += [name(words("heading.declared_elsewhere"), one) for one in view.declared]
     assumed = view.assumed_line or words("show.none")
     notes = [words("show.note", note=note) for note in view.notes]
     return [*lines, words("show.assumed_line", values=assumed), *notes]

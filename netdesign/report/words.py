@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -52,6 +53,7 @@ VERDICTS = {
     Verdict.PASS: VerdictSigns(symbol="✓", style="pass", exit_code=0),
     Verdict.FAIL: VerdictSigns(symbol="✗", style="fail", exit_code=1),
     Verdict.NOT_PROVEN: VerdictSigns(symbol="?", style="not-proven", exit_code=4),
+    Verdict.DECLARED: VerdictSigns(symbol="†", style="declared", exit_code=6),
 }
 
 
@@ -157,22 +159,29 @@ def show_band(words: Words, key: str, low: float | None, high: float | None) -> 
 
 
 def name_case(case: CasePoint | None) -> str:
-    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``."""
+    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``, and what else ranges."""
     if case is None:
         return MISSING
-    return (
-        f"{show_with_unit('density_kg_m3', case.density_kg_m3)}, "
-        f"φ {show_with_unit('friction_deg', case.friction_deg)}, "
-        f"θ {show_with_unit('inclination_deg', case.inclination_deg)}"
-    )
+    density, *others = case.values.items()
+    return ", ".join((show_with_unit(*density), *_name_values(others)))
+
+
+def name_further(case: CasePoint | None) -> str:
+    """Values of a case beside the usual three, after a comma: ``, d 2.5 m, s 0.02``."""
+    if case is None:
+        return ""
+    return "".join(f", {one}" for one in _name_values([*case.values.items()][3:]))
+
+
+def _name_values(values: Sequence[tuple[str, float]]) -> list[str]:
+    return [f"{QUANTITIES[key].symbol} {show_with_unit(key, x)}" for key, x in values]
 
 
 def name_case_short(case: CasePoint | None) -> str:
     """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
     if case is None:
         return MISSING
-    numbers = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
-    return " / ".join(show_given(number) for number in numbers)
+    return " / ".join(show_given(number) for number in case.values.values())
 
 
 def show_member(words: Words, member: str) -> str:
@@ -182,7 +191,7 @@ def show_member(words: Words, member: str) -> str:
 
 def show_check(words: Words, check: CheckRecord) -> str:
     """Member and mode of a check: ``Foot anchor, pull-out``."""
-    return words.show(name_check(check.member, check.mode))
+    return words.show(name_check(check.member, check.mode, check.position))
 
 
 def name_heading(words: Words, key: str) -> str:

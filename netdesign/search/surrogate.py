@@ -3,7 +3,7 @@
 Universal kriging: a quadratic trend plus a residual whose correlation falls with
 distance. Every solved case is also predicted from all the others; these held-out
 errors set the scale of the standard error, more so nearby, so that a kink in one
-corner of the ranges raises it there. Theory: search/THEORY.md, eq. (M1) to (M5).
+corner of the ranges raises it there. Theory: search/THEORY.md, eq. (M1) to (M5a).
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ Point = tuple[float, ...]  # of the unit cube, each coordinate a share of its ra
 CORRELATION = 1.0
 REACH = 0.35
 FAR_SHARE = 0.5
+_DENSE_DIMENSIONS = 3  # up to so many parameters every score counts far away in full
+_ROUGHNESS = 1.5  # by what power of the distance a kink is rougher than the model
 _NUGGET = 1e-6  # rounding and mesh noise, as a share of the residual's variance
 
 
@@ -48,12 +50,15 @@ class Surrogate:
         Size of those errors over what the model expected of them.
     noise : ndarray, shape (quantities,) or ()
         Errors up to this size were no evidence, in the quantity's unit.
+    far_shares : ndarray, shape (n,)
+        Share of each score that counts far away.
     """
 
     places: Floats
     held_out: Floats
     scores: Floats
     noise: Floats
+    far_shares: Floats
     _inverse: Floats
     _trend: Floats
     _trend_covariance: Floats
@@ -80,7 +85,7 @@ class Surrogate:
             + np.sum((lack @ self._trend_covariance) * lack, axis=1)
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
-        scale = _fade_scores(distances, self.scores[:, chosen])
+        scale = _fade_scores(distances, self.scores[:, chosen], self.far_shares)
         return Prediction(mean=mean, standard_error=scale * spread[:, None])
 
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
@@ -92,9 +97,9 @@ class Surrogate:
         ]
 
 
-def _fade_scores(distances: Floats, scores: Floats) -> Floats:
+def _fade_scores(distances: Floats, scores: Floats, far_shares: Floats) -> Floats:
     """Largest held-out score around each place, faded with distance."""
-    share = np.maximum(np.exp(-((distances / REACH) ** 2)), FAR_SHARE)
+    share = np.maximum(np.exp(-((distances / REACH) ** 2)), far_shares)
     return np.stack([np.max(share * column, axis=1) for column in scores.T], axis=1)
 
 
@@ -138,12 +143,25 @@ def fit_surrogate(
         held_out=weights / diagonal,
         scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
         noise=np.asarray(noise, dtype=np.float64),
+        far_shares=_share_far(distances, places.shape[1]),
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,
         _trend_weights=trend_weights,
         _weights=weights,
     )
+
+
+def _share_far(distances: Floats, dimension: int) -> Floats:
+    """Share of each case's score far away: search/THEORY.md, eq. (M5a)."""
+    shares = np.full(len(distances), FAR_SHARE)
+    if dimension <= _DENSE_DIMENSIONS:
+        return shares
+    to_others = distances + np.diag(np.full(len(distances), np.inf))
+    result: Floats = shares * np.minimum(1.0, to_others.min(axis=1) / REACH) ** (
+        _ROUGHNESS
+    )
+    return result
 
 
 def count_trend_terms(dimension: int) -> int:

@@ -6,14 +6,22 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from netdesign.envelope.ranges import Ranges
+from netdesign.checks import Declaration
+from netdesign.coupling.scene import is_overtopped
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guards import require_positive, require_within
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.site.cells.findings import Finding
-from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Layer, compute_mean_density
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.snow.snowpack import (
+    Layer,
+    compute_mean_density,
+    compute_thickness,
+    scale_layers,
+)
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
@@ -28,11 +36,10 @@ MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.DOWNHILL_ANCHOR, "tendon"),
     (Member.DOWNHILL_ANCHOR, "pull_out"),
     (Member.POST, "compression"),
+    (Member.POST_BASE, "bearing"),
 )
-# Checked only where the workbook gives the resistance, in the sheet of that member.
-OPTIONAL_MODES: tuple[tuple[Member, str, Member], ...] = (
-    (Member.POST_BASE, "bearing", Member.POST),
-)
+# Columns that name the type of a member without a type of its own.
+NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,11 +68,15 @@ class InputEcho:
     text: str  # as typed, "" for a default
     value: float | str  # as understood, in the unit above
     cell: str  # "Nets!C5", or "default"
+    derivation: Text | None = None  # how it follows from what was typed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetRow:
-    """One row of nets. SI units; angles in radians."""
+    """One row of nets. SI units; angles in radians.
+
+    What ranges over the whole site has its severe end here.
+    """
 
     id: str
     slope_angle: float
@@ -81,6 +92,9 @@ class NetRow:
     layers: tuple[Layer, ...] = ()  # from the ground up; empty: uniform snow
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
+    glide_factor: float | None = None  # as typed, of sliding ground
+    # of the first and last support; None: those of all others
+    end_resistances: tuple[Resistance, ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -94,27 +108,66 @@ class NetRow:
         require_within("slack", self.slack, 0.0, 0.5)
 
     @property
+    def has_end(self) -> bool:
+        """End of the row: there is none where the next work goes on without a gap."""
+        return self.gap > 0.0
+
+    def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
+        """Resistances of a support inside the row, or of its first and last one."""
+        if position == "edge" and self.end_resistances is not None:
+            return self.end_resistances
+        return self.resistances
+
+    @property
+    def is_overtopped(self) -> bool:
+        """Whether the snow is thicker than the net is high."""
+        return is_overtopped(self.net_height, self.snow_thickness)
+
+    @property
+    def held_thickness(self) -> float:
+        """Thickness of the snow that is solved [m]: all of it, or up to the head."""
+        return self.net_height if self.is_overtopped else self.snow_thickness
+
+    @property
     def mean_density(self) -> float:
         """Mean density of layered snow [kg/m3]."""
         return compute_mean_density(self.layers)
 
     def layers_at(self, density: float) -> tuple[Layer, ...]:
-        """Layers scaled to a mean density [kg/m3] and to the row's snow thickness.
+        """Layers scaled to a mean density [kg/m3] and to the thickness that is solved.
 
         None for uniform snow; density and thickness keep their proportions.
         """
         if not self.layers:
             return ()
-        denser = density / self.mean_density
-        thicker = self.snow_thickness / sum(layer.thickness for layer in self.layers)
-        return tuple(
-            replace(
-                layer,
-                thickness=layer.thickness * thicker,
-                density=layer.density * denser,
-            )
-            for layer in self.layers
+        return scale_layers(self.layers, self.held_thickness, density)
+
+    def at(self, case: Case) -> NetRow:
+        """Row with what the case has of its own; itself where that is nothing."""
+        values = dict(case.others)
+        if not values:
+            return self
+        if "snow_height" in values:
+            height = values["snow_height"]
+            values["thickness"] = compute_thickness(height, self.slope_angle)
+        row = replace(
+            self,
+            snow_thickness=values.get("thickness", self.snow_thickness),
+            upslope_length=values.get("upslope_length", self.upslope_length),
+            slack=values.get("slack", self.slack),
+            net_stiffness_per_m=values.get("net_stiffness", self.net_stiffness_per_m),
+            glide_factor=values.get("glide_factor", self.glide_factor),
         )
+        return replace(row, ground=row._find_ground(values))
+
+    def _find_ground(self, values: Mapping[str, float]) -> GroundLaw:
+        """Ground of a case: of its slip length, or of a factor and its thickness."""
+        if "slip_length" in values:
+            return GroundLaw(kind="sliding", slip_length=values["slip_length"])
+        is_other = "thickness" in values or "glide_factor" in values
+        if self.glide_factor is None or not is_other:
+            return self.ground
+        return build_ground_from_glide_factor(self.glide_factor, self.snow_thickness)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -145,7 +198,10 @@ class MonitoringSeries:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """Identification printed on every output."""
+    """Identification printed on every output.
+
+    ``accepted_law`` names the creep law that is accepted where it is extrapolated.
+    """
 
     name: str = ""
     number: str = ""
@@ -153,6 +209,7 @@ class Project:
     checker: str = ""
     revision: str = ""
     standard: str = ""
+    accepted_law: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,3 +226,18 @@ class Site:
     range_inputs: tuple[InputEcho, ...] = ()
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()
+    declared: tuple[Declaration, ...] = ()
+
+    def find_declaration(
+        self, row_id: str, member: str, mode: str
+    ) -> Declaration | None:
+        """Declaration of a check of a net row; None if it is proven here or nowhere."""
+        return next(
+            (
+                one
+                for one in self.declared
+                if one.row_id in ("", row_id)
+                and (one.member, one.mode) == (member, mode)
+            ),
+            None,
+        )

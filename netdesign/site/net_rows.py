@@ -5,16 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
+from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
+from netdesign.site.end_supports import (
+    EndsByRow,
+    echo_ends,
+    refuse_unknown_ends,
+    replace_types,
+)
 from netdesign.site.model import (
     MEMBER_MODES,
-    OPTIONAL_MODES,
+    NAMED_BY,
     InputEcho,
     NetRow,
     Resistance,
 )
+from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
     LayersByRow,
@@ -26,9 +35,11 @@ from netdesign.site.snow_layers import (
 from netdesign.site.tables import Table, read_rows
 from netdesign.site.type_resistances import find_tests
 from netdesign.snow.ground import (
+    DEFAULT_CREEP_LAW,
     GROUND_KINDS,
     GroundLaw,
     build_ground_from_glide_factor,
+    find_glide_step,
 )
 from netdesign.snow.snowpack import Layer
 from netdesign.structure.layout import (
@@ -44,7 +55,8 @@ Types = Mapping[str, Row]  # the lines of one type sheet, by id
 TypeSheets = Mapping[str, Types | None]
 
 _MOST_PLACES = 5  # named in one finding
-_MEMBERS = tuple(dict.fromkeys(member for member, _ in MEMBER_MODES))
+# Columns that name a type.
+_MEMBERS = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
 def build_net_rows(
@@ -53,6 +65,8 @@ def build_net_rows(
     snow: LayersByRow,
     findings: list[Finding],
     absent: Iterable[str] = (),
+    ends: EndsByRow = MappingProxyType({}),
+    ranged: Ends = MappingProxyType({}),
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -68,6 +82,10 @@ def build_net_rows(
         Appended to.
     absent : iterable of str
         Type sheets that the workbook does not have, under whatever name.
+    ends : mapping of str to Row
+        Lines of sheet Ends by net row.
+    ranged : mapping of str to tuple of Reading, or None
+        Ends of what ranges over all rows, by its name in sheet Ranges.
 
     Returns
     -------
@@ -80,11 +98,19 @@ def build_net_rows(
         findings.append(table.sheet.finding(refusal))
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
+    refuse_unknown_ends(ends, by_id, findings)
     built = [
-        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
+        _build_net_row(
+            row,
+            type_sheets,
+            snow.get(row["id"].word, ()),
+            ends.get(row["id"].word),
+            ranged,
+            findings,
+        )
         for row in rows
     ]
-    _refuse_missing_sheets(table, rows, absent, findings)
+    _refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -151,21 +177,34 @@ def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
 
 
 def _build_net_row(
-    row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
+    line: Row,
+    type_sheets: TypeSheets,
+    lines: tuple[Row, ...],
+    end: Row | None,
+    ranged: Ends,
+    findings: list[Finding],
 ) -> NetRow | None:
     count_before = len(findings)
-    row = _fill_in_distances(row)
+    line = _fill_in_distances(line)
+    row = fill_in_ranges(line, ranged, findings)
     layers = build_layers(lines, row["slope_angle"], findings)
-    thickness = _understand_thickness(row, lines, layers, findings)
+    is_ranged = not ranged.keys().isdisjoint(("thickness", "snow_height"))
+    thickness = _understand_thickness(row, lines, layers, findings, is_ranged=is_ranged)
     ground = _understand_ground(row, thickness, findings)
-    _check_types(row, type_sheets, findings)
-    is_faulty = any(reading.state == "faulty" for reading in row.values()) or any(
-        _list_references([row], name)
+    named = [row, end] if end else [row]
+    for one in named:
+        _check_types(one, type_sheets, findings)
+    readings = [reading for one in named for reading in one.values()]
+    is_faulty = any(reading.state == "faulty" for reading in readings) or any(
+        _list_references(named, name)
         for name, types in type_sheets.items()
         if types is None
     )
     if is_faulty or thickness is None or ground is None or len(findings) > count_before:
         return None
+    if is_overtopped(row["net_height"].si, thickness):
+        rule = say("nets.overtopped", thickness=thickness)
+        refuse(row["net_height"], rule, "", findings, severity="note")
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -178,9 +217,17 @@ def _build_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
+        end_resistances=_find_resistances(replace_types(row, end), type_sheets)
+        if end
+        else None,
+        inputs=(
+            *_echo_inputs(line, thickness, ground),
+            *echo_layers(lines),
+            *echo_ends(end),
+        ),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        glide_factor=_find_glide_factor(row),
     )
 
 
@@ -206,8 +253,13 @@ def _understand_thickness(
     lines: tuple[Row, ...],
     layers: tuple[Layer, ...],
     findings: list[Finding],
+    *,
+    is_ranged: bool,
 ) -> float | None:
-    """Snow thickness normal to the slope [m]: of one column, or of the layers."""
+    """Snow thickness normal to the slope [m]: of one column, or of the layers.
+
+    Where it ranges, the layers follow the range.
+    """
     thickness, height = row["snow_thickness"], row["snow_height"]
     slope_angle = row["slope_angle"]
     if "faulty" in (thickness.state, height.state):
@@ -218,7 +270,9 @@ def _understand_thickness(
         return None
     is_normal = thickness.state == "given"
     given = thickness if is_normal else height
-    if lines:
+    if lines and not layers:  # a line of sheet Snow is faulty: a finding already
+        return None
+    if lines and not is_ranged:
         return settle_thickness(layers, given, slope_angle, findings)
     if is_normal:
         return thickness.si
@@ -253,6 +307,11 @@ def _understand_ground(
     if slip.state == "given":
         return GroundLaw(kind="sliding", slip_length=slip.si)
     return _build_sliding_ground(glide, thickness, findings)
+
+
+def _find_glide_factor(row: Row) -> float | None:
+    glide = row["glide_factor"]
+    return glide.number if glide.state == "given" else None
 
 
 def _build_sliding_ground(
@@ -292,16 +351,11 @@ def _build_layout(row: Row) -> SupportLayout:
 
 
 def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
-    """Resistances of all members; of optional modes those that are given."""
-    needed = [
-        _find_resistance(row[member], mode, member, type_sheets)
+    """Resistance of every member in every mode, given or not."""
+    return tuple(
+        _find_resistance(row[NAMED_BY.get(member, member)], mode, member, type_sheets)
         for member, mode in MEMBER_MODES
-    ]
-    optional = [
-        _find_resistance(row[named_by], mode, member, type_sheets)
-        for member, mode, named_by in OPTIONAL_MODES
-    ]
-    return (*needed, *(one for one in optional if one.value is not None))
+    )
 
 
 def _find_resistance(
@@ -347,15 +401,39 @@ def _echo_inputs(
     for key, reading in row.items():
         echoes.append(reading.echo())
         if key == "snow_height" and reading.state == "given":
-            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading))
+            how = _derive_thickness(reading.si, row["slope_angle"].number)
+            echoes.append(_echo_derived(row["snow_thickness"], thickness, reading, how))
         if key == "glide_factor" and reading.state == "given":
-            echoes.append(
-                _echo_derived(row["slip_length"], ground.slip_length, reading)
-            )
+            table = _derive_slip(reading.number, thickness)
+            slip = ground.slip_length
+            echoes.append(_echo_derived(row["slip_length"], slip, reading, table))
     return tuple(echoes)
 
 
-def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
+def _derive_thickness(height: float, slope_deg: float) -> Message:
+    return say("column.thickness_of_height", height=height, slope=slope_deg)
+
+
+def _derive_slip(glide_factor: float, thickness: float) -> Message | None:
+    """Formula of a slip length from the table; None of ground without slip."""
+    if glide_factor == 1.0:
+        return None
+    step = find_glide_step(glide_factor)
+    return say(
+        "column.slip_of_table",
+        thickness=thickness,
+        glide=glide_factor,
+        low=step.glide_factors[0],
+        high=step.glide_factors[1],
+        start=step.slip_ratios[0],
+        end=step.slip_ratios[1],
+        law=DEFAULT_CREEP_LAW,
+    )
+
+
+def _echo_derived(
+    what: Reading, value: float, reading: Reading, how: Message | None
+) -> InputEcho:
     name, given = what.field.name, reading.field.name
     label = say("column.derived_from", name=name, given=given)
     return InputEcho(
@@ -364,4 +442,5 @@ def _echo_derived(what: Reading, value: float, reading: Reading) -> InputEcho:
         text=reading.text,
         value=value,
         cell=reading.place,
+        derivation=how,
     )

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from dataclasses import field as of_dataclass
 
+from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.findings import Finding, Refusal, quote
 from netdesign.site.columns.all_tables import (
     DEFAULT_INCLINATION_DEG,
-    RANGE_QUANTITIES,
+    FURTHER_QUANTITIES,
     SEARCHED,
+    USUAL_QUANTITIES,
 )
 from netdesign.site.columns.fields import Field, split_heading
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
@@ -27,12 +32,34 @@ _Line = tuple[Reading, Reading, Reading]  # low, high, samples
 class _Range:
     interval: Interval
     inputs: tuple[InputEcho, ...]
+    low: Reading
+    high: Reading
 
 
-def build_ranges(
-    table: Table, findings: list[Finding]
-) -> tuple[Ranges, tuple[InputEcho, ...]] | None:
-    """Build the three ranges, or None where a fault went to ``findings``.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RangesSheet:
+    """Sheet Ranges as far as it could be understood.
+
+    Attributes
+    ----------
+    ranges : Ranges or None
+        SI units; None where a line has a fault.
+    inputs : tuple of InputEcho
+        Both ends and the samples of each range, in the units of the edge.
+    ends : mapping of str to tuple of Reading, or None
+        Low and high end of what ranges beside the usual three; None where its line
+        has a fault.
+    """
+
+    ranges: Ranges | None = None
+    inputs: tuple[InputEcho, ...] = ()
+    ends: Mapping[str, tuple[Reading, Reading] | None] = of_dataclass(
+        default_factory=dict
+    )
+
+
+def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
+    """Build the usual three ranges and those of further quantities.
 
     Parameters
     ----------
@@ -43,30 +70,81 @@ def build_ranges(
 
     Returns
     -------
-    tuple of Ranges and tuple of InputEcho, or None
-        SI units in the ranges, units of the edge in the inputs.
+    RangesSheet
+        Without ranges where a fault went to ``findings``.
     """
     found: dict[str, _Range | None] = {}
+    names: dict[str, Reading] = {}
     for row in table.rows:
-        _read_line(table, row, found, findings)
-    for field in RANGE_QUANTITIES:
-        if field.key in found:
+        _read_line(table, row, found, names, findings)
+    for one in USUAL_QUANTITIES:
+        if one.key in found:
             continue
-        if field.required:
-            rule = say("range.lacks", heading=field.title)
-            findings.append(table.sheet.finding(Refusal(rule, field.accepted)))
+        if one.required:
+            rule = say("range.lacks", heading=one.title)
+            findings.append(table.sheet.finding(Refusal(rule, one.accepted)))
+            found[one.key] = None
         else:
-            found[field.key] = _default_inclination(field)
+            found[one.key] = _default_inclination(one)
+    for name in _refuse_doubles(names, findings):
+        found[name] = None
     complete = {key: value for key, value in found.items() if value is not None}
-    if len(complete) < len(RANGE_QUANTITIES):
-        return None
-    ranges = Ranges.of(**{key: value.interval for key, value in complete.items()})
-    inputs = [complete[field.key].inputs for field in RANGE_QUANTITIES]
-    return ranges, tuple(echo for echoes in inputs for echo in echoes)
+    is_crowded = _refuse_crowd(names, complete, findings)
+    ends = {
+        one.key: (value.low, value.high) if (value := found[one.key]) else None
+        for one in FURTHER_QUANTITIES
+        if one.key in found
+    }
+    if len(complete) < len(found) or is_crowded:
+        return RangesSheet(ends=ends)
+    order = [*USUAL_QUANTITIES, *FURTHER_QUANTITIES]
+    inputs = [complete[one.key].inputs for one in order if one.key in complete]
+    return RangesSheet(
+        ranges=Ranges.of(**{key: value.interval for key, value in complete.items()}),
+        inputs=tuple(echo for echoes in inputs for echo in echoes),
+        ends=ends,
+    )
+
+
+def _refuse_doubles(names: Mapping[str, Reading], findings: list[Finding]) -> list[str]:
+    """Names of lines that give one quantity twice; the later of two is refused."""
+    order = list(names)
+    doubles: list[str] = []
+    for pair in ONE_QUANTITY:
+        if all(one in names for one in pair):
+            first, second = sorted(pair, key=order.index)
+            rule = say("range.one_quantity", place=names[first].place)
+            refuse(names[second], rule, say("range.one_of_two"), findings)
+            doubles += pair
+    return doubles
+
+
+def _refuse_crowd(
+    names: Mapping[str, Reading],
+    complete: Mapping[str, _Range],
+    findings: list[Finding],
+) -> bool:
+    """Refuse the first range that is too many for a search; whether there is one."""
+    wide = [
+        key
+        for key, one in complete.items()
+        if one.interval.low < one.interval.high and key in names
+    ]
+    # a default inclination has no line, and ranges
+    most = MOST_PARAMETERS - ("inclination" not in names)
+    if len(wide) <= most:
+        return False
+    accepted = say("range.at_most", most=MOST_PARAMETERS)
+    refuse(names[wide[most]], say("range.too_many"), accepted, findings)
+    return True
 
 
 def _read_line(
-    table: Table, row: int, found: dict[str, _Range | None], findings: list[Finding]
+    table: Table,
+    row: int,
+    found: dict[str, _Range | None],
+    names: dict[str, Reading],
+    findings: list[Finding],
 ) -> None:
     name = read_field(table, "quantity", row, findings)
     unit = read_field(table, "unit", row, findings)
@@ -76,17 +154,24 @@ def _read_line(
     field = match_item(name, table, "quantity", findings)
     if field is None:
         return
-    if field.key in found:
+    if field.key in names:
         refuse(name, say("range.twice"), say("range.one_line"), findings)
+        return
+    names[field.key], found[field.key] = name, None
+    settled = _settle_unit(name, unit, field, findings)
+    if not settled:
+        return
+    low, high = (
+        _read_end(table, row, key, field, settled, findings) for key in ("low", "high")
+    )
+    if field in FURTHER_QUANTITIES and _is_empty(low, high):
+        del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        found[field.key] = None
-        settled = _settle_unit(name, unit, field, findings)
-        if settled:
-            low, high = (
-                _read_end(table, row, key, field, settled, findings)
-                for key in ("low", "high")
-            )
-            found[field.key] = _read_range(field, low, high, samples, findings)
+        found[field.key] = _read_range(field, low, high, samples, findings)
+
+
+def _is_empty(low: Reading | None, high: Reading | None) -> bool:
+    return low is not None and high is not None and low.state == high.state == "blank"
 
 
 def _settle_unit(
@@ -100,6 +185,8 @@ def _settle_unit(
     if in_column and in_brackets and in_column != in_brackets:
         rule = say("range.other_unit", name=quote(name.word))
         refuse(unit, rule, say("accepted.one_unit"), findings)
+    elif not given and field.units == ("-",):
+        return "-"
     elif not given:
         refuse(name, say("heading.no_unit"), quote_title(field), findings)
     elif given in UNCLEAR_UNITS:
@@ -198,4 +285,5 @@ def _build_range(field: Field, line: _Line) -> _Range:
     interval = Interval(low=low.si, high=high.si, count=count)
     named = say("column.samples_of", name=field.name)
     labelled = replace(samples, field=replace(samples.field, named=named))
-    return _Range(interval=interval, inputs=(low.echo(), high.echo(), labelled.echo()))
+    inputs = (low.echo(), high.echo(), labelled.echo())
+    return _Range(interval=interval, inputs=inputs, low=low, high=high)

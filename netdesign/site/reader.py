@@ -11,6 +11,8 @@ from netdesign.site.cells.findings import Finding, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
+    DECLARED,
+    ENDS,
     MONITORING,
     NETS,
     POSTS,
@@ -22,13 +24,16 @@ from netdesign.site.columns.all_tables import (
     SNOW,
 )
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.declared_sheet import read_declared
+from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item
-from netdesign.site.model import Project, Site
+from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
-from netdesign.site.ranges import build_ranges
+from netdesign.site.ranged_columns import free_columns
+from netdesign.site.ranges import RangesSheet, build_ranges
 from netdesign.site.readings import Row, refuse
-from netdesign.site.snow_layers import check_densities, read_layers
+from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.tables import (
     Table,
     find_table,
@@ -38,8 +43,10 @@ from netdesign.site.tables import (
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
+_LAWS = tuple(CREEP_LAWS)
 _TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
 
 
@@ -67,34 +74,43 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     """
     workbook = read_cells(path, text_format)
     findings = list(workbook.remarks)
-    tables = {plan.name: find_table(workbook, plan, findings) for plan in SHEETS}
+    ranged = _read_ranges(find_table(workbook, RANGES, []), []).ends
+    plans = [free_columns(plan, ranged) if plan is NETS else plan for plan in SHEETS]
+    tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     type_sheets = {
         plan.name: _read_types(tables[plan.name], findings) for plan in _TYPE_SHEETS
     }
     snow = read_layers(tables[SNOW.name], findings)
+    ends = read_ends(tables[ENDS.name], findings)
     nets, ranges = tables[NETS.name], tables[RANGES.name]
     absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
-    net_rows = build_net_rows(nets, type_sheets, snow, findings, absent) if nets else ()
-    built_ranges = build_ranges(ranges, findings) if ranges else None
-    if built_ranges:
-        density = built_ranges[0]["density"]
-        check_densities(net_rows, snow, density.low, density.high, findings)
-    monitoring = read_monitoring(tables[MONITORING.name], _list_ids(nets), findings)
+    net_rows: tuple[NetRow, ...] = ()
+    if nets:
+        net_rows = build_net_rows(
+            nets, type_sheets, snow, findings, absent, ends, ranged
+        )
+    built = _read_ranges(ranges, findings)
+    if built.ranges:
+        check_layers(net_rows, snow, built.ranges, findings)
+    ids = _list_ids(nets)
+    monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
+    declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
-    if built_ranges is None or any(finding.severity == "error" for finding in findings):
+    if built.ranges is None or any(finding.severity == "error" for finding in findings):
         raise SiteDataError(findings)
     return Site(
         project=project,
-        ranges=built_ranges[0],
+        ranges=built.ranges,
         rows=net_rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=tuple(finding.message for finding in findings),
         findings=tuple(findings),
-        range_inputs=built_ranges[1],
+        range_inputs=built.inputs,
         project_cells=project_cells,
         monitoring=monitoring,
+        declared=declared,
     )
 
 
@@ -148,9 +164,17 @@ def _read_project(
         if field.key in values:
             rule = say("item.twice", place=cells[field.key])
             refuse(item, rule, say("item.one_line"), findings)
+        elif field.key == "accepted_law" and value.word not in CREEP_LAWS:
+            refuse(
+                value, say("item.no_law"), say("accepted.words", words=_LAWS), findings
+            )
         else:
             values[field.key], cells[field.key] = value.word, value.place
     return Project(**values), cells
+
+
+def _read_ranges(table: Table | None, findings: list[Finding]) -> RangesSheet:
+    return build_ranges(table, findings) if table else RangesSheet()
 
 
 def _list_ids(nets: Table | None) -> set[str]:

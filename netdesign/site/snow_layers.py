@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from netdesign.envelope.ranges import Ranges
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.model import InputEcho, NetRow
 from netdesign.site.readings import Reading, Row, refuse
@@ -102,8 +103,6 @@ def settle_thickness(
     findings : list of Finding
         Appended to.
     """
-    if not layers:  # a line of sheet Snow is faulty: a finding already
-        return None
     total = sum(layer.thickness for layer in layers)
     if given.state != "given":
         return total
@@ -116,14 +115,13 @@ def settle_thickness(
     return total
 
 
-def check_densities(
+def check_layers(
     rows: tuple[NetRow, ...],
     snow: LayersByRow,
-    low: float,
-    high: float,
+    ranges: Ranges,
     findings: list[Finding],
 ) -> None:
-    """Refuse layers whose mean lies outside the range, or that it makes too dense.
+    """Refuse layers whose mean or sum lies outside the ranges, or that get too dense.
 
     Parameters
     ----------
@@ -131,14 +129,16 @@ def check_densities(
         Built rows.
     snow : mapping of str to tuple of Row
         Lines of sheet Snow.
-    low, high : float
-        Range of density [kg/m3].
+    ranges : Ranges
+        Of the site.
     findings : list of Finding
         Appended to.
     """
+    low, high = ranges["density"].low, ranges["density"].high
     for row in rows:
         if not row.layers:
             continue
+        _check_sum(row, snow[row.id], ranges, findings)
         place = snow[row.id][0]["density"]
         mean = row.mean_density
         densest = max(layer.density for layer in row.layers) * high / mean
@@ -150,6 +150,23 @@ def check_densities(
             rule = say("layer.too_dense", density=densest)
             accepted = say("layer.at_most_density", most=DENSEST_SNOW * ICE_DENSITY)
             refuse(place, rule, accepted, findings)
+
+
+def _check_sum(
+    row: NetRow, lines: tuple[Row, ...], ranges: Ranges, findings: list[Finding]
+) -> None:
+    """Refuse layers whose thickness lies outside its range."""
+    total = sum(layer.thickness for layer in row.layers)
+    for name, factor in (
+        ("thickness", 1.0),
+        ("snow_height", math.cos(row.slope_angle)),
+    ):
+        if name not in ranges.further:
+            continue
+        low, high = ranges[name].low * factor, ranges[name].high * factor
+        if not low - _SUM_TOLERANCE <= total <= high + _SUM_TOLERANCE:
+            rule = say("range.sum_outside", sum=total, low=low, high=high)
+            refuse(_size_of(lines[0]), rule, say("range.sum_or_wider"), findings)
 
 
 def echo_layers(lines: tuple[Row, ...]) -> tuple[InputEcho, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -58,6 +59,38 @@ class GroundLaw:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class GlideStep:
+    """Two neighbouring entries of a table, with a straight line between them.
+
+    Attributes
+    ----------
+    glide_factors : tuple of float
+        N below and above [-].
+    slip_ratios : tuple of float
+        Slip length over snow thickness, below and above [-].
+    """
+
+    glide_factors: tuple[float, float]
+    slip_ratios: tuple[float, float]
+
+    def interpolate(self, glide_factor: float) -> float:
+        """Slip ratio on the line.
+
+        Parameters
+        ----------
+        glide_factor : float
+            N [-], of the step.
+
+        Returns
+        -------
+        float
+            Slip length over snow thickness [-].
+        """
+        (low, high), (start, end) = self.glide_factors, self.slip_ratios
+        return start + (glide_factor - low) / (high - low) * (end - start)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GlideTable:
     """Glide factors of one creep law, both ascending.
 
@@ -71,6 +104,37 @@ class GlideTable:
 
     slip_ratios: tuple[float, ...]
     glide_factors: tuple[float, ...]
+
+    def find_step(self, glide_factor: float) -> GlideStep:
+        """Neighbouring entries between which a glide factor lies.
+
+        Parameters
+        ----------
+        glide_factor : float
+            N [-], from 1 to the table's last.
+        """
+        factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
+        above = min(bisect_right(factors, glide_factor), len(factors) - 1)
+        return GlideStep(
+            glide_factors=(factors[above - 1], factors[above]),
+            slip_ratios=(ratios[above - 1], ratios[above]),
+        )
+
+    def find_glide_factor(self, slip_ratio: float) -> float:
+        """Glide factor of a slip length.
+
+        Parameters
+        ----------
+        slip_ratio : float
+            Slip length over snow thickness [-].
+
+        Returns
+        -------
+        float
+            N [-]; beyond the table that of its end.
+        """
+        factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
+        return float(np.interp(slip_ratio, ratios, factors))
 
 
 @lru_cache(maxsize=1)
@@ -113,16 +177,45 @@ def compute_slip_length(
     ModelError
         If there is no table, or the factor lies outside it: no extrapolation.
     """
+    step = find_glide_step(glide_factor, creep_law)
+    return step.interpolate(glide_factor) * snow_thickness
+
+
+def find_glide_step(
+    glide_factor: float, creep_law: str = DEFAULT_CREEP_LAW
+) -> GlideStep:
+    """Entries of a creep law's table that give the slip length of a glide factor.
+
+    Parameters
+    ----------
+    glide_factor : float
+        N of the guidelines [-], above 1 and at most the table's last.
+    creep_law : str
+        Name of the set.
+
+    Raises
+    ------
+    ModelError
+        If there is no table, or the factor lies outside it: no extrapolation.
+    """
     tables = load_glide_tables()
     if creep_law not in tables:
         raise ModelError(say("ground.no_table", law=creep_law, known=tuple(tables)))
     table = tables[creep_law]
-    largest = table.glide_factors[-1]
-    require_within("glide factor", glide_factor, _SMALLEST_GLIDE_FACTOR, largest)
-    ratio = np.interp(
-        glide_factor, (1.0, *table.glide_factors), (0.0, *table.slip_ratios)
+    if math.isfinite(glide_factor) and glide_factor > table.glide_factors[-1]:
+        raise ModelError(
+            say(
+                "ground.beyond_table",
+                glide=glide_factor,
+                law=creep_law,
+                largest=table.glide_factors[-1],
+                ratio=table.slip_ratios[-1],
+            )
+        )
+    require_within(
+        "glide factor", glide_factor, _SMALLEST_GLIDE_FACTOR, table.glide_factors[-1]
     )
-    return float(ratio) * snow_thickness
+    return table.find_step(glide_factor)
 
 
 def build_ground_from_glide_factor(

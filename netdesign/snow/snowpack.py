@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from netdesign.errors import ModelError
@@ -166,6 +166,32 @@ def build_layered_snowpack(
         density=compute_mean_density(layers),
         layers=layers,
         gravity=gravity,
+    )
+
+
+def scale_layers(
+    layers: tuple[Layer, ...], thickness: float, mean_density: float
+) -> tuple[Layer, ...]:
+    """Layers of another total thickness and mean density, in their proportions.
+
+    Parameters
+    ----------
+    layers : tuple of Layer
+        From the ground up; at least one.
+    thickness : float
+        Of all layers together, normal to the slope [m].
+    mean_density : float
+        [kg/m3].
+    """
+    denser = mean_density / compute_mean_density(layers)
+    thicker = thickness / _sum_thickness(layers)
+    return tuple(
+        replace(
+            layer,
+            thickness=layer.thickness * thicker,
+            density=layer.density * denser,
+        )
+        for layer in layers
     )
 
 

@@ -21,6 +21,7 @@ from netdesign.envelope.run import CaseTask, build_task, run_cases
 from netdesign.envelope.search import Wave, search_rows
 from netdesign.errors import ModelError
 from netdesign.search.maxima import SearchSettings
+from netdesign.search.questions import list_first_design
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.solving.runner import Runner
@@ -30,9 +31,11 @@ from netdesign.study.records import MonitoringRecord
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
-# has a limit of its own, and a row so many members. Beside the envelope a row that
-# passes took 3, one that fails 2 to 184, 38 in the median (130 random sites).
-_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (40, 250)
+# has a limit of its own, and a row so many members. Beside the envelope a row takes
+# 26 to 41 for its single values (the example), and for what would turn its checks 3
+# where it passes, 2 to 184, 38 in the median, where it fails (130 random sites).
+_SEARCH, _HISTORIES, _BESIDE = (55, 265), (3, 7), (80, 320)
+_BEYOND_FIRST = 20  # 35 first cases of three ranges, 55 in all
 HISTORY = 120.0  # time of a history over that of a steady state: 118 and 140 seen
 _REPORTS_S = 1.5  # time that the reports of one profile take
 _CLOSEST_GAP = 1e-3  # however accurate the cases are
@@ -71,7 +74,9 @@ def count_cases(site: Site) -> int:
     """Number of cases of a grid; about that of a search, which nobody knows yet."""
     if site.ranges.is_grid:
         return len(site.rows) * len(build_cases(site.ranges))
-    return len(site.rows) * _SEARCH[0]
+    # a search of many ranges takes its first cases, and some of its own
+    first = len(list_first_design(len(site.ranges.axes))) if site.ranges.axes else 0
+    return len(site.rows) * max(_SEARCH[0], first + _BEYOND_FIRST)
 
 
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
@@ -80,7 +85,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     ids = {row.id for row in site.rows}
     measured = sum(one.row_id in ids for one in site.monitoring)
     histories = rows if run.method == "transient" else 0
-    checks = sum(len(row.resistances) for row in site.rows)
+    checks = sum(map(_count_checks, site.rows))
     phases = [
         _plan_envelope(site, run),
         Phase(
@@ -112,6 +117,12 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
         ),
     ]
     return [one for one in phases if one.most or one.seconds]
+
+
+def _count_checks(row: NetRow) -> int:
+    """Checks of forces, of the support inside the row and of the one at its end."""
+    ends = len(row.resistances_at("edge")) if row.has_end else 0
+    return len(row.resistances) + ends
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
@@ -159,8 +170,11 @@ def search_site(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _LayeredScenes:
-    """Scenes of layered snow, whose layers follow the density of a case."""
+class _RowScenes:
+    """Scenes of a row that are more than three values put into one scene.
+
+    Layers follow the density of a case; a typed glide factor follows its thickness.
+    """
 
     row: NetRow
     law: CreepLaw
@@ -170,6 +184,7 @@ class _LayeredScenes:
 
 
 def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
+    is_own = bool(row.layers or ranges.further)
     return RowTask(
         scene=_find_scene(row, ranges, run.creep_law),
         ranges=ranges,
@@ -177,13 +192,14 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         settings=run.settings,
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
-        build=_build_layered(row, run.creep_law) if row.layers else None,
+        build=_build_scenes(row, run.creep_law) if is_own else None,
     )
 
 
-def _build_layered(row: NetRow, law: CreepLaw) -> _LayeredScenes:
+def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    return _LayeredScenes(row=replace(row, inputs=(), resistances=()), law=law)
+    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    return _RowScenes(row=bare, law=law)
 
 
 def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
@@ -194,10 +210,11 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
     ModelError
         If it refuses every corner.
     """
-    spans = (ranges[name] for name in ("density", "friction_angle", "inclination"))
+    names = [name for name, _ in ranges.intervals]
+    ends = ((span.low, span.high) for _, span in ranges.intervals)
     refusals: dict[Message, None] = {}
-    for density, friction, inclination in product(*((s.low, s.high) for s in spans)):
-        case = Case(density=density, friction_angle=friction, inclination=inclination)
+    for values in product(*ends):
+        case = Case.of(dict(zip(names, values, strict=True)))
         try:
             return build_scene(row, case, law)
         except ModelError as error:

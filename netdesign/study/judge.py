@@ -15,6 +15,7 @@ from netdesign.site.model import Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
 from netdesign.study.effects import RowEffects, find_effects
+from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
@@ -82,6 +83,7 @@ def judge_site(
                 row=row,
                 solved=of_row,
                 standard=standard,
+                law=run.creep_law,
                 probe=probe,
                 on_check=on_check,
             ),
@@ -129,6 +131,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
+        floor=record_floor(find_row_floor(row, task.site.ranges, task.standard)),
         notes=[
             *list_row_notes(row, effects),
             *list_case_notes(cases),
@@ -149,10 +152,20 @@ def _list_levels(
     levels: dict[str, list[tuple[str, float]]] = {}
     for check in checks:
         if check.resistance_kN is not None and check.action_factor:
-            on_row = check.action_factor * effects.factor(check.member)
+            if _fails_by_floor(check):
+                continue  # no coupled force turns it
+            width = effects.find_support(check.position)
+            on_row = check.action_factor * effects.factor(check.member, width)
             level = newton_from_kilonewton(check.resistance_kN / on_row)
             levels.setdefault(check.member, []).append((check.id, level))
     return levels
+
+
+def _fails_by_floor(check: CheckRecord) -> bool:
+    """Failure by the guideline's load alone."""
+    least = check.action.guideline_kN if check.action else None
+    demand = (least or 0.0) * (check.action_factor or 0.0)
+    return check.resistance_kN is not None and demand > check.resistance_kN
 
 
 def _governing_result(

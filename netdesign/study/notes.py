@@ -14,6 +14,7 @@ from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
 from netdesign.units import kilonewton_from_newton
+from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
 
@@ -24,9 +25,12 @@ def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
-    """Say where the creep law is used outside the densities it was fitted to."""
+    """Say where the creep law is used outside the densities it was fitted to.
+
+    What is known of it there stands beside, and whether the workbook accepts it.
+    """
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    return [
+    outside = [
         say(
             "note.outside_calibration",
             what=what,
@@ -39,6 +43,18 @@ def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
         for what, least, largest in _list_density_spans(site)
         if least < low or largest > high
     ]
+    if not outside:
+        return []
+    accepted = site.project.accepted_law == law.name
+    cell = site.project_cells.get("accepted_law", "-")
+    consent = [say("note.law_accepted", law=law.name, cell=cell)] if accepted else []
+    return [*outside, tell_evidence(law.name), *consent]
+
+
+def tell_evidence(law: str) -> Message:
+    """What is known of a creep law outside the densities it is given for."""
+    key = f"evidence.{law}"
+    return say(key if key in load_texts("en") else "evidence.none", law=law)
 
 
 def _list_density_spans(site: Site) -> list[tuple[Message, float, float]]:
@@ -74,11 +90,13 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
     notes = []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    if effects.width.position == "edge":
-        notes.append(say("row.edge_governs"))
-    checked = {given.mode for given in row.resistances}
-    if "bearing" not in checked:
-        notes.append(say("row.bearing_not_checked"))
+    for width in effects.supports:
+        if width.other_width is not None:
+            wider, other = width.width, width.other_width
+            told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
+            notes.append(told)
+    if row.is_overtopped:
+        notes.append(say("check.overtopped"))
     return notes
 
 
@@ -114,15 +132,22 @@ def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
 def list_reasons(
     checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
 ) -> list[Message]:
-    """Why a row does not pass: each check that does not, each law that is not met."""
+    """Reasons of a row that does not pass: of its checks, and of laws not met.
+
+    Checks with the same reason stand before it together.
+    """
+    open_: dict[Message, list[Message]] = {}
+    for check in checks:
+        if check.verdict is not Verdict.PASS:
+            title = name_check(check.member, check.mode, check.position)
+            open_.setdefault(check.reason, []).append(title)
     unproven = [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode),
-            reason=check.reason,
+            check=tuple(titles) if len(titles) > 1 else titles[0],
+            reason=reason,
         )
-        for check in checks
-        if check.verdict is not Verdict.PASS
+        for reason, titles in open_.items()
     ]
     unmet = [
         say("row.law_not_met", law=name("law", one.name))

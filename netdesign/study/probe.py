@@ -15,17 +15,18 @@ from netdesign.solving.runner import Runner
 
 
 def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
-    """Scene of one case of a net row.
+    """Scene of one case of a net row, with what ranges as the case has it.
 
     Raises
     ------
     ModelError
         If the model refuses it.
     """
+    row = row.at(case)
     return Scene(
         snowpack=Snowpack(
             slope_angle=row.slope_angle,
-            thickness=row.snow_thickness,
+            thickness=row.held_thickness,
             upslope_length=row.upslope_length,
             density=case.density,
             layers=row.layers_at(case.density),

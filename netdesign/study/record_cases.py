@@ -9,11 +9,11 @@ from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study.calibration import is_calibrated
 from netdesign.study.records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.units import (
-    given_degree_from_radian,
     kilonewton_from_newton,
     kilonewton_if_known,
 )
@@ -21,9 +21,7 @@ from netdesign.units import (
 
 def show_parameter(name: str, value: float) -> float:
     """Value of a parameter in the unit of its key."""
-    if PARAMETERS[name].key.endswith("_deg"):
-        return given_degree_from_radian(value)
-    return value
+    return PARAMETERS[name].show(value)
 
 
 def show_case(values: Mapping[str, float]) -> dict[str, float]:
@@ -35,8 +33,20 @@ def show_case(values: Mapping[str, float]) -> dict[str, float]:
 
 
 def record_point(case: Case) -> CasePoint:
-    """Case of a site, in which three quantities range."""
+    """Case of a site."""
     return CasePoint(**show_case(case.values))
+
+
+def read_point(point: CasePoint) -> Case:
+    """Case of a record, in SI units."""
+    found = point.values
+    return Case.of(
+        {
+            name: one.read(found[one.key])
+            for name, one in PARAMETERS.items()
+            if one.key in found
+        }
+    )
 
 
 def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
@@ -57,12 +67,6 @@ def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
         is_calibrated=is_calibrated(law, row, result.case.density),
         **forces,
     )
-
-
-def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """The law is given for the density of a case [kg/m3], and of each layer."""
-    layers = tuple(layer.density for layer in row.layers_at(density))
-    return all(law.is_calibrated(one / ICE_DENSITY) for one in layers or (density,))
 
 
 def _largest_error_percent(result: CaseResult) -> float | None:

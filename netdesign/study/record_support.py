@@ -80,7 +80,7 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
     return Drawing(
         case=record_point(result.case),
         slope_deg=degree_from_radian(row.slope_angle),
-        snow_thickness_m=row.snow_thickness,
+        snow_thickness_m=row.at(result.case).held_thickness,
         net_m=[(x, y) for x, y in curve],
         sticks=sticks + [True] * (len(curve) - in_snow),
         mesh_edges_m=[

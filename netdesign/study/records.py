@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
+from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
 from netdesign.words.text_field import Text
@@ -19,11 +20,28 @@ SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
 
 @dataclass(frozen=True, kw_only=True)
 class CasePoint:
-    """One point of the ranges."""
+    """One point of the ranges; what does not range beside the first three is None.
+
+    The document leaves that out.
+    """
+
+    LEAVES_OUT_NONE: ClassVar[bool] = True
 
     density_kg_m3: float
     friction_deg: float
     inclination_deg: float
+    thickness_m: float | None = None
+    height_vertical_m: float | None = None
+    upslope_length_m: float | None = None
+    slack: float | None = None
+    stiffness_kN_per_m: float | None = None
+    slip_length_m: float | None = None
+    glide_factor: float | None = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values by their keys."""
+        return list_fields(self)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,11 +194,18 @@ class ActionRecord:
 
     solved_kN: float  # of a support inside a row, over the envelope
     post_spacing_m: float
-    position: str  # "intermediate" or "edge": which of the two carries more
+    position: str  # "intermediate", or "edge": the first or last support
     loaded_width_m: float
     end_factor: float  # f_R, 0 inside a row
     end_length_m: float
     lateral_factor: float
+    coupled_kN: float  # on this support: upper end, with what may hide
+    other_width_m: float | None = None  # on the other side of a threshold close by
+    floor_kN: float | None = None  # the guideline's, inside a row; None: no floor
+    guideline_kN: float | None = None  # the same on this support
+    floor_case: str = ""  # "load_case_1" or "load_case_2"
+    floor_inclination_deg: float | None = None  # at which it is largest
+    governs: str = "coupled"  # or "guideline": the larger of the two
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,6 +229,35 @@ class ChangeRecord:
     bound: float | None  # None where no value in reach flips the check
     sense: Literal["at least", "at most", "has"]
     solves: int  # coupled solves that it took; 0 for an exact proportion
+    note: Text | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeclarationRecord:
+    """Place of a proof elsewhere, with its author and date."""
+
+    document: str
+    author: str
+    date: str  # "" where none is given
+    cell: str  # "Declared!B2"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HoldRecord:
+    """Limits of one single quantity, moved alone, beyond which a check turns.
+
+    Of a check that passes: it holds from ``least`` to ``most``. Of one that does not:
+    it would pass from ``least`` on, and up to ``most``. None where it does not turn
+    on that side within the search. Values in the unit of ``quantity``, a key.
+    """
+
+    quantity: str  # "slack", "stiffness_kN_per_m", ...
+    now: float
+    least: float | None
+    most: float | None
+    low: float  # ends of the search
+    high: float
+    solves: int  # beyond those that other checks took
     note: Text | None = None
 
 
@@ -236,22 +290,20 @@ class CheckRecord:
     resistance_cell: str = ""  # "Anchors!B4"
     resistance_derivation: Text | None = None  # how it follows from dimensions or tests
     action: ActionRecord | None = None
+    declared: DeclarationRecord | None = None  # whatever the verdict
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
+    holds: list[HoldRecord] = field(default_factory=list)
+    position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:
-        """Utilisation at the low and at the high end of the demand [-].
-
-        A slack member uses nothing of any resistance, even of one that is not given.
-        """
+        """Utilisation at the low and at the high end of the demand [-]."""
         low, high, resistance = (
             self.demand_low_kN,
             self.demand_high_kN,
             self.resistance_kN,
         )
-        if resistance is None and self.utilisation == 0.0:
-            return 0.0, 0.0
         if not resistance or low is None or high is None:
             return None, None
         return low / resistance, high / resistance
@@ -359,6 +411,33 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FloorForceRecord:
+    """Largest force of the guideline's load in one member, inside the row."""
+
+    member: str
+    force_kN: float  # characteristic
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float  # of the net, where the force is largest
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    load_along_kN_per_m: float  # on the net, downslope, with the prism
+    load_across_kN_per_m: float  # out of the ground
+    chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloorRecord:
+    """Forces that no demand of a row lies below, by the guideline's load cases."""
+
+    profile: str  # whose load model
+    sha256: str
+    forces: list[FloorForceRecord]  # empty where the floor is not available
+    reason: Text | None = None  # why it is not
+
+
+@dataclass(frozen=True, kw_only=True)
 class IndependentRecord:
     """One law that the drawn case must obey whatever the mesh."""
 
@@ -392,6 +471,7 @@ class RowStudy:
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     guideline: GuidelineRecord | None = None
+    floor: FloorRecord | None = None  # None under a profile without a floor
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
@@ -408,6 +488,7 @@ class ProfileValue:
     unit: str
     status: str  # "read", "secondary", "assumed", "user"
     source: str
+    reason_below_one: str = ""  # why a factor may lie below 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -421,6 +502,7 @@ class ProfileRecord:
     values: list[ProfileValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
+    floor: str = "guideline"  # what no demand lies below: or "none"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, partial
 
 from netdesign.checks import (
     CheckResult,
+    Declaration,
     RowGeometry,
     Standard,
     check_geometry,
     check_member,
+    declare,
+    withhold,
 )
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
-from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.calibration import find_doubt
+from netdesign.study.demand import Demand, build_demand, tell_governing
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
@@ -28,9 +37,17 @@ from netdesign.study.flips import (
     find_height_change,
     find_spacing_change,
 )
+from netdesign.study.floor import find_row_floor
+from netdesign.study.holds import HeldCheck, find_holds
 from netdesign.study.probe import Probe
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    DeclarationRecord,
+    HoldRecord,
+    SpreadRecord,
+)
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -52,30 +69,128 @@ class RowCheck:
     row: NetRow
     solved: RowGrid | RowEnvelope
     standard: Standard
+    law: CreepLaw
     probe: Probe | None
     on_check: Callable[[], None] = lambda: None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberCheck:
+    """One member of one support in one mode, judged.
+
+    ``extreme`` and ``demand`` are None where no case was solved; ``gap`` says why the
+    demand is not known as a whole, ``doubt`` why the creep law may not hold for the
+    governing snow; both are None if all is well.
+    """
+
+    given: Resistance
+    width: LoadedWidth
+    extreme: Extreme | None
+    demand: Demand | None
+    gap: Message | None
+    doubt: Message | None
+    result: CheckResult
+
+    @property
+    def ratio(self) -> float:
+        """Upper end of the utilisation [-]; below 0 without one."""
+        used = self.result.utilisation
+        return used.high if used else -1.0
+
+
 def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckRecord]:
-    """Every check of a row: each member in each mode, then the geometry.
+    """Every check of a row: the members of both supports, then the geometry.
 
     ``extremes`` are those of its solved cases.
     """
     effects = find_effects(task.row, task.standard)
+    floor = _find_floor(task, task.row)
+    judged = [
+        _judge_member(task, given, width, extremes, effects, floor)
+        for width, given in list_checked(task.row, effects)
+    ]
     checks = []
-    for given in task.row.resistances:
-        checks.append(_check_one(task, given, extremes, effects))
+    for one in judged:
+        is_worst = _is_worst(one, judged)
+        checks.append(_record_member(task, one, effects, is_worst=is_worst))
         task.on_check()
-    return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
+    holds = _find_holds(task, judged, checks)
+    checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
+    return [*checks, *record_geometry(task.site, task.row, task.standard)]
 
 
-def record_geometry(
-    row: NetRow, ranges: Ranges, standard: Standard
-) -> list[CheckRecord]:
+def list_checked(
+    row: NetRow, effects: RowEffects
+) -> list[tuple[LoadedWidth, Resistance]]:
+    """Members that are checked of a row, on each support and in each mode."""
+    return [
+        (width, given)
+        for width in effects.supports
+        for given in row.resistances_at(width.position)
+    ]
+
+
+def _is_worst(one: MemberCheck, judged: Sequence[MemberCheck]) -> bool:
+    """No other support uses the member more."""
+    rivals = [other for other in judged if _name_of(other) == _name_of(one)]
+    return one is max(rivals, key=lambda other: other.ratio)
+
+
+def _find_holds(
+    task: RowCheck, judged: Sequence[MemberCheck], checks: Sequence[CheckRecord]
+) -> dict[str, list[HoldRecord]]:
+    """Limits of single values for the checks that follow from forces, by their ids.
+
+    At the support that uses a member most: where that holds, the other one does.
+    """
+    if task.probe is None or task.solved.gap or task.row.is_overtopped:
+        return {}
+    find = cache(partial(_find_floor, task))  # the same for all members
+    held = {
+        check.id: HeldCheck(
+            target=_build_target(task, one, find),
+            widen=partial(_find_width, task.standard, one),
+        )
+        for one, check in zip(judged, checks, strict=True)
+        if one.ratio > 0.0 and _find_scale(one) and _is_worst(one, judged)
+    }
+    return find_holds(held, task.probe)
+
+
+def _find_floor(task: RowCheck, row: NetRow) -> Floor | None:
+    """Floor of a row that may be changed."""
+    return find_row_floor(row, task.site.ranges, task.standard)
+
+
+def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:
+    """Width that loads a support of a row that was changed [m]."""
+    supports = find_effects(row, standard).supports
+    widths = [w.width for w in supports if w.position == one.width.position]
+    return max(widths, default=one.width.width)
+
+
+def _name_of(one: MemberCheck) -> tuple[str, str]:
+    return one.given.member, one.given.mode
+
+
+def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
-    geometry = [*check_geometry(read_geometry(row, ranges), standard)]
+    geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
     ends = check_ends(find_effects(row, standard))
-    return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
+    results = [*geometry, *([ends] if ends else [])]
+    return [record_result(settle_check(site, row, one)) for one in results]
+
+
+def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
+    """Check with what the workbook says beside its numbers.
+
+    Forces of a net below its snow are those of snow up to its head: information.
+    A check may be declared as proven elsewhere.
+    """
+    if row.is_overtopped and result.member != Member.NET:
+        result = withhold(result, say("check.overtopped"))
+    declaration = site.find_declaration(row.id, result.member, result.mode)
+    return declare(result, declaration)
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
@@ -91,31 +206,73 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def _check_one(
+def _judge_member(
     task: RowCheck,
     given: Resistance,
+    width: LoadedWidth,
     extremes: Mapping[str, Extreme],
     effects: RowEffects,
+    floor: Floor | None,
+) -> MemberCheck:
+    extreme, demand, doubt = extremes.get(given.member), None, None
+    if extreme is not None:
+        least = floor.find(given.member) if floor else None
+        solved = extreme.widened
+        demand = build_demand(effects, given.member, width, solved, least)
+        doubt = find_doubt(
+            task.site,
+            task.row,
+            task.law,
+            density=extreme.governing.case.density,
+            largest=solved.high,
+        )
+    gap = task.solved.gap or (floor.reason if floor else None)
+    action = demand.action if demand else None
+    return MemberCheck(
+        given=given,
+        width=width,
+        extreme=extreme,
+        demand=demand,
+        gap=gap,
+        doubt=doubt,
+        result=check_member(action, given, task.standard, gap=gap, doubt=doubt),
+    )
+
+
+def _record_member(
+    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
 ) -> CheckRecord:
-    extreme = extremes.get(given.member)
-    gap = task.solved.gap
-    if extreme is None:
-        return record_result(check_member(None, given, task.standard, gap=gap), given)
-    factor = effects.factor(given.member)
-    action = extreme.widened.times(factor)
-    result = check_member(action, given, task.standard, gap=gap)
+    given, result = one.given, one.result
+    if one.extreme is None or one.demand is None:
+        settled = settle_check(task.site, task.row, result)
+        return place_check(record_result(settled, given), one.width)
     before = task.probe.faults if task.probe else 0
-    spreads = _list_spreads(task, extreme, result)
-    changes = _list_changes(task, given, extreme, effects, result)
-    if task.probe and task.probe.faults > before and not gap:
-        result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
+    spreads = _list_spreads(task, one, one.extreme)
+    changes = _list_changes(task, one, effects, is_worst=is_worst)
+    if task.probe and task.probe.faults > before and not one.gap:
+        result = check_member(
+            one.demand.action,
+            given,
+            task.standard,
+            gap=_FAULT_BESIDE,
+            doubt=one.doubt,
+        )
+    settled = settle_check(task.site, task.row, result)
+    action = one.demand.record(effects, given.member)
     return replace(
-        record_result(result, given),
-        case=record_point(extreme.governing.case),
-        action=effects.record(given.member, extreme.force),
+        place_check(record_result(settled, given), one.width),
+        case=record_point(one.extreme.governing.case),
+        action=action,
+        reason=tell_governing(settled.reason, action),
         spreads=spreads,
         changes=changes,
     )
+
+
+def place_check(check: CheckRecord, width: LoadedWidth) -> CheckRecord:
+    """Check of a member, named by its support."""
+    name_of_end = ".end" if width.position == "edge" else ""
+    return replace(check, id=f"{check.id}{name_of_end}", position=width.position)
 
 
 def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
@@ -142,6 +299,18 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         resistance_type=given.type_id if given else "",
         resistance_cell=given.source if given else "",
         resistance_derivation=_describe_derivation(given, result),
+        declared=_record_declaration(result.declaration),
+    )
+
+
+def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
+    if given is None:
+        return None
+    return DeclarationRecord(
+        document=given.document,
+        author=given.author,
+        date=given.date,
+        cell=given.source,
     )
 
 
@@ -160,32 +329,49 @@ def _describe_derivation(
 
 
 def _list_spreads(
-    task: RowCheck, extreme: Extreme, result: CheckResult
+    task: RowCheck, one: MemberCheck, extreme: Extreme
 ) -> list[SpreadRecord]:
-    """Parts of the interval of a utilisation, the creep law's for comparison."""
-    used = result.utilisation
-    if used is None or extreme.force.value == 0.0:
+    """Parts of the interval of a utilisation, the creep law's for comparison.
+
+    A floor cuts off what lies below it.
+    """
+    used, scale = one.result.utilisation, _find_scale(one)
+    if used is None or scale is None or used.value == 0.0:
         return []
-    scale = used.value / extreme.force.value
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
+    numerical = max(used.value, extreme.force.high * scale)
     spreads = [
         SpreadRecord(
             source=say("spread.numerical_error"),
-            low=extreme.force.low * scale,
-            high=extreme.force.high * scale,
+            low=used.low,
+            high=numerical,
             in_verdict=True,
+            note=_note_floor(one),
         ),
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
-            high=used.value + extreme.hidden * scale,
+            high=used.value + used.high - numerical,
             in_verdict=True,
             note=say("spread.unknown_along", axes=unknown) if unknown else None,
         ),
     ]
-    if task.probe is not None and used.value > 0.0:
+    if task.probe is not None and extreme.force.value > 0.0:
         spreads += _list_creep_laws(task.probe, task.row, extreme, scale)
     return spreads
+
+
+def _find_scale(one: MemberCheck) -> float | None:
+    """Utilisation for each N of the solved force [1/N]; None without a resistance."""
+    result = one.result
+    if one.demand is None or not (result.action_factor and result.design_resistance):
+        return None
+    return one.demand.on_support * result.action_factor / result.design_resistance
+
+
+def _note_floor(one: MemberCheck) -> Message | None:
+    is_floor = one.demand is not None and one.demand.governs == "guideline"
+    return say("spread.floor_governs") if is_floor else None
 
 
 def _list_creep_laws(
@@ -207,46 +393,75 @@ def _list_creep_laws(
 
 
 def _list_changes(
-    task: RowCheck,
-    given: Resistance,
-    extreme: Extreme,
-    effects: RowEffects,
-    result: CheckResult,
+    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
 ) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check."""
-    if result.demand is None or result.demand.high == 0.0:
+    """Changes that flip a failing, unproven or close check.
+
+    What needs a solve is looked for at the support that uses its member most: where
+    that passes, the other one does.
+    """
+    result, used = one.result, one.result.utilisation
+    if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
         return []
-    used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
-    gap = task.solved.gap
-    if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
-        return []  # a case without result is not mended by any change
-    changes = _list_resistance_changes(task, given, result)
+    gap = one.gap
+    if not is_close and (
+        result.verdict is Verdict.PASS or (used and (gap or one.doubt))
+    ):
+        return []  # neither a missing result nor a doubt is mended by any change
+    changes = _list_resistance_changes(task, one.given, result)
     if used is None or result.design_resistance is None:
         return changes
-    changes.append(find_spacing_change(effects, used.high))
-    if gap:
-        note = say("change.as_far_as_solved")
+    changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
+    if gap or one.doubt:
+        note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
-    if task.probe is None:
+    if task.probe is None or not is_worst:
         return changes
-    at_cases = find_extreme(given.member, task.solved.results).force.high
-    margin = extreme.widened.high / at_cases
-    on_force = effects.factor(given.member) * (result.action_factor or math.nan)
-    target = Target(
-        row=task.row,
-        ranges=task.site.ranges,
-        member=given.member,
-        scale=on_force * margin / result.design_resistance,
-        governing=extreme.governing.case,
-        results=task.solved.results,
-    )
+    target = _build_target(task, one, partial(_find_floor, task))
     found = (
-        find_density_change(target, task.probe),
+        _doubt_density(task, find_density_change(target, task.probe)),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
     return [*changes, *(change for change in found if change is not None)]
+
+
+def _build_target(
+    task: RowCheck, one: MemberCheck, find: Callable[[NetRow], Floor | None]
+) -> Target:
+    """The check as a function of a solved case and of the snow height."""
+    extreme, scale = one.extreme, _find_scale(one)
+    if extreme is None or scale is None:
+        raise ValueError("a check without a demand has no target")
+    member, ranges = one.given.member, task.site.ranges
+
+    def use_floor(row: NetRow) -> float:
+        floor = find(row)
+        least = floor.find(member) if floor else None
+        if floor is not None and least is None:
+            return math.inf
+        return scale * least.force if least else 0.0
+
+    at_cases = find_extreme(member, task.solved.results).force.high
+    return Target(
+        row=task.row,
+        ranges=ranges,
+        member=member,
+        scale=scale * (extreme.widened.high / at_cases if at_cases else 1.0),
+        governing=extreme.governing.case,
+        results=task.solved.results,
+        use_floor=use_floor,
+    )
+
+
+def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
+    """Change of density that says where the creep law is not given for its snow."""
+    if change.bound is None or not find_doubt(
+        task.site, task.row, task.law, density=change.bound, largest=math.inf
+    ):
+        return change
+    return replace(change, note=say("change.if_law_accepted"))
 
 
 def _list_resistance_changes(

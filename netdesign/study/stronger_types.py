@@ -7,7 +7,7 @@ import math
 from netdesign.checks import Standard, find_characteristic
 from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
-from netdesign.site.model import Resistance, Site
+from netdesign.site.model import NAMED_BY, Resistance, Site
 from netdesign.study.records import ChangeRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -23,12 +23,14 @@ def find_type_change(
     """Type whose design resistance reaches the design ``demand`` [N].
 
     First the weakest type of the workbook, as far as any net row uses it; else, for
-    ropes, a diameter of the catalogue. None where the type that is there does, or
-    nothing is known that would.
+    ropes, a diameter of the catalogue. None where the type that is there does, where
+    it is that of another member, or nothing is known that would.
     """
+    if given.member in NAMED_BY:
+        return None
     enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
     for row in site.rows:
-        for other in row.resistances:
+        for other in (*row.resistances, *(row.end_resistances or ())):
             if other.mode != given.mode:
                 continue
             factor = standard.find_resistance_factor(other.mode, other.basis)

@@ -245,8 +245,23 @@ def test_all_that_is_missing_is_told_at_once():
         assert part in str(result.reason)
 
 
-def test_slack_member_needs_no_resistance_and_no_factor():
-    result = check_member(a_band(0.0), a_resistance(None), a_standard(), gap=None)
+@pytest.mark.parametrize(
+    ("resistance", "standard"),
+    [
+        (a_resistance(None), plain_standard()),
+        (a_resistance(0.0), plain_standard()),
+        (a_resistance(1.0), a_standard(a_value("action.snow", 1.5))),
+        (a_resistance(1.0), a_standard(a_value("resistance.tendon", 1.35))),
+    ],
+)
+def test_slack_member_without_resistance_or_factor_is_not_proven(resistance, standard):
+    result = check_member(a_band(0.0), resistance, standard, gap=None)
+    assert result.verdict is Verdict.NOT_PROVEN
+    assert result.utilisation is None
+
+
+def test_slack_member_with_a_resistance_passes_and_says_that_it_is_slack():
+    result = check_member(a_band(0.0), a_resistance(7e3), plain_standard(), gap=None)
     assert result.verdict is Verdict.PASS
     assert result.utilisation == Band(low=0.0, value=0.0, high=0.0)
     assert "slack in every case" in str(result.reason)
@@ -359,7 +374,7 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
         ),
         (
             {"action": a_band(0.0)},
-            "The member is slack in every case and needs no resistance.",
+            "The member is slack in every case; its resistance is given.",
         ),
         ({"action": None}, "Not proven: no case was solved."),
         (

@@ -119,8 +119,60 @@ def test_value_must_be_a_positive_finite_number(value):
 
 
 def test_smallest_positive_value_is_accepted():
-    table = {"factor": [an_entry(value=5e-324)]}
+    table = {"factor": [an_entry(value=5e-324, reason_below_one="A test.")]}
     assert check_table(FactorsFile, table, "f").factor[0].value == 5e-324
+
+
+BELOW_1 = math.nextafter(1.0, 0.0)
+FACTORS = ["action.snow", "resistance.rope", "resistance.pull_out.tested"]
+
+
+@pytest.mark.parametrize("blank", [{}, {"reason_below_one": " "}])
+@pytest.mark.parametrize("name", FACTORS)
+def test_factor_below_1_is_refused_by_name_unless_it_says_why(name, blank):
+    entries = [an_entry(id=name, value=BELOW_1), an_entry(id=name, value=0.37)]
+    for entry in entries:
+        message = refusal(FactorsFile, {"factor": [entry | blank]})
+        assert f"{name} = {entry['value']:g} is below 1" in message
+        assert "it needs 'reason_below_one'" in message
+    choice = {"name": "annex", "text": "An annex.", "factor": [entries[1] | blank]}
+    assert f"{name} = 0.37" in refusal(ChoicesFile, {"choice": [choice]})
+
+
+@pytest.mark.parametrize("name", FACTORS)
+def test_factor_of_1_needs_no_reason_and_one_below_is_read_with_it(name):
+    plain = {"factor": [an_entry(id=name, value=1.0)]}
+    assert check_table(FactorsFile, plain, "f").factor[0].reason_below_one == ""
+    why = "The annex takes the mean of ten winters."
+    table = {"factor": [an_entry(id=name, value=0.83, reason_below_one=why)]}
+    assert check_table(FactorsFile, table, "f").factor[0].reason_below_one == why
+
+
+def some_correlations(last: float) -> dict[str, object]:
+    table = an_entry(id="correlation.tests.least", over="tests")
+    del table["value"]
+    ends = [(1, 2, 1.4), (3, math.inf, last)]
+    rows = [{"from": low, "to": high, "value": one} for low, high, one in ends]
+    return table | {"rows": rows}
+
+
+def test_correlation_factor_below_1_is_refused_by_name_unless_it_says_why():
+    table = some_correlations(0.92)
+    message = refusal(TablesFile, {"table": [table]})
+    assert "correlation.tests.least = 0.92 is below 1" in message
+    why = {"reason_below_one": "The annex allows it for twelve tests."}
+    read = check_table(TablesFile, {"table": [table | why]}, "t").table[0]
+    assert read.reason_below_one == why["reason_below_one"]
+    assert check_table(TablesFile, {"table": [some_correlations(1.0)]}, "t")
+
+
+@pytest.mark.parametrize("value", [0.0, -0.9])
+def test_no_reason_makes_a_factor_of_zero_or_less_acceptable(value):
+    reason = {"reason_below_one": "Because."}
+    entry = an_entry(value=value) | reason
+    assert f"'value' = {value!r}" in refusal(FactorsFile, {"factor": [entry]})
+    table = some_correlations(value) | reason
+    assert f"'value' = {value!r}" in refusal(TablesFile, {"table": [table]})
 
 
 @pytest.mark.parametrize("status", ["read", "secondary", "assumed", "user"])
@@ -186,3 +238,25 @@ def test_all_faults_of_a_file_are_told_at_once():
     lines = refusal(FactorsFile, {"factor": entries}).splitlines()
     assert len(lines) == 2 + 6
     assert all(line.startswith("my.toml: 'factor' entry ") for line in lines)
+
+
+def test_profile_that_says_nothing_of_the_floor_has_the_guideline_as_floor():
+    for load in ({}, {"load": {}}, {"load": {"floor": "guideline"}}):
+        file = check_table(DocumentFile, a_document(**load), "d")
+        assert file.load.floor == "guideline"
+    without = check_table(DocumentFile, a_document(load={"floor": "none"}), "d")
+    assert without.load.floor == "none"
+
+
+@pytest.mark.parametrize("floor", ["margreth", "", "None", "GUIDELINE", 1, False])
+def test_floor_that_nobody_knows_is_one_finding_with_place_and_words(floor):
+    text = refusal(DocumentFile, a_document(load={"floor": floor}))
+    assert text.count("\n") == 0
+    assert text.startswith("my.toml: 'load' 'floor'")
+    assert "'guideline' or 'none'" in text
+
+
+def test_other_key_beside_the_floor_is_refused_with_what_is_accepted():
+    text = refusal(DocumentFile, a_document(load={"flor": "none"}))
+    assert "'load' 'flor': unknown key; accepted are floor" in text
+    assert "'load'" in refusal(DocumentFile, a_document(load="none"))

@@ -6,10 +6,11 @@ import numpy as np
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.snow.ground import GroundLaw
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import Layer, Snowpack
 
 GROUNDS = ("free", "no-slip", "sliding")
+HIGH_GLIDE_FACTORS = (2.6, 2.8, 3.0, 3.2)
 
 
 def draw_scene(seed, *, ground=None, is_uniform=False):
@@ -42,6 +43,30 @@ def draw_scene(seed, *, ground=None, is_uniform=False):
             slack=float(rng.uniform(0.0, 0.08)),
             friction_angle=math.radians(rng.uniform(5.0, 45.0)),
         ),
+    )
+
+
+def draw_smooth_site(seed):
+    """A practical scene on ground as smooth as the guideline's tables have it."""
+    rng = np.random.default_rng([19, seed])
+    thickness = float(rng.uniform(1.5, 4.5))
+    stands_out = bool(rng.integers(2))
+    return Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(rng.uniform(30.0, 45.0)),
+            thickness=thickness,
+            upslope_length=float(rng.uniform(10.0, 30.0)),
+            density=float(rng.uniform(200.0, 480.0)),
+        ),
+        ground=build_ground_from_glide_factor(HIGH_GLIDE_FACTORS[seed % 4], thickness),
+        net=Net(
+            height_normal=thickness * (rng.uniform(1.0, 1.25) if stands_out else 1.0),
+            inclination=math.radians(rng.uniform(0.0, 30.0)),
+            stiffness_per_m=float(np.exp(rng.uniform(math.log(2e6), math.log(5e7)))),
+            slack=float(rng.uniform(0.0, 0.08)),
+            friction_angle=math.radians(rng.uniform(10.0, 45.0)),
+        ),
+        ground_contact=("two-sided", "one-sided")[seed // 4 % 2],
     )
 
 

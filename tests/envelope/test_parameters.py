@@ -1,10 +1,12 @@
 import math
+from dataclasses import replace
 
 import pytest
 
-from netdesign.envelope.parameters import PARAMETERS, place_scene
+from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_case, require_valid
 from netdesign.errors import ModelError
+from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from tests.solving.small_scene import build_scene
 
@@ -16,8 +18,11 @@ VALUES = {
     "slope_angle": 0.66,
     "thickness": 2.5,
     "slack": 0.03,
+    "upslope_length": 7.3,
+    "net_stiffness": 6.1e6,
     "glide_factor": 1.4,
 }
+ALSO = {"snow_height": 3.1, "slip_length": 0.83}  # instead of two of them
 
 
 def box(**spans):
@@ -36,10 +41,47 @@ def test_every_parameter_reaches_its_place_in_the_scene_and_nothing_else():
     assert placed.snowpack.slope_angle == 0.66
     assert placed.snowpack.thickness == 2.5
     assert placed.net.slack == 0.03
+    assert placed.snowpack.upslope_length == 7.3
+    assert placed.net.stiffness_per_m == 6.1e6
     assert placed.ground.kind == "sliding"
     assert placed.net.height_normal == SCENE.net.height_normal
     assert place_scene(SCENE, {}) == SCENE
-    assert set(VALUES) == set(PARAMETERS)
+    assert set(VALUES) | set(ALSO) == set(PARAMETERS)
+
+
+def test_the_other_name_of_a_quantity_means_the_same():
+    """Vertical height with the slope that ranges along, slip length as it is."""
+    placed = place_scene(SCENE, ALSO | {"slope_angle": 0.66})
+    assert placed.snowpack.thickness == pytest.approx(3.1 * math.cos(0.66), rel=1e-12)
+    assert (placed.ground.kind, placed.ground.slip_length) == ("sliding", 0.83)
+
+
+def test_layers_keep_their_proportions_as_their_thickness_ranges():
+    layers = (
+        Layer(thickness=0.7, density=410.0, temperature=271.0),
+        Layer(thickness=1.6, density=233.0),
+    )
+    pack = build_layered_snowpack(layers, slope_angle=0.6, upslope_length=9.0)
+    placed = place_scene(replace(SCENE, snowpack=pack), {"thickness": 2.99})
+    shares = [one.thickness / 2.99 for one in placed.layers]
+    assert shares == pytest.approx([0.7 / 2.3, 1.6 / 2.3], rel=1e-12)
+    assert [one.density for one in placed.layers] == pytest.approx([410.0, 233.0])
+    assert placed.layers[0].temperature == 271.0
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_values_go_to_the_unit_of_their_key_and_back(name):
+    one = PARAMETERS[name]
+    scale = {"deg": math.pi / 180.0, "kN_per_m": 1e3}
+    unit = next((s for end, s in scale.items() if one.key.endswith(end)), 1.0)
+    assert one.read(0.7) == pytest.approx(0.7 * unit, rel=1e-12)
+    assert one.show(one.read(0.7)) == pytest.approx(0.7, rel=1e-12)
+
+
+@pytest.mark.parametrize("pair", ONE_QUANTITY)
+def test_one_quantity_under_two_names_is_refused(pair):
+    with pytest.raises(ModelError, match="one quantity"):
+        box(**dict.fromkeys(pair, (1.1, 1.2)))
 
 
 def test_glide_takes_the_thickness_that_ranges_with_it():
@@ -98,8 +140,6 @@ def test_all_faults_come_at_once():
 
 
 def test_a_rigid_wall_has_no_envelope():
-    from dataclasses import replace
-
     wall = Wall(height_normal=3.0, inclination=0.1, friction_angle=None)
     walled = replace(SCENE, net=wall)
     with pytest.raises(ModelError, match="rigid wall"):

@@ -111,7 +111,7 @@ def test_glide_factor_becomes_a_slip_length(tables):
             {"law": "sliding", "slip_length_m": 1.0, "glide_factor": 2.0},
             "needs exactly one of them",
         ),
-        ("ground", {"law": "sliding", "glide_factor": 3.0}, "glide factor = 3.0"),
+        ("ground", {"law": "sliding", "glide_factor": 3.4}, "glide factor = 3.4"),
         ("net", {"height_m": 3.9}, "overtops the net"),
         ("net", {"inclination_deg": 85}, "net inclination = "),
         ("snow", {"upslope_length_m": 0.5}, "upslope length over snow thickness"),

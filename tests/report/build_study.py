@@ -20,9 +20,12 @@ from netdesign.study.records import (
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    FloorForceRecord,
+    FloorRecord,
     GuidelineCase,
     GuidelineRecord,
     HeadForce,
+    HoldRecord,
     IndependentRecord,
     ProfileRecord,
     ProfileValue,
@@ -174,7 +177,31 @@ def build_row(
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
+        floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
+    )
+
+
+def build_floor(extreme: ExtremeRecord) -> FloorRecord:
+    """One member of a floor."""
+    return FloorRecord(
+        profile="swiss-guideline-2007",
+        sha256="0" * 64,
+        forces=[
+            FloorForceRecord(
+                member=extreme.quantity,
+                force_kN=0.4 * extreme.max_kN / 1.1,
+                load_case="load_case_1",
+                inclination_deg=35.0,
+                density_kg_m3=270.0,
+                height_vertical_m=5.22,
+                creep_factor=0.741,
+                glide_factor=1.0,
+                load_along_kN_per_m=12.0,
+                load_across_kN_per_m=-3.4,
+                chord_tension_kN_per_m=17.1,
+            )
+        ],
     )
 
 
@@ -364,6 +391,11 @@ def build_check(
             end_factor=1.6,
             end_length_m=1.5,
             lateral_factor=1.0,
+            coupled_kN=extreme.high_kN,
+            floor_kN=0.4 * extreme.max_kN / 1.1,
+            guideline_kN=0.4 * extreme.max_kN,
+            floor_case="load_case_1",
+            floor_inclination_deg=35.0,
         ),
         spreads=[
             SpreadRecord(
@@ -399,6 +431,27 @@ def build_check(
                 note=as_given("not even 150 passes"),
             ),
         ],
+        holds=[
+            HoldRecord(
+                quantity="slack",
+                now=0.031,
+                least=0.0217,
+                most=None,
+                low=0.0,
+                high=0.131,
+                solves=5,
+            ),
+            HoldRecord(
+                quantity="glide_factor",
+                now=1.7,
+                least=None,
+                most=None,
+                low=1.01,
+                high=2.4,
+                solves=0,
+                note=as_given(f"without {SCRIPT}"),
+            ),
+        ],
     )
 
 
@@ -421,22 +474,24 @@ def build_geometry_check() -> CheckRecord:
 
 
 def build_slack_check(case: CasePoint) -> CheckRecord:
-    """Check of a member that never carries: it passes without a resistance."""
+    """Check of a member that never carries."""
     return CheckRecord(
         id="downhill_guy.rope",
-        clause="-",
+        clause="6.1",
         member="downhill_guy",
         mode="rope",
         demand_kN=0.0,
         demand_low_kN=0.0,
         demand_high_kN=0.0,
-        resistance_kN=None,
+        resistance_kN=180.0 / RESISTANCE_FACTOR,
         utilisation=0.0,
         verdict=Verdict.PASS,
         case=case,
-        reason=as_given("The member is slack in every case and needs no resistance."),
+        reason=as_given("The member is slack in every case; its resistance is given."),
         action_kN=0.0,
         action_factor=ACTION_FACTOR,
+        resistance_characteristic_kN=180.0,
+        resistance_factor=RESISTANCE_FACTOR,
     )
 
 

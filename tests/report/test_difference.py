@@ -8,6 +8,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, name_area, write_difference
 from netdesign.report.words import ENGLISH
 from netdesign.study.document import read_document, write_document
+from netdesign.study.records import DeclarationRecord
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
 
@@ -199,3 +200,21 @@ def test_changes_are_told_in_the_language_asked_for(language, verdict, area):
     document = write_difference(changes, language)
     assert len(document["changes"]) == len(changes)
     assert [one["new"] for one in document["changes"]] == [one.new for one in changes]
+
+
+def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
+    old = build_study()
+    row = old.rows[0]
+    told = DeclarationRecord(document="G-17", author="B. R.", date="", cell="D!B2")
+    declared = replace(row.checks[3], verdict=Verdict.DECLARED, declared=told)
+    checks = [*row.checks[:3], declared, *row.checks[4:]]
+    changed = replace(row, checks=checks, verdict=Verdict.DECLARED)
+    new = replace(old, rows=[changed, *old.rows[1:]])
+    lost = compare_studies(old, new)
+    assert [(one.old, one.new) for one in lost[:2]] == [("pass", "declared")] * 2
+    assert all(one.is_turned for one in lost[:2])
+    name = f"{declared.id}: declared as proven"
+    found = changes_of(old, new)["check", row.id, name]
+    assert found == (None, "G-17, B. R., D!B2")
+    gained = compare_studies(new, old)
+    assert [(one.old, one.new) for one in gained[:2]] == [("declared", "pass")] * 2

@@ -2,6 +2,7 @@ import math
 
 import pytest
 
+from netdesign.commands.running import EXIT_CODES
 from netdesign.errors import SolveError
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
@@ -23,7 +24,10 @@ def test_every_verdict_has_its_own_word_sign_and_exit_code():
 
 def test_exit_codes_are_those_of_the_interface():
     codes = {v: shown.exit_code for v, shown in words.VERDICTS.items()}
-    assert codes == {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4}
+    assert codes == EXIT_CODES
+    assert codes == {
+        Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.NOT_PROVEN: 4, Verdict.DECLARED: 6
+    }  # fmt: skip
     assert codes[Verdict.NOT_PROVEN] == SolveError.exit_code
 
 

@@ -240,3 +240,25 @@ def test_answers_that_are_not_as_many_as_questions_are_refused():
         search.tell([(1.25,)] * len(points))
     with pytest.raises(ModelError, match="1 values for the 0 points"):
         search.tell([(1.25,)])
+
+
+def test_a_kink_by_the_maximum_leaves_six_parameters_closed():
+    """Where snow begins to slip the largest force has one, a fifteenth of a range wide.
+
+    Its score says little of places far away: (M5a). With all of it 250
+    cases are too few.
+    """
+    weights = np.array([0.41, 0.0, -0.52, 0.83, -0.66, 0.29])
+
+    def force(at):
+        sag = 0.3 * at[:, 3] * at[:, 4] - 0.35 * np.sqrt(0.08 + at[:, 4])
+        return 2.0 + at @ weights + sag + 1.6 * np.maximum(0.0, 0.07 - at[:, 1])
+
+    search = MaximaSearch(6, SearchSettings(gap=0.01))
+    while points := search.ask():
+        search.tell([(float(one),) for one in force(np.array(points))])
+    found = search.result
+    assert found.is_closed
+    assert len(found.points) < 250
+    corner = np.array([[1.0, 0.0, 0.0, 1.0, 0.0, 1.0]])
+    assert found.maximum[0] <= force(corner)[0] <= found.upper_bound[0]

@@ -1,7 +1,12 @@
 import numpy as np
 import pytest
 
-from netdesign.search.surrogate import count_trend_terms, fit_surrogate
+from netdesign.search.surrogate import (
+    FAR_SHARE,
+    REACH,
+    count_trend_terms,
+    fit_surrogate,
+)
 
 RNG = np.random.default_rng(5)
 PLACES = RNG.uniform(0.0, 1.0, (24, 3))
@@ -50,3 +55,20 @@ def test_a_kink_widens_the_claims_beside_it_most():
 
 def test_terms_of_the_trend_are_counted():
     assert [count_trend_terms(n) for n in (1, 2, 3, 6)] == [3, 6, 10, 28]
+
+
+def test_a_score_counts_far_away_by_the_distance_of_its_neighbour():
+    """Beyond three parameters: (M5a), with a neighbour at a fifth of the reach."""
+    places = np.vstack([RNG.uniform(0.0, 1.0, (40, 4)), np.full((2, 4), 0.5)])
+    places[-1, 2] += 0.2 * REACH
+    model = fit_surrogate(places, np.abs(places @ [[1.0], [-2.0], [0.5], [0.3]]))
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+    np.fill_diagonal(apart, np.inf)
+    nearest = np.minimum(1.0, apart.min(axis=1) / REACH)
+    assert model.far_shares == pytest.approx(FAR_SHARE * nearest**1.5, rel=1e-6)
+    assert model.far_shares[-1] == pytest.approx(FAR_SHARE * 0.2**1.5, rel=1e-6)
+
+
+def test_up_to_three_parameters_every_score_counts_far_away_alike():
+    model = fit_surrogate(PLACES, KINKED)
+    assert np.all(model.far_shares == FAR_SHARE)

@@ -7,7 +7,11 @@ import xlsxwriter
 
 from netdesign.site.model import MEMBER_MODES
 from netdesign.site.reader import read_site
-from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.snow.ground import (
+    LARGEST_GLIDE_FACTOR,
+    GroundLaw,
+    build_ground_from_glide_factor,
+)
 from netdesign.structure.layout import DEFAULT_POST_TILT
 
 HEADINGS = 0
@@ -102,6 +106,7 @@ def test_vertical_height_becomes_thickness_normal_to_the_slope(sheets, save):
     assert row.snow_thickness == pytest.approx(4.0 * math.cos(math.radians(40)))
     derived = echoes(row)["snow thickness, from the snow height vertical"]
     assert (derived.value, derived.cell) == (row.snow_thickness, "Nets!D2")
+    assert str(derived.derivation) == "4 m · cos 40°"
 
 
 def test_a_slope_in_per_cent_is_converted_and_both_are_echoed(sheets, save):
@@ -125,6 +130,45 @@ def test_glide_factor_and_slip_length_give_sliding_ground(sheets, save):
     assert second.ground == GroundLaw(kind="sliding", slip_length=2.5)
     derived = echoes(first)["slip length, from the glide factor"]
     assert derived.value == first.ground.slip_length
+    assert (first.glide_factor, second.glide_factor) == (1.8, None)
+    assert echoes(second)["slip length"].derivation is None
+
+
+def redo(formula):
+    """Value of a printed formula, as a reader with a calculator finds it."""
+    plain = formula.replace(" m ", " ").replace("·", "*").replace("−", "-")
+    assert set(plain) <= set("0123456789.+-*/() ")
+    return eval(plain, {"__builtins__": {}})  # of digits and signs only
+
+
+@pytest.mark.parametrize("glide", [1.0203, 1.37, 2.713, 3.2])
+def test_a_slip_length_can_be_redone_from_what_stands_beside_it(sheets, save, glide):
+    put(sheets, "ground law", "sliding")
+    put(sheets, "glide factor", glide)
+    put(sheets, "snow thickness", None)
+    put(sheets, "snow height", 3.137)
+    row = read_site(save(sheets)).rows[0]
+    derivation = echoes(row)["slip length, from the glide factor"].derivation
+    formula, where = str(derivation).split(", between ")
+    assert redo(formula) == pytest.approx(row.ground.slip_length, rel=1e-5)
+    assert where.endswith("for boutillier-2004")
+
+
+def test_ground_without_slip_has_no_formula_for_its_slip_length(sheets, save):
+    put(sheets, "ground law", "sliding")
+    put(sheets, "glide factor", 1.0)
+    row = read_site(save(sheets)).rows[0]
+    derived = echoes(row)["slip length, from the glide factor"]
+    assert (derived.value, derived.derivation) == (0.0, None)
+
+
+def test_the_largest_glide_factor_is_that_of_the_table(sheets, save, refused):
+    put(sheets, "ground law", "sliding")
+    put(sheets, "glide factor", LARGEST_GLIDE_FACTOR)
+    assert read_site(save(sheets)).rows[0].glide_factor == LARGEST_GLIDE_FACTOR
+    put(sheets, "glide factor", 3.35)
+    (finding,) = refused(save(sheets))
+    assert "3.346" in str(finding.accepted)
 
 
 def test_there_is_a_resistance_for_every_member_and_mode(sheets, save):
@@ -358,7 +402,7 @@ def test_thickness_and_height_may_not_both_lack_their_heading(sheets, save, refu
         ("sliding", 2.0, 1.8, "F2", "needs a slip length or a glide factor: both"),
         ("free", 2.0, None, "G2", 'does not go with the ground law "free"'),
         ("no-slip", None, 1.8, "H2", 'does not go with the ground law "no-slip"'),
-        ("sliding", None, 2.46, "H2", "is out of range"),
+        ("sliding", None, 3.46, "H2", "is out of range"),
         ("sliding", None, 1.0005, "H2", "has no slip length"),
     ],
 )

@@ -95,11 +95,11 @@ def test_rope_and_post(sheets, save):
     assert "courbe c" in render(post.derivation, "fr")
     assert "Knicklinie c" in render(post.derivation, "de")
     assert post.value / 1e3 == pytest.approx(411.1, rel=1e-3)
-    modes = {r.mode for r in site.rows[0].resistances}
-    assert "bearing" not in modes
 
 
-def test_bearing_is_checked_where_it_is_given(sheets, save):
+def test_bearing_has_the_value_of_its_post_type_or_none(sheets, save):
+    blank = resistance(read_site(save(sheets)), "post_base", "bearing")
+    assert (blank.value, blank.basis, blank.type_id) == (None, "", "P1")
     add_columns(sheets, "Posts", **{"bearing resistance [kN]": 240})
     found = resistance(read_site(save(sheets)), "post_base", "bearing")
     assert (found.value, found.source) == (240e3, "Posts!C2")

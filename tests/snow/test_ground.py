@@ -6,13 +6,14 @@ import pytest
 
 from netdesign.coupling.steady.glide_factor import measure_glide_factor
 from netdesign.errors import ModelError
-from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
     LARGEST_GLIDE_FACTOR,
     GroundLaw,
     build_ground_from_glide_factor,
     compute_slip_length,
+    find_glide_step,
     load_glide_tables,
 )
 
@@ -81,11 +82,47 @@ def test_creep_law_without_a_table():
         compute_slip_length(1.5, 1.0, "gagliardini-1997")
 
 
-def test_recipe_gives_the_stored_table():
+@pytest.mark.parametrize("law", load_glide_tables())
+@pytest.mark.parametrize("ratio", [0.025, 1.0, 31.5])
+def test_recipe_gives_the_stored_table(law, ratio):
+    table = load_glide_tables()[law]
+    place = table.slip_ratios.index(ratio)
+    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    assert measured == pytest.approx(table.glide_factors[place], abs=1e-4)  # as printed
+
+
+@pytest.mark.parametrize("law", load_glide_tables())
+@pytest.mark.parametrize("ratio", [0.0281, 3.58, 14.1])
+def test_between_entries_factor_and_slip_length_are_those_of_the_recipe(law, ratio):
+    measured = measure_glide_factor(CREEP_LAWS[law], ratio)
+    table = load_glide_tables()[law]
+    assert table.find_glide_factor(ratio) == pytest.approx(measured, rel=2e-3)
+    assert compute_slip_length(measured, 1.0, law) == pytest.approx(ratio, rel=0.01)
+
+
+@pytest.mark.parametrize("law", load_glide_tables())
+def test_table_reaches_the_guidelines_largest_factor(law):
+    assert load_glide_tables()[law].glide_factors[-1] > 3.2
+
+
+@pytest.mark.parametrize("glide", [1.001, 1.0278, 1.37, 2.713, 3.2, 3.346])
+def test_a_slip_length_leads_back_to_its_glide_factor(glide):
     table = load_glide_tables()[DEFAULT_CREEP_LAW]
-    place = table.slip_ratios.index(1.0)
-    measured = measure_glide_factor(BOUTILLIER_2004, 1.0)
-    assert measured == pytest.approx(table.glide_factors[place], rel=1e-3)  # as printed
+    ratio = compute_slip_length(glide, 2.3) / 2.3
+    assert table.find_glide_factor(ratio) == pytest.approx(glide, rel=1e-12)
+
+
+def test_beyond_the_table_its_end_is_taken():
+    table = load_glide_tables()[DEFAULT_CREEP_LAW]
+    assert table.find_glide_factor(77.7) == table.glide_factors[-1]
+
+
+def test_a_step_holds_the_factor_between_its_entries():
+    step = find_glide_step(2.713)
+    assert step.glide_factors == (2.6728, 2.8377)
+    assert step.slip_ratios == (12.5, 16.0)
+    by_hand = 12.5 + (2.713 - 2.6728) / (2.8377 - 2.6728) * 3.5
+    assert step.interpolate(2.713) == pytest.approx(by_hand, rel=1e-14)
 
 
 @pytest.mark.parametrize("glide", [1.001, LARGEST_GLIDE_FACTOR])
@@ -103,8 +140,16 @@ def test_bounds_of_the_table_are_accepted(glide):
     ],
 )
 def test_no_extrapolation(glide):
-    with pytest.raises(ModelError, match=r"glide factor = .* between 1\.001 and 2\.4$"):
+    accepted = (
+        r"between 1\.001 and 3\.346$|known up to N = 3\.346, 31\.5 times the snow"
+    )
+    with pytest.raises(ModelError, match=rf"glide factor = .*({accepted})"):
         compute_slip_length(glide, 1.0)
+
+
+def test_a_factor_beyond_the_table_is_told_its_end_and_what_to_do():
+    with pytest.raises(ModelError, match=r"= 3\.58.*3\.5741, .*give a slip length"):
+        compute_slip_length(3.58, 1.0, "zwinger-2007")
 
 
 def test_glide_factor_one_is_no_slip():
@@ -112,6 +157,6 @@ def test_glide_factor_one_is_no_slip():
 
 
 def test_glide_factor_above_one_slides():
-    ground = build_ground_from_glide_factor(1.501, 3.0)  # the entry of 1
+    ground = build_ground_from_glide_factor(1.5010, 3.0)  # the entry of 1
     assert ground.kind == "sliding"
     assert ground.slip_length == pytest.approx(3.0, rel=1e-12)

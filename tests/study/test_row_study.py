@@ -9,7 +9,7 @@ from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
-from netdesign.site.model import MEMBER_MODES, Resistance
+from netdesign.site.model import MEMBER_MODES, Project, Resistance
 from netdesign.snow.ground import GroundLaw
 from netdesign.study.cases import CheckRun, solve_site
 from netdesign.study.judge import judge_site
@@ -48,7 +48,8 @@ ROW = build_row(
 
 
 def study(row=ROW, ranges=RANGES, *, probed=False):
-    site = build_site(row, ranges=ranges)
+    project = Project(accepted_law=RUN.creep_law.name)
+    site = build_site(row, ranges=ranges, project=project)
     probe = Probe(RUN.settings, RUN.creep_law) if probed else None
     results = solve_site(site, RUN)
     standard = load_standard("nf-p-95-304-style")

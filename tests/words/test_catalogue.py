@@ -20,7 +20,9 @@ FAMILIES: tuple[str, ...] = (
     *("os_error.", "shape."),
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
-    *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
+    *("evidence.", "law.", "termination.", "verdict.", "meaning."),
+    *("label.", "load_case.", "load.", "load_name.", "show.load_"),
+    "floor.profile_",
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(
         "profile_about.",

@@ -14,12 +14,12 @@ from netdesign.snow.snowpack import Snowpack
 from netdesign.snow.wall import Wall
 
 # The recipe: snow adhering to a rigid wall normal to the slope, as high as the snow.
-# N hardly depends on these: 4 % at most over 275 to 410 kg/m3 and 35 to 45 degrees.
+# What these leave open: coupling/THEORY.md, section 1.
 _THICKNESS = 3.0  # [m]
-_UPSLOPE_LENGTH = 120.0  # [m]: longer changes N by less than 0.5 % up to 8 thicknesses
+_UPSLOPE_LENGTH = 240.0  # [m]
 _SLOPE_ANGLE = math.radians(40.0)
 _DENSITY = 340.0  # [kg/m3]
-_SETTINGS = SolverSettings(accuracy=0.003)
+_SETTINGS = SolverSettings(accuracy=0.001)
 
 
 def measure_glide_factor(law: CreepLaw, slip_ratio: float) -> float:

@@ -18,10 +18,11 @@ from netdesign.panel.inputs import Cut, Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution
 from netdesign.panel.solve import solve_panel
 from netdesign.panel.strips import build_strip
-from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 
 _HEIGHT = 3.0  # [m]
+_SLIP_RATIO = 2.4147  # N 1.8 as the prototype had it
 _ROPE = Rope(stiffness=18e6, sag=0.05)
 _PANEL = Panel(post_spacing=4.0, lower=_ROPE, upper=_ROPE, cut="upper")
 # Of the prototype: foot, head, H and T of the lower, then of the upper rope [kN].
@@ -95,7 +96,7 @@ def _solve_section() -> Solution:
             upslope_length=20.0,
             density=400.0,
         ),
-        ground=build_ground_from_glide_factor(1.8, _HEIGHT),
+        ground=GroundLaw(kind="sliding", slip_length=_SLIP_RATIO * _HEIGHT),
         net=Net(
             height_normal=_HEIGHT,
             inclination=math.radians(30.0),

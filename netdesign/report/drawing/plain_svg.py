@@ -67,14 +67,17 @@ class Chart:
     def tiles(self, cells: Iterable[tuple[float, float, float, float, str]]) -> None:
         """Many filled rectangles: left, top, width, height [pt] and fill of each.
 
-        A map has hundreds: each is a thick line, those of one fill are one path.
+        A map has hundreds: each is a thick line, those of one fill are one path, and
+        paths of one width in turn share it.
         """
-        paths: dict[str, str] = {}
+        paths: dict[str, dict[str, str]] = {}
         for left, top, width, height, fill in cells:
-            pen = f'stroke="{fill}" stroke-width="{_show(width)}"'
+            of_width = paths.setdefault(_show(width), {})
             tile = f"M{_show(left + width / 2)} {_show(top)}v{_show(height)}"
-            paths[pen] = paths.get(pen, "") + tile
-        self.shapes += [f'<path {pen} d="{d}"/>' for pen, d in paths.items()]
+            of_width[fill] = of_width.get(fill, "") + tile
+        for width_pt, fills in paths.items():
+            lines = "".join(f'<path stroke="{f}" d="{d}"/>' for f, d in fills.items())
+            self.shapes.append(f'<g stroke-width="{width_pt}">{lines}</g>')
 
     def line(
         self,

@@ -21,6 +21,7 @@ from netdesign.report.words import (
     show_quantity,
     show_text,
 )
+from netdesign.study.notes import tell_evidence
 from netdesign.study.records import Study
 
 _SCOPE = ("scope.treated", "scope.not_treated", "scope.decision")
@@ -76,18 +77,33 @@ def _list_cells(*texts: str) -> tuple[Cell, ...]:
     return tuple(text_cell(text) for text in texts)
 
 
-def _group_defaults(study: Study, words: Words) -> dict[tuple[str, str], str]:
-    """Net rows, or the ranges, by the input that they left empty."""
+def _group_defaults(
+    study: Study, words: Words, *, of_numbers: bool = False
+) -> dict[tuple[str, str], str]:
+    """Net rows, or the ranges, by the input that they left empty.
+
+    A range without a number of samples is searched: that is no number.
+    """
     found: dict[tuple[str, str], list[str]] = {}
     places = [(words("heading.ranges"), study.range_inputs)]
     places += [(row.id, row.inputs) for row in study.rows]
     for place, inputs in places:
         for echo in inputs:
-            if echo.cell == DEFAULT and echo.value != "":
+            is_kind = isinstance(echo.value, float) or not of_numbers
+            if echo.cell == DEFAULT and echo.value != "" and is_kind:
                 shown = show_quantity(echo.value, echo.unit)
                 label = words.show(echo.label)
                 found.setdefault((label, shown), []).append(place)
     return {key: show_text(", ".join(names)) for key, names in found.items()}
+
+
+def list_defaults(study: Study, words: Words) -> str:
+    """Numbers that nobody typed, what they were taken as, and where; "" for none."""
+    found = _group_defaults(study, words, of_numbers=True)
+    return "; ".join(
+        words("show.default_taken", what=what, value=value, who=who)
+        for (what, value), who in found.items()
+    )
 
 
 def build_checklist(study: Study, words: Words) -> Table:
@@ -160,6 +176,26 @@ def _describe_laws(study: Study, words: Words) -> str:
     return words("show.other_laws_counted", count=len(above))
 
 
+def _describe_snow(study: Study, words: Words) -> str:
+    """Governing snow against the densities of its law, and what is known there."""
+    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    inside = [
+        case.is_calibrated
+        for row in study.rows
+        for check in row.checks
+        for case in row.cases
+        if check.case == case.case
+    ]
+    is_accepted = bool(law) and study.project.accepted_law == law
+    return words(
+        "show.snow_of_law",
+        inside=sum(inside),
+        count=len(inside),
+        consent=words("show.law_accepted" if is_accepted else "show.law_not_accepted"),
+        evidence=words.show(tell_evidence(law)),
+    )
+
+
 # What is asked, what the study says to it, and the section that tells more.
 _QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
     (
@@ -186,6 +222,11 @@ _QUESTIONS: tuple[tuple[str, Callable[[Study, Words], str], str], ...] = (
         "question.cases",
         _describe_cases,
         "heading.solver_quality",
+    ),
+    (
+        "question.snow_of_law",
+        _describe_snow,
+        "heading.notes",
     ),
     (
         "question.quality",

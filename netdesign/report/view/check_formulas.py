@@ -14,7 +14,12 @@ from netdesign.report.words import MISSING
 
 ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
-_RANKS = {Verdict.FAIL: 2e6, Verdict.NOT_PROVEN: 1e6, Verdict.PASS: 0.0}
+_RANKS = {
+    Verdict.FAIL: 3e6,
+    Verdict.NOT_PROVEN: 2e6,
+    Verdict.DECLARED: 1e6,
+    Verdict.PASS: 0.0,
+}
 _ROW_RANK = 1e8
 _LARGEST = 1e5  # utilisation that counts in the rank
 
@@ -31,49 +36,36 @@ def write_quotient(above: str, below: str) -> str:
     return f'IF({is_known},{above}/{below},"{MISSING}")'
 
 
-def write_ratio(
-    demand: str, resistance: str, is_slack: str, parts: Sequence[str]
-) -> str:
-    """Utilisation; of a slack member 0, where the study names no resistance for it.
-
-    ``is_slack`` is a condition, ``parts`` are the cells of resistance and factor.
-    """
-    unnamed = [f'{part}="{MISSING}"' for part in parts]
-    sound = [
-        f"OR({no},{_is_given(part, '>0')})"
-        for part, no in zip(parts, unnamed, strict=True)
-    ]
-    alone = f"AND({is_slack},OR({','.join(unnamed)}),{','.join(sound)})"
-    without = f'IF({alone},0,"{MISSING}")'
+def write_ratio(demand: str, resistance: str) -> str:
+    """Utilisation: a demand of at least zero over a resistance above zero."""
     known = f"AND({_is_number(demand, '>=0')},{_is_number(resistance, '>0')})"
-    return f"IF({known},{demand}/{resistance},{without})"
+    return f'IF({known},{demand}/{resistance},"{MISSING}")'
 
 
-def write_slack(demands: Sequence[str], given: str) -> str:
-    """Condition: no demand at all, and the study holds nothing back in ``given``."""
-    zeros = ",".join(_is_number(demand, "=0") for demand in demands)
-    return f'AND({zeros},{given}="{MISSING}")'
-
-
-def write_verdict(ends: Sequence[str], given: str, words: dict[Verdict, str]) -> str:
+def write_verdict(
+    ends: Sequence[str], given: str, stored: str, words: dict[Verdict, str]
+) -> str:
     """Verdict of a check of forces, from low, value and high of its utilisation.
 
-    What the study has set in ``given`` can hold a pass back, and never makes one.
+    What the study has set in ``given`` can hold a pass back, and never makes one. What
+    it has as declared, in ``stored`` too, stays so unless the numbers fail.
     """
     low, value, high = ends
-    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
+    passes, fails, open_, declared = (f'"{words[one]}"' for one in _VERDICTS)
     known = ",".join(f"ISNUMBER({end})" for end in ends)
     ordered = f"AND({low}<={value}*{_ORDER},{value}<={high}*{_ORDER})"
     by_ratio = f"IF({high}<=1+{ROUNDING:.0E},{passes},IF({low}>1,{fails},{open_}))"
     live = f"IF(AND({known}),IF({ordered},{by_ratio},{open_}),{open_})"
-    held = f"IF({given}={fails},{fails},{open_})"
+    is_declared = f"AND({given}={declared},{stored}={declared})"
+    told = f"IF(IFERROR({live},{open_})={fails},{fails},{declared})"
+    held = f"IF({given}={fails},{fails},IF({is_declared},{told},{open_}))"
     return f'=IFERROR(IF({given}="{MISSING}",{live},{held}),{open_})'
 
 
 def write_given_verdict(given: str, words: dict[Verdict, str]) -> str:
     """Verdict of a check without forces: that of the study."""
-    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
-    known = f"OR({given}={passes},{given}={fails})"
+    passes, fails, open_, declared = (f'"{words[one]}"' for one in _VERDICTS)
+    known = f"OR({given}={passes},{given}={fails},{given}={declared})"
     return f"=IFERROR(IF({known},{given},{open_}),{open_})"
 
 
@@ -81,11 +73,12 @@ def write_merged(
     counts: dict[Verdict, str], total: int, held: str, words: dict[Verdict, str]
 ) -> str:
     """``outcome.merge_verdicts``: a pass only where all ``total`` parts are one."""
-    passes, fails, open_ = (f'"{words[one]}"' for one in _VERDICTS)
-    is_met = f'AND({held}="{MISSING}",{total}>0,{counts[Verdict.PASS]}={total})'
+    passes, fails, open_, declared = (f'"{words[one]}"' for one in _VERDICTS)
+    passed, told = counts[Verdict.PASS], counts[Verdict.DECLARED]
+    is_met = f'AND({held}="{MISSING}",{total}>0,{passed}+{told}={total})'
     return (
         f"=IFERROR(IF({counts[Verdict.FAIL]}>0,{fails},"
-        f"IF({is_met},{passes},{open_})),{open_})"
+        f"IF({is_met},IF({told}>0,{declared},{passes}),{open_})),{open_})"
     )
 
 
@@ -94,11 +87,9 @@ def write_rank(number: str, verdict: str, ratio: str, words: dict[Verdict, str])
 
     That of the net row keeps the ranks of different rows apart.
     """
-    fails, open_ = (words[one] for one in (Verdict.FAIL, Verdict.NOT_PROVEN))
-    worst = (
-        f'IF({verdict}="{fails}",{_RANKS[Verdict.FAIL]:.0f},'
-        f'IF({verdict}="{open_}",{_RANKS[Verdict.NOT_PROVEN]:.0f},0))'
-    )
+    worst = "0"
+    for one in (Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL):
+        worst = f'IF({verdict}="{words[one]}",{_RANKS[one]:.0f},{worst})'
     used = f"IF(ISNUMBER({ratio}),MIN({ratio},{_LARGEST:.0f}),-1)"
     return f"={number}*{_ROW_RANK:.0f}+{worst}+{used}"
 
@@ -125,7 +116,7 @@ def write_unchanged(
     return f"=IFERROR(IF(AND({','.join(same)}),1,0),0)"
 
 
-_VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
+_VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED)
 
 
 def _is_number(cell: str, condition: str) -> str:

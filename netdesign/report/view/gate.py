@@ -40,11 +40,13 @@ def require_consistent(study: Study) -> None:
         for check in row.checks:
             where = say("audit.check", place=place, check=check.id)
             _require_sound(where, check)
+            _require_floor(where, check, study.profile.floor)
 
 
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
     merged = merge_verdicts(parts)
-    is_held_back = whole is Verdict.NOT_PROVEN and merged is Verdict.PASS
+    better = (Verdict.PASS, Verdict.DECLARED)
+    is_held_back = whole is Verdict.NOT_PROVEN and merged in better
     if whole is not merged and not is_held_back:
         raise NetDesignError(tell_verdict(place, whole, merged))
 
@@ -64,16 +66,14 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
             _ratio(check.demand_kN, check.resistance_kN),
         ),
     ):
-        if whole is None or parts is None:
+        if whole is None or (parts is None and name != "utilisation"):
             continue
-        if not math.isclose(whole, parts, rel_tol=_TOLERANCE):
+        if parts is None or not math.isclose(whole, parts, rel_tol=_TOLERANCE):
             raise NetDesignError(tell_value(place, name, whole, parts))
-    is_loaded = check.demand_high_kN or check.action_kN
-    if check.utilisation == 0.0 and check.resistance_kN is None and is_loaded:
-        raise NetDesignError(say("audit.zero_but_loaded", place=place))
     _require_sizes(place, check)
-    is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
-    if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
+    if (check.verdict is Verdict.DECLARED) and check.declared is None:
+        raise NetDesignError(say("audit.declared_by_nobody", place=place))
+    if check.verdict is Verdict.PASS and not _is_of_geometry(check):
         _, high = check.utilisation_band
         if high is None or not high <= 1:
             raise NetDesignError(
@@ -84,6 +84,30 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
                     high=show_value(high),
                 )
             )
+
+
+def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
+    """Refuse a demand below the guideline's load, and a pass that does not know it."""
+    action, force = check.action, check.action_kN
+    if action is None or force is None or floor == "none":
+        return
+    least = action.guideline_kN
+    if least is None:
+        if check.verdict is Verdict.PASS:
+            raise NetDesignError(say("audit.without_floor", place=place))
+        return
+    ends = [force, *_divide_demands(check)]
+    is_above = all(end >= least * (1.0 - _TOLERANCE) for end in ends)
+    governs = "guideline" if least and least >= action.coupled_kN else "coupled"
+    if not is_above or action.governs != governs:
+        raise NetDesignError(say("audit.below_floor", place=place, least=least))
+
+
+def _divide_demands(check: CheckRecord) -> list[float]:
+    """Ends of the demand without the factor, as far as they are known [kN]."""
+    ends = (check.demand_low_kN, check.demand_high_kN)
+    factor = check.action_factor
+    return [end / factor for end in ends if end is not None and factor]
 
 
 def _require_sizes(place: Message, check: CheckRecord) -> None:

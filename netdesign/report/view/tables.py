@@ -29,12 +29,20 @@ from netdesign.report.words import (
     show_band,
     show_member,
     show_own,
+    show_quantity,
+    show_text,
     show_unit,
     show_verdict,
 )
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.records import CasePoint, CaseRecord, RowStudy, Study
+from netdesign.study.records import (
+    CasePoint,
+    CaseRecord,
+    ProfileRecord,
+    RowStudy,
+    Study,
+)
 from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
@@ -43,17 +51,14 @@ ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 CASE_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
 
-def list_case_columns(words: Words) -> tuple[Column, ...]:
-    """Columns of the three quantities of a case."""
-    return tuple(quantity_column(words, key) for key in CASE_QUANTITIES)
+def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
+    """Columns of the quantities of a row's cases."""
+    keys = row.cases[0].case.values if row.cases else CASE_QUANTITIES
+    return tuple(quantity_column(words, key) for key in keys)
 
 
 def _case(case: CasePoint) -> tuple[Cell, ...]:
-    return (
-        given_cell(case.density_kg_m3),
-        given_cell(case.friction_deg),
-        given_cell(case.inclination_deg),
-    )
+    return tuple(map(given_cell, case.values.values()))
 
 
 def build_extremes(row: RowStudy, words: Words) -> Table:
@@ -64,7 +69,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
             text_column(words("heading.member")),
             quantity_column(words, "max_kN"),
             text_column(add_unit(words("heading.band"), "kN")),
-            *list_case_columns(words),
+            *list_case_columns(words, row),
             *(quantity_column(words, f"{member}_kN") for member in REPORTED_MEMBERS),
         ),
         rows=tuple(
@@ -141,7 +146,7 @@ def build_cases(row: RowStudy, words: Words) -> Table:
     return Table(
         caption=words("caption.cases"),
         columns=(
-            *list_case_columns(words),
+            *list_case_columns(words, row),
             *(quantity_column(words, key) for key in keys),
             text_column(words("heading.outcome")),
             text_column(words("heading.reason")),
@@ -169,7 +174,9 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
         rows=tuple(
             (
                 text_cell(words.show(echo.label)),
-                text_cell(echo.text),
+                text_cell(
+                    words.show(echo.derivation) if echo.derivation else echo.text
+                ),
                 given_cell(echo.value),
                 text_cell(show_unit(echo.unit)),
                 text_cell(
@@ -206,6 +213,19 @@ def build_profile(study: Study, words: Words, status: str = "") -> Table:
             if status in ("", value.status)
         ),
         empty=words("show.none"),
+    )
+
+
+def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
+    """Factors below 1, each with the reason that the profile gives."""
+    return tuple(
+        words(
+            "show.label",
+            label=f"{value.id} = {show_quantity(value.value, value.unit)}",
+            text=words("note.below_one", reason=show_text(value.reason_below_one)),
+        )
+        for value in profile.values
+        if value.reason_below_one
     )
 
 

@@ -9,10 +9,17 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
+from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
-from netdesign.report.view import basis_tables, envelope_tables, row_tables, tables
+from netdesign.report.view import (
+    basis_tables,
+    envelope_tables,
+    hold_tables,
+    row_tables,
+    tables,
+)
 from netdesign.report.view.check_view import (
     SEVERITY,
     CheckView,
@@ -29,6 +36,7 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     name_case,
+    show_check,
     show_member,
     show_own,
     show_quantity,
@@ -68,10 +76,13 @@ class RowView:
     head: Table
     spreads: Table
     changes: Table
+    holds: Table
+    held: tuple[str, ...]  # the same for the governing check, in short
     flips: tuple[str, ...]  # the same for the governing check, in short
     independent: Table
     guideline: Table
     guideline_sentence: str
+    floor: Table
     notes: tuple[str, ...]
 
 
@@ -89,8 +100,10 @@ class ReportView:
     verification: tuple[tuple[str, str], ...]  # how a reader can verify the report
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
+    declared: tuple[str, ...]  # checks that are said to be proven elsewhere
     assumed: Table
     assumed_line: str
+    defaults_line: str  # inputs that nobody typed, or ""
     scope: tuple[str, ...]
     assumptions: Table
     checklist: Table
@@ -133,8 +146,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study, words),
+        declared=_list_declared(study, words),
         assumed=assumed,
         assumed_line=_list_assumed(study.profile),
+        defaults_line=basis_tables.list_defaults(study, words),
         scope=basis_tables.list_scope(words),
         assumptions=basis_tables.build_assumptions(study, words),
         checklist=basis_tables.build_checklist(study, words),
@@ -144,7 +159,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ),
         profile_title=_name_profile(study, words),
         profile=tables.build_profile(study, words),
-        notes=tuple(words.show(note) for note in study.notes),
+        notes=(
+            *(words.show(note) for note in study.notes),
+            *tables.list_below_one(study.profile, words),
+        ),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -193,10 +211,13 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         head=row_tables.build_head(row, words),
         spreads=row_tables.build_spreads(shown, words),
         changes=row_tables.build_changes(row, words),
+        holds=hold_tables.build_holds(row, words),
+        held=hold_tables.list_limits(governing, words),
         flips=row_tables.list_flips(governing, words),
         independent=row_tables.build_independent(row, words),
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
+        floor=row_tables.build_floor(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 
@@ -260,6 +281,8 @@ def _count_verdicts(verdicts: Iterable[Verdict], words: Words) -> str:
 
 
 def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
+    law = study.project.accepted_law
+    accepted = [(words("column.items.accepted_law"), show_text(law))] if law else []
     cases = sum(len(row.cases) for row in study.rows)
     failed = sum(len(tables.list_failed(row)) for row in study.rows)
     return (
@@ -277,6 +300,34 @@ def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
             words("heading.cases"),
             words("show.cases_solved", solved=cases - failed, failed=failed),
         ),
+        (words("heading.floor"), _tell_floor(study, words)),
+        *accepted,
+    )
+
+
+def _tell_floor(study: Study, words: Words) -> str:
+    """Floor of the demands, and how often it governs."""
+    if study.profile.floor == "none":
+        return words("floor.none")
+    actions = [c.action for row in study.rows for c in row.checks if c.action]
+    governed = sum(one.governs == "guideline" for one in actions)
+    profiles = {row.floor.profile for row in study.rows if row.floor}
+    named = show_text(", ".join(sorted(profiles)))
+    return words("floor.told", profile=named, count=governed, all=len(actions))
+
+
+def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
+    """Checks that count as declared, each with its row and where it is proven."""
+    return tuple(
+        words(
+            "show.declared",
+            row=show_text(row.id),
+            check=show_check(words, check),
+            proof=words.show(tell_proof(**asdict(check.declared))),
+        )
+        for row in study.rows
+        for check in row.checks
+        if check.declared and check.verdict is Verdict.DECLARED
     )
 
 

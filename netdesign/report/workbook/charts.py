@@ -17,17 +17,25 @@ _MARKERS = ("circle", "square", "triangle", "diamond")
 
 
 def add_utilisation_chart(
-    book: Book, sheet: Any, rows: tuple[int, int], place: tuple[int, int]
+    book: Book,
+    sheet: Any,
+    rows: tuple[int, int],
+    columns: tuple[int, int],
+    place: tuple[int, int],
 ) -> None:
-    """Largest utilisation of each net row beside the limit, on the summary."""
+    """Largest utilisation of each net row beside the limit, on the summary.
+
+    ``columns`` are those of the two.
+    """
     first, last = rows
+    ratio, bound = columns
     name = book.name("summary")
     chart = book.workbook.add_chart({"type": "column"})
     chart.add_series(
         {
             "name": book.words("heading.largest_utilisation"),
             "categories": [name, first, 1, last, 1],
-            "values": [name, first, 6, last, 6],
+            "values": [name, first, ratio, last, ratio],
             "fill": {"color": _BARS},
             "gap": 60,
         }
@@ -37,7 +45,7 @@ def add_utilisation_chart(
         {
             "name": book.words("heading.limit"),
             "categories": [name, first, 1, last, 1],
-            "values": [name, first, 8, last, 8],
+            "values": [name, first, bound, last, bound],
             "line": {"color": ACCENT, "width": 1.5},
         }
     )

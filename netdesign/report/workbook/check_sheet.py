@@ -19,11 +19,10 @@ from netdesign.report.view.check_formulas import (
     write_quotient,
     write_rank,
     write_ratio,
-    write_slack,
     write_unchanged,
     write_verdict,
 )
-from netdesign.report.view.check_view import CheckView
+from netdesign.report.view.check_view import CheckView, find_case
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
@@ -31,6 +30,7 @@ from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
+    name_further,
     name_heading,
     number_format,
     show_number,
@@ -126,23 +126,30 @@ _TAIL = (
     _Field("W", "", "heading.resistance_from", 18),
     _Field("X", "", "heading.reason", 36),
 )
+_LOADS = (
+    _field("Y", "coupled_kN", "high"),
+    _field("Z", "guideline_kN"),
+    _Field("AA", "", "heading.governing_load", 20),
+)
 _CASES = tuple(
     _Field(letter, quantity, "", 8.5)
     for letter, quantity in zip("TUV", CASE_QUANTITIES, strict=True)
 )
 # Hidden: what the live cells are compared with, and what is sorted by.
-_RANK = _Field("Y", "", "heading.rank", 8)
-_UNCHANGED = _Field("Z", "", "heading.as_in_study", 8)
+_RANK = _Field("AB", "", "heading.rank", 8)
+_UNCHANGED = _Field("AC", "", "heading.as_in_study", 8)
 _STUDY_TEXTS = (
-    _Field("AA", "", "heading.resistance_from", 8, is_of_study=True),
-    _Field("AB", "", "heading.reason", 8, is_of_study=True),
+    _Field("AD", "", "heading.resistance_from", 8, is_of_study=True),
+    _Field("AE", "", "heading.reason", 8, is_of_study=True),
 )
-_STUDY_VERDICT = _Field("AC", "", "heading.verdict", 8, is_of_study=True)
+_STUDY_VERDICT = _Field("AF", "", "heading.verdict", 8, is_of_study=True)
 _STUDY_NUMBERS = (
-    _Field("AD", "utilisation", "", 8, "low", is_of_study=True),
-    _Field("AE", "utilisation", "", 8, "high", is_of_study=True),
-    _Field("AF", "resistance_characteristic_kN", "", 8, is_of_study=True),
+    _Field("AG", "utilisation", "", 8, "low", is_of_study=True),
+    _Field("AH", "utilisation", "", 8, "high", is_of_study=True),
+    _Field("AI", "resistance_characteristic_kN", "", 8, is_of_study=True),
 )
+# Of a study with further ranges; after the hidden ones, whose letters stay.
+_FURTHER = _Field("AJ", "", "heading.further_values", 24)
 _SHOWN = (
     *_LEAD,
     *_ACTIONS,
@@ -156,9 +163,16 @@ _SHOWN = (
     _VERDICT,
     *_CASES,
     *_TAIL,
+    *_LOADS,
 )
 _HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
-_FIELDS = (*_SHOWN, *_HIDDEN)
+_FIELDS = (*_SHOWN, *_HIDDEN, _FURTHER)
+
+
+def has_further(study: Study) -> bool:
+    """True if more than the usual three quantities range."""
+    checks = (check for row in study.rows for check in row.checks)
+    return any(name_further(check.case) for check in checks)
 
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -170,7 +184,8 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     columns = [field.name(book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
-        options = {"hidden": field in _HIDDEN}
+        is_idle = field is _FURTHER and not has_further(study)
+        options = {"hidden": field in _HIDDEN or is_idle}
         area = f"{field.letter}:{field.letter}"
         sheet.set_column(area, field.width, None, options)
     line = HEAD_ROW + 1
@@ -195,7 +210,9 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         "check_verdict": _VERDICT,
         "check_rank": _RANK,
         "check_unchanged": _UNCHANGED,
+        "check_load": _LOADS[2],
         **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
+        "check_case_further": _FURTHER,
     }
     for name, field in named.items():
         area = f"${field.letter}${first}:${field.letter}${last}"
@@ -241,9 +258,11 @@ class _CheckLine:
         self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
         self._write_numbers(check)
         self._write_verdict(number, check)
-        case = check.case
+        case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
+        self._put(_FURTHER, Cell(text=name_further(case)))
+        self._write_loads(check, view)
         texts = (show_text(name), view.title, view.clause)
         for field, text in zip(_LEAD[1:], texts, strict=True):
             self._put(field, Cell(text=text))
@@ -253,6 +272,14 @@ class _CheckLine:
         shown = (*texts, view.resistance_from, view.reason)
         lines = count_lines(shown, [field.width for field in fields])
         self._book.set_height(self._sheet, self._line, lines)
+
+    def _write_loads(self, check: CheckRecord, view: CheckView) -> None:
+        """Coupled bound and guideline's force, characteristic, and the larger one."""
+        action = check.action
+        bound, least, governing = _LOADS
+        self._put_number(bound, action.coupled_kN if action else None)
+        self._put_number(least, action.guideline_kN if action else None)
+        self._put(governing, Cell(text=show_load(check, view, self._book.words)))
 
     def _write_numbers(self, check: CheckRecord) -> None:
         actions, demands = _list_actions(check), _list_demands(check)
@@ -268,11 +295,10 @@ class _CheckLine:
         self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
         self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
         low, high = check.utilisation_band
-        is_slack = write_slack([at(field) for field in _DEMANDS], at(_SET))
         for field, demand_field, ratio in zip(
             _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
         ):
-            live = write_ratio(at(demand_field), at(_RESISTANCE), is_slack, parts)
+            live = write_ratio(at(demand_field), at(_RESISTANCE))
             self._put_number(field, ratio, live)
 
     def _write_verdict(self, number: int, check: CheckRecord) -> None:
@@ -282,7 +308,7 @@ class _CheckLine:
         self._put(_SET, Cell(text=shown if is_set else MISSING))
         ends = [self._at(field) for field in _RATIOS]
         formula = (
-            write_verdict(ends, given, words)
+            write_verdict(ends, given, self._at(_STUDY_VERDICT), words)
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )
@@ -343,6 +369,14 @@ class _CheckLine:
         self._sheet.write_formula(self._at(field), live, form, cached)
 
 
+def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:
+    """Load that governs; that of the guideline with its case."""
+    if check.action is None or not view.load:
+        return MISSING
+    named = words(f"load_name.{check.action.governs}")
+    return f"{named}, {view.case}" if find_case(check) is None else named
+
+
 def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
     """Verdict of the formula in the sheet: by the band of the utilisation alone."""
     if low is None or high is None:
@@ -360,9 +394,6 @@ def _is_of_forces(check: CheckRecord) -> bool:
 def _recalculate_band(check: CheckRecord) -> tuple[float | None, float | None]:
     """Band as the sheet calculates it; may differ in the last bit, at exactly 1."""
     resistance = _divide_resistance(check)
-    if check.demand_high_kN == 0.0:
-        is_named = check.resistance_characteristic_kN and check.resistance_factor
-        return (0.0, 0.0) if resistance or not is_named else (None, None)
     if resistance is None or check.action_factor is None:
         return None, None
     low, _, high = (

@@ -27,6 +27,7 @@ SHEETS = (
     "envelope",
     "cases",
     "changes",
+    "holds",
     "support",
     "guideline",
     "quality",
@@ -122,6 +123,7 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         ("envelope", "heading.largest_of_members", _list_parts(view, "extremes")),
         ("cases", "heading.all_cases", cases),
         ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
+        ("holds", "heading.single_values", _list_parts(view, "holds")),
         (
             "support",
             "heading.forces_on_ground",
@@ -135,7 +137,11 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
     ):
         caption = parts[0][1].caption if parts else book.words(title)
         stacked = _stack(book, caption, parts)
-        sheet = book.add_table_sheet(name, book.words(title), [stacked])
+        shown = [stacked]
+        if name == "guideline":
+            floors = _list_parts(view, "floor")
+            shown.append(_stack(book, book.words("caption.floor"), floors))
+        sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:
             add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))

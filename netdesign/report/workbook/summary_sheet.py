@@ -7,22 +7,23 @@ from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.view.check_formulas import write_merged
-from netdesign.report.view.check_view import find_governing, find_highest
+from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, number_format
+from netdesign.report.words import MISSING, name_further, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
-from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import CasePoint, RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 14, 18, 10, 12, 9, 13, 11, 8, 21, 23, 12, 32)
-_COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # columns D, E, F
-_RATIO, _LIMIT, _GOVERNING, _CASE = 6, 8, 9, 10
-_HELD, _REASONS = 11, 12
-_STUDY_REASONS, _STUDY_VERDICT = 13, 14  # hidden: what the live cells stand for
+_WIDTHS = (4, 14, 18, 10, 12, 10, 9, 13, 11, 8, 21, 23, 12, 32)
+# Columns D, E, F, G.
+_COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
+_RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
+_HELD, _REASONS = 12, 13
+_STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 2
 
 
@@ -50,7 +51,8 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     sheet.autofilter(_HEAD_ROW, 0, last, len(_WIDTHS) - 1)
     sheet.freeze_panes(_HEAD_ROW + 1, 2)
     sheet.repeat_rows(_HEAD_ROW)
-    add_utilisation_chart(book, sheet, (_HEAD_ROW + 1, last), (last + 2, _LIMIT + 1))
+    rows, columns = (_HEAD_ROW + 1, last), (_RATIO, _LIMIT)
+    add_utilisation_chart(book, sheet, rows, columns, (last + 2, _LIMIT + 1))
     _write_below(book, sheet, view, last + 2)
 
 
@@ -94,12 +96,11 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
     )
     sheet.write_formula(2, 2, formula, form, word)
     meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
-    passes, fails, open_ = (book.word(v) for v in Verdict)
-    meaning = (
-        f'=IF(C3="{passes}","{meanings[passes]}",IF(C3="{fails}",'
-        f'"{meanings[fails]}","{meanings[open_]}"))'
-    )
-    sheet.write_formula(2, 3, meaning, book.text(), meanings[word])
+    meaning = f'"{meanings[book.word(Verdict.NOT_PROVEN)]}"'
+    for one in (Verdict.DECLARED, Verdict.FAIL, Verdict.PASS):
+        verdict = book.word(one)
+        meaning = f'IF(C3="{verdict}","{meanings[verdict]}",{meaning})'
+    sheet.write_formula(2, 3, f"={meaning}", book.text(), meanings[word])
     names = {
         "overall_verdict": "$C$3",
         "row_verdicts": f"$C${_HEAD_ROW + 2}:$C${last + 1}",
@@ -121,7 +122,7 @@ def _write_row(
     held = row.verdict is not merge_verdicts(verdicts)
     sheet.write_number(index, 0, number, book.format(align="right"))
     formula = write_merged(
-        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEF", strict=True)},
+        {v: f"{column}{line}" for v, column in zip(_COUNTED, "DEFG", strict=True)},
         total=len(row.checks),
         held=f"{chr(ord('A') + _HELD)}{line}",
         words=_list_words(book),
@@ -150,8 +151,10 @@ def _write_governing(
     first, second, third = (
         f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
-    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
-    governing = find_governing(row.checks)
+    has_further = any(name_further(check.case) for check in row.checks)
+    further = f"&INDEX(check_case_further,{line})" if has_further else ""
+    case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
+    load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
     form = book.text(text_wrap=True)
     title = shown.governing.title if shown.governing else none
     is_there = f"COUNTIFS({mine})>0"
@@ -165,19 +168,26 @@ def _write_governing(
     sheet.write_formula(
         index,
         _CASE,
-        f'=IFERROR(IF({is_there},{case},"{MISSING}"),"{MISSING}")',
+        f'=IFERROR(IF({is_there},{case},"{MISSING}"),{load})',
         form,
-        _show_case(governing.case if governing else None),
+        _tell_case(book, row, shown),
     )
 
 
-def _show_case(case: CasePoint | None) -> str:
-    """Case as the formula shows it."""
-    if case is None:
+def _tell_case(book: Book, row: RowStudy, shown: RowView) -> str:
+    """Case that brings the governing demand, or the guideline's load case."""
+    check, view = find_governing(row.checks), shown.governing
+    if check is None or view is None:
         return MISSING
+    case = find_case(check)
+    return show_load(check, view, book.words) if case is None else _show_case(case)
+
+
+def _show_case(case: CasePoint) -> str:
+    """Case as the formula shows it."""
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
     first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
-    return f"{first} kg/m³, φ {second}°, θ {third}°"
+    return f"{first} kg/m³, φ {second}°, θ {third}°{name_further(case)}"
 
 
 def _write_reasons(
@@ -195,8 +205,8 @@ def _write_reasons(
         book.write_cell(sheet, (index, column), Column(heading=""), cell)
     of_row = f"check_net_row_number,A{line}"
     formula = (
-        f"=IF(AND(C{line}=O{line},COUNTIFS({of_row},check_unchanged,1)="
-        f'COUNTIFS({of_row})),N{line},"{book.words(CHANGED)}")'
+        f"=IF(AND(C{line}=P{line},COUNTIFS({of_row},check_unchanged,1)="
+        f'COUNTIFS({of_row})),O{line},"{book.words(CHANGED)}")'
     )
     form = book.text(text_wrap=True)
     sheet.write_formula(index, _REASONS, formula, form, reasons)
@@ -246,6 +256,10 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
         ("heading.verify_report", view.verification),
         ("heading.identification", view.identification),
         ("heading.signatures", [(book.words(label), name) for label, name in signed]),
+        (
+            "heading.declared_elsewhere",
+            [("", one) for one in view.declared] or [(book.words("show.none"), "")],
+        ),
         ("heading.assumed", _list_assumed(book, view)),
     ]
     for title, pairs in blocks:

@@ -17,6 +17,7 @@ _COLOURS = {
     "pass": ("#DDEBDD", "#1E4620"),
     "fail": ("#F3D3CA", "#8C2A14"),
     "not-proven": ("#F7EBC8", "#5F4B00"),
+    "declared": ("#DCE7F2", "#20415F"),
 }
 _NARROWEST, _WIDEST = 6.0, 50.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours

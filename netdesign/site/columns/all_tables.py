@@ -7,6 +7,7 @@ English here, in French and German in ``words/*.toml``.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.site.columns.dimension_columns import (
     ANCHOR_DIMENSIONS,
@@ -207,6 +208,32 @@ NETS = word_plan(
     )
 )
 
+# Types of the first and last support of a row, where they are not those of the others.
+_END_NOTE = "of the first and last support; left empty, that of sheet Nets"
+ENDS = word_plan(
+    SheetPlan(
+        name="Ends",
+        fields=(
+            Field(
+                key="row",
+                aliases=("row",),
+                kind="id",
+                required=True,
+                refers_to="Nets",
+                note="id of a row of sheet Nets; used once",
+            ),
+            *(
+                replace(_reference(key, sheet), note=_END_NOTE)
+                for key, sheet in (
+                    *((anchor, "Anchors") for anchor in _ANY_ANCHOR),
+                    *((guy, "Ropes") for guy in _ANY_GUY),
+                    ("post", "Posts"),
+                )
+            ),
+        ),
+    )
+)
+
 # Layers by net row, one a line; a row without lines here is of uniform snow.
 SNOW = word_plan(
     SheetPlan(
@@ -311,7 +338,9 @@ POSTS = word_plan(
     )
 )
 
-RANGE_QUANTITIES: tuple[Field, ...] = tuple(
+_GLIDE_FROM = 1.01  # of a range: below it the ground hardly slips
+
+USUAL_QUANTITIES: tuple[Field, ...] = tuple(
     word_field(field, "quantities")
     for field in (
         Field(
@@ -336,6 +365,45 @@ RANGE_QUANTITIES: tuple[Field, ...] = tuple(
         ),
     )
 )
+# What else may range: then no line of sheet Nets gives it. Keys are those of
+# `envelope.parameters.PARAMETERS`.
+FURTHER_QUANTITIES: tuple[Field, ...] = tuple(
+    word_field(field, "quantities")
+    for field in (
+        Field(
+            key="thickness",
+            aliases=("snow thickness normal to slope", "thickness"),
+            units=LENGTHS,
+            bounds=(0.1, 10.0),
+        ),
+        Field(
+            key="snow_height",
+            aliases=("snow height", "vertical snow height"),
+            units=LENGTHS,
+            bounds=(0.1, 15.0),
+        ),
+        Field(key="upslope_length", units=LENGTHS, bounds=(1.0, 200.0)),
+        Field(key="slack", units=SHARES, bounds=(0.0, 0.3)),
+        Field(
+            key="net_stiffness",
+            units=FORCES_PER_LENGTH,
+            bounds=(100.0, 1_000_000.0),
+        ),
+        Field(
+            key="slip_length",
+            aliases=("stagnation depth",),
+            units=LENGTHS,
+            bounds=(0.001, 200.0),
+        ),
+        Field(
+            key="glide_factor",
+            aliases=("glide factor N",),
+            units=("-",),
+            bounds=(_GLIDE_FROM, LARGEST_GLIDE_FACTOR),
+        ),
+    )
+)
+RANGE_QUANTITIES = (*USUAL_QUANTITIES, *FURTHER_QUANTITIES)
 # The cells below low and high are read as the quantity of their line.
 RANGES = word_plan(
     SheetPlan(
@@ -348,7 +416,9 @@ RANGES = word_plan(
                 kind="text",
                 required=True,
                 note="density, friction angle or net inclination (default 25 to 35 "
-                "deg)",
+                "deg); also snow thickness or height, upslope length, slack, net "
+                "stiffness, slip length or glide factor: their column in sheet Nets "
+                "then stays empty",
             ),
             Field(
                 key="unit",
@@ -382,7 +452,10 @@ RANGES = word_plan(
 
 PROJECT_ITEMS: tuple[Field, ...] = tuple(
     word_field(Field(key=key, kind="text"), "items")
-    for key in ("name", "number", "author", "checker", "revision", "standard")
+    for key in (
+        *("name", "number", "author", "checker", "revision", "standard"),
+        "accepted_law",
+    )
 )
 PROJECT = word_plan(
     SheetPlan(
@@ -453,9 +526,44 @@ MONITORING = word_plan(
     )
 )
 
+# Checks that somebody has proven elsewhere, one a line.
+DECLARED = word_plan(
+    SheetPlan(
+        name="Declared",
+        fields=(
+            Field(
+                key="row",
+                kind="id",
+                refers_to="Nets",
+                note="id of a row of sheet Nets; left empty, the line is of all rows",
+            ),
+            Field(
+                key="check",
+                kind="text",
+                required=True,
+                note="as the reports name it: Post base, bearing",
+            ),
+            Field(
+                key="document",
+                kind="text",
+                required=True,
+                note="where it is proven; the check is shown as declared, never as "
+                "pass, and one that fails here stays failed",
+            ),
+            Field(key="author", kind="text", required=True, note="who proved it"),
+            Field(
+                key="date",
+                aliases=("date of document",),
+                kind="text",
+                note="of the document, such as 2026-05-04",
+            ),
+        ),
+    )
+)
+
 SHEETS: tuple[SheetPlan, ...] = (
-    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
-    MONITORING,
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS),
+    *(MONITORING, DECLARED),
 )
 # The sheet that an annotated copy lists its findings on, by language.
 FINDINGS_SHEETS: Mapping[Language, str] = {

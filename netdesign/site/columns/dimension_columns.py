@@ -142,7 +142,7 @@ POST_DIMENSIONS = (
         FORCES,
         (1.0, 5000.0),
         "of the ground under the base plate, characteristic, across the plate; left "
-        "empty, the ground is not checked",
+        "empty, its check is not proven",
     ),
     _number(
         "plate_length",

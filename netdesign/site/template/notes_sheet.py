@@ -6,7 +6,7 @@ from io import BytesIO
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from netdesign.site.columns.all_tables import NETS, RANGE_QUANTITIES
+from netdesign.site.columns.all_tables import NETS, USUAL_QUANTITIES
 from netdesign.site.columns.fields import Field, Language
 from netdesign.site.columns.languages import load_text
 from netdesign.site.template.drawing import SYMBOLS, draw_geometry
@@ -106,8 +106,8 @@ def _write_quantities(sheet: Worksheet, workbook: Workbook, language: Language) 
     for column, key in enumerate(headings):
         sheet.write_string(row, column, texts[key], head)
     fields = [field for field in NETS.fields if not field.refers_to]
-    fields += [field for field in RANGE_QUANTITIES if field.key not in SYMBOLS]
-    fields += [field for field in RANGE_QUANTITIES if field.key in SYMBOLS]
+    fields += [field for field in USUAL_QUANTITIES if field.key not in SYMBOLS]
+    fields += [field for field in USUAL_QUANTITIES if field.key in SYMBOLS]
     for number, field in enumerate(fields, start=row + 1):
         _write_quantity(sheet, number, field, language, symbol, cell)
 

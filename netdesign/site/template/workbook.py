@@ -19,6 +19,7 @@ from netdesign.site.columns.all_tables import (
     RANGE_QUANTITIES,
     RANGES,
     SHEETS,
+    USUAL_QUANTITIES,
 )
 from netdesign.site.columns.fields import Field, Language, SheetPlan
 from netdesign.site.columns.languages import load_text
@@ -128,7 +129,7 @@ def _starting_lines() -> dict[str, _Lines]:
     return {
         PROJECT.name: [{"item": field.label} for field in PROJECT_ITEMS],
         RANGES.name: [
-            {"quantity": field.label, "unit": field.unit} for field in RANGE_QUANTITIES
+            {"quantity": field.label, "unit": field.unit} for field in USUAL_QUANTITIES
         ],
     }
 

@@ -9,7 +9,12 @@ from netdesign.checks.check import judge
 from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES
-from netdesign.structure.members import BROUGHT_BY, PUSHED_MEMBERS, Member
+from netdesign.structure.members import (
+    BROUGHT_BY,
+    CARRYING_MEMBERS,
+    PUSHED_MEMBERS,
+    Member,
+)
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
     SAME,
@@ -18,21 +23,42 @@ from netdesign.study.audit.comparing import (
     tell_unequal,
     tell_verdict,
 )
-from netdesign.study.audit.envelope_audit import is_complete, same_point
-from netdesign.study.records import CheckRecord, ExtremeRecord, ProfileRecord, RowStudy
+from netdesign.study.audit.envelope_audit import (
+    is_complete,
+    name_members,
+    same_point,
+)
+from netdesign.study.demand import leave_out_governing, tell_governing
+from netdesign.study.records import (
+    ActionRecord,
+    CheckRecord,
+    ExtremeRecord,
+    FloorForceRecord,
+    ProfileRecord,
+    RowStudy,
+)
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
-    Verdict.FAIL: ("check.fails", "check.fails_besides"),
+    Verdict.FAIL: (
+        *("check.fails", "check.fails_besides"),
+        "check.fails_though_declared",
+    ),
     Verdict.NOT_PROVEN: ("check.not_proven",),
+    Verdict.DECLARED: ("check.declared",),
 }
 
 
-def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
-    """Sentences on what cannot be true of a row's checks."""
+def audit_checks(
+    row: RowStudy, profile: ProfileRecord, *, accepts_law: bool
+) -> Iterator[Message]:
+    """Sentences on what cannot be true of a row's checks.
+
+    ``accepts_law`` says that the creep law is accepted outside its densities.
+    """
     place = say("audit.row", row=row.id)
     counts = Counter(check.id for check in row.checks)
     yield from (
@@ -41,21 +67,50 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         if count > 1
     )
     wanted = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    if _has_end(row, profile):
+        wanted += [f"{name}.end" for name in wanted]
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))
+    yield from _audit_floor(place, row, profile)
     factors = {value.id: value.value for value in profile.values}
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
-        if check.id != f"{check.member}.{check.mode}" and check.member != Member.NET:
-            what = name_check(check.member, check.mode)
+        end = ".end" if check.position == "edge" else ""
+        is_own = check.id == f"{check.member}.{check.mode}{end}"
+        if not is_own and check.member != Member.NET:
+            what = name_check(check.member, check.mode, check.position)
             yield say("audit.check_of_other", place=where, what=what)
         if check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
-            yield from _audit_verdict(where, check, complete=is_complete(row))
+            yield from _audit_verdict(where, check, row)
+            if not accepts_law:
+                yield from _audit_snow(where, check, row)
             yield from _audit_spreads(where, check)
+
+
+def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
+    """Presence of a last support that a rule of the profile loads."""
+    gap = say("column.Nets.gap")
+    goes_on = any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
+    return not goes_on and any(one.id == "end.constant" for one in profile.values)
+
+
+def _audit_floor(
+    place: Message, row: RowStudy, profile: ProfileRecord
+) -> Iterator[Message]:
+    """A floor where the profile takes one: a force of every member, or a reason."""
+    floor = row.floor
+    if (floor is None) is not (profile.floor == "none"):
+        yield say("audit.floor_of_profile", place=place, floor=profile.floor)
+    if floor is None:
+        return
+    named = [one.member for one in floor.forces]
+    wanted = [] if floor.reason else list(CARRYING_MEMBERS)
+    if sorted(named) != sorted(wanted):
+        yield say("audit.floor_of_others", place=place, named=name_members(named))
 
 
 def _audit_factors(
@@ -95,36 +150,85 @@ def _audit_action(
     if check.member not in PUSHED_MEMBERS:
         lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
     on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
-    on_force = on_row * (check.action_factor or 0.0)
+    least = _find_floor(check, row)
+    on_support = None if least is None else least.force_kN * on_row
+    factor, floor = check.action_factor or 0.0, on_support or 0.0
     pairs: list[Pair] = [
         ("lateral_factor", record.lateral_factor, lateral),
-        ("action_kN", check.action_kN, record.solved_kN * on_row),
+        ("floor_kN", record.floor_kN, least.force_kN if least else None),
+        ("guideline_kN", record.guideline_kN, on_support),
+        (
+            "floor_inclination_deg",
+            record.floor_inclination_deg,
+            least.inclination_deg if least else None,
+        ),
+        ("action_kN", check.action_kN, max(record.solved_kN * on_row, floor)),
     ]
+    if check.action_factor is not None:
+        high = max(record.coupled_kN, floor) * factor
+        pairs.append(("demand_high_kN", check.demand_high_kN, high))
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         if check.action_factor is not None:
-            low = extreme.low_kN * on_force
+            low = max(extreme.low_kN * on_row, floor) * factor
             pairs.append(("demand_low_kN", check.demand_low_kN, low))
-            yield from _audit_high_end(place, check, extreme, on_force)
+        yield from _audit_high_end(place, record, extreme, on_row)
         if not same_point(check.case, extreme.case):
             yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
         yield say("audit.more_on_base", place=place)
+    elif record.coupled_kN < record.solved_kN * on_row * (1.0 - SAME):
+        told, force = show_value(record.coupled_kN), record.solved_kN * on_row
+        yield say("audit.too_low_end", place=place, high=told, least=force)
     yield from tell_unequal(place, pairs)
+    yield from _audit_governing(place, check, record, least)
+    yield from _audit_width(place, check, record)
+
+
+def _find_floor(check: CheckRecord, row: RowStudy) -> FloorForceRecord | None:
+    forces = row.floor.forces if row.floor else []
+    return next((one for one in forces if one.member == check.member), None)
+
+
+def _audit_governing(
+    place: Message,
+    check: CheckRecord,
+    record: ActionRecord,
+    least: FloorForceRecord | None,
+) -> Iterator[Message]:
+    """Governing load: the larger one, which the reason names."""
+    floor = record.guideline_kN or 0.0
+    governs = "guideline" if floor and floor >= record.coupled_kN else "coupled"
+    case = least.load_case if least else ""
+    reason = tell_governing(leave_out_governing(check.reason), record)
+    if (record.governs, record.floor_case) != (governs, case) or reason != check.reason:
+        yield say("audit.other_load", place=place, load=say(f"load_name.{governs}"))
+
+
+def _audit_width(
+    place: Message, check: CheckRecord, record: ActionRecord
+) -> Iterator[Message]:
+    """Width of the support that the check names; of two near a threshold the wider."""
     width, spacing = record.loaded_width_m, record.post_spacing_m
-    expected = "intermediate" if is_same(width, spacing) else "edge"
-    if width < spacing * (1.0 - SAME) or record.position != expected:
+    ends = record.end_factor * record.end_length_m
+    expected = 0.5 * spacing + ends if record.position == "edge" else spacing
+    is_known = record.position in ("intermediate", "edge")
+    is_wider = record.other_width_m is None or record.other_width_m <= width
+    if (
+        not (is_known and is_wider and is_same(width, expected))
+        or record.position != check.position
+    ):
         yield say("audit.position", place=place, width=width, spacing=spacing)
 
 
 def _audit_high_end(
-    place: Message, check: CheckRecord, extreme: ExtremeRecord, on_force: float
+    place: Message, record: ActionRecord, extreme: ExtremeRecord, on_row: float
 ) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
-    high, least = check.demand_high_kN, extreme.high_kN * on_force
+    high, least = record.coupled_kN, extreme.high_kN * on_row
     if extreme.upper_bound_kN is not None:
-        yield from tell_unequal(place, [("demand_high_kN", high, least)])
-    elif high is None or high < least * (1.0 - SAME):
+        yield from tell_unequal(place, [("coupled_kN", high, least)])
+    elif high < least * (1.0 - SAME):
         yield say("audit.too_low_end", place=place, high=show_value(high), least=least)
 
 
@@ -140,27 +244,49 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
 
 
 def _audit_verdict(
-    place: Message, check: CheckRecord, *, complete: bool
+    place: Message, check: CheckRecord, row: RowStudy
 ) -> Iterator[Message]:
     """The verdict from the band, as ``checks.check`` gives it."""
+    complete = is_complete(row)
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
     used_low, used_high = check.utilisation_band
     is_known = low is not None and high is not None and check.demand_kN is not None
-    if check.action_kN == 0.0 and not check.demand_high_kN and complete:
-        verdict = Verdict.PASS
-        if check.utilisation != 0.0:
-            used = show_value(check.utilisation)
-            yield say("audit.slack_but_used", place=place, used=used)
-    elif resistance and used_low is not None and used_high is not None:
+    if resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
-    if check.verdict is not verdict and not is_held_back(check):
+    is_open = is_held_back(check) or _is_information(check, row)
+    is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
+    if is_declared and verdict is not Verdict.FAIL:
+        is_open = True
+    if check.verdict is not verdict and not is_open:
         yield tell_verdict(place, check.verdict, verdict)
-    if check.reason.key not in _REASONS[check.verdict]:
+    if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
+
+
+def _is_information(check: CheckRecord, row: RowStudy) -> bool:
+    """The check is left open since the net stands below its snow."""
+    too_low = any(
+        one.id == "geometry.height" and one.verdict is Verdict.FAIL
+        for one in row.checks
+    )
+    return too_low and check.verdict is Verdict.NOT_PROVEN
+
+
+def _audit_snow(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[Message]:
+    """No pass on a force of snow for which the creep law is not given."""
+    if (
+        check.verdict is Verdict.PASS
+        and check.demand_high_kN
+        and any(
+            same_point(check.case, case.case) and not case.is_calibrated
+            for case in row.cases
+        )
+    ):
+        yield say("audit.extrapolated_pass", place=place)
 
 
 def is_held_back(check: CheckRecord) -> bool:
@@ -170,7 +296,8 @@ def is_held_back(check: CheckRecord) -> bool:
     """
     high, resistance = check.demand_high_kN, check.resistance_kN
     is_met = high is not None and bool(resistance) and high <= (resistance or 0.0)
-    is_told = check.reason.key in _REASONS[Verdict.NOT_PROVEN]
+    reason = leave_out_governing(check.reason)
+    is_told = reason.key in _REASONS[Verdict.NOT_PROVEN]
     return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
 
 

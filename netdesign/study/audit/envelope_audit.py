@@ -22,7 +22,6 @@ from netdesign.study.records import (
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-_AXES = ("density_kg_m3", "friction_deg", "inclination_deg")
 Spans = Mapping[str, tuple[float, float]]
 
 
@@ -70,10 +69,8 @@ def list_solved(row: RowStudy) -> list[CaseRecord]:
 def find_largest(row: RowStudy, member: str) -> CaseRecord | None:
     """Case of a member's largest force; of equal ones the first point."""
 
-    def rank(case: CaseRecord) -> tuple[float, float, float, float]:
-        point = case.case
-        at = (point.density_kg_m3, point.friction_deg, point.inclination_deg)
-        return (-(read_force(case, member) or 0.0), *at)
+    def rank(case: CaseRecord) -> tuple[float, ...]:
+        return (-(read_force(case, member) or 0.0), *case.case.values.values())
 
     return min(list_solved(row), key=rank, default=None)
 
@@ -93,9 +90,10 @@ def _audit_case(
             yield say("audit.balance_open", place=place)
     elif any(force is not None for force in forces) or not case.reason:
         yield say("audit.forces_without_result", place=place)
-    for key in _AXES:
+    values = case.case.values
+    for key in dict.fromkeys((*values, *spans)):
         low, high = spans.get(key, (0.0, math.inf))
-        value = getattr(case.case, key)
+        value = values.get(key, math.nan)
         if not low * (1.0 - SAME) <= value <= high * (1.0 + SAME):
             yield say(
                 "audit.outside",
@@ -191,7 +189,7 @@ def _audit_bound(
     place = say("audit.bound", place=place, member=name_member(bound.quantity))
     same = ("max_kN", "upper_bound_kN")
     pairs = [(key, getattr(bound, key), getattr(extreme, key)) for key in same]
-    point: dict[str, float | None] = {key: getattr(extreme.case, key) for key in _AXES}
+    point = extreme.case.values
     pairs += [(key, bound.case.get(key), value) for key, value in point.items()]
     pairs += [
         (f"coincident_kN.{member}", bound.coincident_kN.get(member), force)
@@ -213,8 +211,10 @@ def _audit_bound(
 
 
 def is_complete(row: RowStudy) -> bool:
-    """Whether the cases cover the ranges: none failed, nothing was left open."""
+    """Completeness: every case solved, nothing left open, the floor known."""
     record = row.envelope
+    if row.floor is not None and row.floor.reason is not None:
+        return False
     if not row.cases or len(list_solved(row)) < len(row.cases):
         return False
     if record is None:
@@ -229,4 +229,7 @@ def same_point(one: CasePoint | None, other: CasePoint | None) -> bool:
     """Two cases are one, or both are missing."""
     if one is None or other is None:
         return one is other
-    return all(is_same(getattr(one, key), getattr(other, key)) for key in _AXES)
+    mine, others = one.values, other.values
+    return mine.keys() == others.keys() and all(
+        is_same(value, others[key]) for key, value in mine.items()
+    )

@@ -3,32 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from netdesign.checks import Band, Standard, check_member
-from netdesign.envelope.ranges import Case, build_cases
+from netdesign.envelope.ranges import build_cases
+from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
-from netdesign.study.effects import find_effects, load_guideline
+from netdesign.study.calibration import find_doubt, is_calibrated
+from netdesign.study.demand import build_demand, tell_governing
+from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
-from netdesign.study.record_cases import is_calibrated, record_point
+from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
-from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import record_geometry, record_result
+from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
+from netdesign.study.row_checks import (
+    list_checked,
+    place_check,
+    record_geometry,
+    record_result,
+    settle_check,
+)
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
     newton_from_kilonewton,
-    radian_from_degree,
 )
 from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
 _MOST = 5  # places of one row that are named
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Basis:
+    """Basis of the checks of a net row, beside its forces."""
+
+    site: Site
+    row: NetRow
+    standard: Standard
+    law: CreepLaw
 
 
 def audit_site(
@@ -65,9 +85,8 @@ def audit_site(
         if row.id in rows:
             yield from _audit_row(row, rows[row.id], site, law)
             if standard is not None and is_known:
-                yield from _audit_judgement(
-                    row, rows[row.id], site, standard, is_steady=is_steady
-                )
+                basis = _Basis(site=site, row=rows[row.id], standard=standard, law=law)
+                yield from _audit_judgement(row, basis, is_steady=is_steady)
 
 
 def _find_law(study: Study) -> CreepLaw:
@@ -94,7 +113,8 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
+        at = given.at(read_point(drawing.case))
+        wanted = (degree_from_radian(given.slope_angle), at.held_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -107,15 +127,19 @@ def _audit_row(
 
 
 def _audit_judgement(
-    row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
+    row: RowStudy, basis: _Basis, *, is_steady: bool
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
+    given, standard = basis.row, basis.standard
     effects = find_effects(given, standard)
+    floor = find_row_floor(given, basis.site.ranges, standard)
     members = [
-        _judge_again(row, check, resistance, standard)
-        for check, resistance in zip(row.checks, given.resistances, strict=False)
+        _judge_again(row, check, width, resistance, basis)
+        for check, (width, resistance) in zip(
+            row.checks, list_checked(given, effects), strict=False
+        )
     ]
-    expected = [*members, *record_geometry(given, site.ranges, standard)]
+    expected = [*members, *record_geometry(basis.site, given, basis.standard)]
     stored, again = (
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
@@ -128,17 +152,23 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
+    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+        yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
-            width = effects.record(check.member, _hold(check.action.solved_kN))
-            for found in compare_values(check.action, width):
+            action = _act_again(check, check.action, effects, floor)
+            for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
 
 
 def _judge_again(
-    row: RowStudy, check: CheckRecord, given: Resistance, standard: Standard
+    row: RowStudy,
+    check: CheckRecord,
+    width: LoadedWidth,
+    given: Resistance,
+    basis: _Basis,
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -153,19 +183,42 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    again = record_result(check_member(action, given, standard, gap=gap), given)
-    # a gap in its own words is one
-    return again if is_whole else replace(again, reason=check.reason)
+    doubt = None
+    if action is not None and check.case is not None:
+        doubt = find_doubt(
+            basis.site,
+            basis.row,
+            basis.law,
+            density=check.case.density_kg_m3,
+            largest=action.high,
+        )
+    result = check_member(action, given, basis.standard, gap=gap, doubt=doubt)
+    again = record_result(settle_check(basis.site, basis.row, result), given)
+    again = place_check(again, width)
+    if not is_whole:  # a gap in its own words is one
+        return replace(again, reason=check.reason)
+    if check.action is None:
+        return again
+    return replace(again, reason=tell_governing(again.reason, check.action))
+
+
+def _act_again(
+    check: CheckRecord, stored: ActionRecord, effects: RowEffects, floor: Floor | None
+) -> ActionRecord:
+    """The action from its solved force, with what may hide as the study states it."""
+    width = effects.find_support(check.position)
+    value = newton_from_kilonewton(stored.solved_kN)
+    high = newton_from_kilonewton(stored.coupled_kN)
+    high /= effects.factor(check.member, width)
+    solved = Band(low=0.0, value=value, high=max(value, high))
+    least = floor.find(check.member) if floor else None
+    demand = build_demand(effects, check.member, width, solved, least)
+    return demand.record(effects, check.member)
 
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
-    return replace(check, case=None, action=None, spreads=[], changes=[])
-
-
-def _hold(force_kN: float) -> Band:
-    force = newton_from_kilonewton(force_kN)
-    return Band(low=force, value=force, high=force)
+    return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
@@ -174,14 +227,9 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     if stored is None or stored.sha256 != load_guideline().sha256:
         return
     point = stored.case
-    case = Case(
-        density=point.density_kg_m3,
-        friction_angle=radian_from_degree(point.friction_deg),
-        inclination=radian_from_degree(point.inclination_deg),
-    )
     again = compare_case(
         given,
-        case,
+        read_point(point),
         load=newton_from_kilonewton(stored.solved_load_kN_per_m),
         foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
     )

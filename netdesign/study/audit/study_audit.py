@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 
 from netdesign.checks import Standard
+from netdesign.envelope.parameters import PARAMETERS
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
 from netdesign.study.audit.check_audit import audit_checks
@@ -16,12 +17,6 @@ from netdesign.study.audit.support_audit import audit_support
 from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study, list_verdicts
 from netdesign.words.message import Message, say
-
-_AXES = {
-    "density": "density_kg_m3",
-    "friction_angle": "friction_deg",
-    "inclination": "inclination_deg",
-}
 
 
 def audit_study(
@@ -53,9 +48,11 @@ def audit_study(
     spans = _read_spans(study)
     is_steady = is_of_steady_states(study)
     tolerance = _read_number(study, "balance_tolerance") if is_steady else math.inf
+    law = study.provenance.settings.get("creep_law", "").partition(" ")[0]
+    accepts_law = bool(law) and study.project.accepted_law == law
     for row in study.rows:
         found += audit_envelope(row, spans, tolerance)
-        found += audit_checks(row, study.profile)
+        found += audit_checks(row, study.profile, accepts_law=accepts_law)
         found += audit_support(row, study.profile, is_steady=is_steady)
         found += _audit_verdict(row)
     if site is not None and site.sha256 == study.provenance.site_sha256:
@@ -83,7 +80,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)
-    for key in ("id", "title", "edition", "version", "choice"):
+    for key in ("id", "title", "edition", "version", "choice", "floor"):
         if getattr(study.profile, key) != getattr(again, key):
             yield say("audit.other_profile", name=key)
 
@@ -102,7 +99,9 @@ def _audit_verdict(row: RowStudy) -> Iterator[Message]:
 def _read_spans(study: Study) -> Spans:
     """Ranges as they were understood, by the keys of a case."""
     spans = {}
-    for quantity, key in _AXES.items():
+    for quantity, parameter in PARAMETERS.items():
+        if quantity == "slope_angle":
+            continue  # of a row, and no range of a site
         name = say(f"column.quantities.{quantity}")
         ends = [
             echo.value
@@ -111,7 +110,7 @@ def _read_spans(study: Study) -> Spans:
             if echo.label == say(f"column.{end}_end", name=name)
         ]
         if len(ends) == 2 and all(isinstance(end, float) for end in ends):
-            spans[key] = (float(ends[0]), float(ends[1]))
+            spans[parameter.key] = (float(ends[0]), float(ends[1]))
     return spans
 
 

@@ -165,11 +165,13 @@ def test_rough_ground_holds_all_but_the_nearest_snow(a_flow_problem):
 def test_sliding_ground_lies_between(a_flow_problem):
     between = [
         guess_pressure(a_flow_problem(ground="sliding", slip_ratio=ratio), 7.0)
-        for ratio in (0.1, 1.0, 100.0)
+        for ratio in (0.1, 1.0, 3000.0)
     ]
     rough = guess_pressure(a_flow_problem(ground="no-slip"), 7.0)
     free = guess_pressure(a_flow_problem(), 7.0)
     assert rough < between[0] < between[1] < between[2] == free
+    # twice the length of rough ground where D* = d, coupling/THEORY.md, eq. (K0a)
+    assert between[1] == pytest.approx(2.0 * rough, rel=1e-14)
 
 
 def test_flat_ground_still_gives_a_start(a_flow_problem):

@@ -145,6 +145,15 @@ def test_force_lost_on_the_ground(a_scene, monkeypatch):
     assert result.outcome is Outcome.BALANCE_VIOLATED
 
 
+def test_a_longer_snowpack_leaves_the_largest_glide_factor(monkeypatch):
+    recipe = measure_glide_factor(BOUTILLIER_2004, 31.5)
+    monkeypatch.setattr(glide, "_UPSLOPE_LENGTH", 341.0)
+    longer = measure_glide_factor(BOUTILLIER_2004, 31.5)
+    assert longer == pytest.approx(recipe, rel=5e-4)
+    monkeypatch.setattr(glide, "_UPSLOPE_LENGTH", 61.0)  # too short: 20 thicknesses
+    assert measure_glide_factor(BOUTILLIER_2004, 31.5) < 0.99 * recipe
+
+
 def test_glide_factor_without_a_solution_raises(monkeypatch):
     monkeypatch.setattr(glide, "_SETTINGS", replace(COARSE, max_iterations=1))
     with pytest.raises(SolveError, match="snow flow") as raised:

@@ -73,10 +73,10 @@ def test_worked_check_shows_symbols_numbers_and_result():
     assert ratio.result.startswith(f"{1.5 * force / (480 / 1.35):.3f} (")
 
 
-def test_slack_member_passes_without_a_resistance():
+def test_slack_member_passes_with_a_utilisation_of_nothing():
     check = build_view(build_study()).rows[0].checks[6]
     assert (check.utilisation, check.band) == ("0.000", "0.000 to 0.000")
-    assert (check.resistance, check.verdict.word) == ("-", "PASS")
+    assert (check.resistance, check.verdict.word) == ("133.3", "PASS")
 
 
 def test_assumed_values_are_listed():

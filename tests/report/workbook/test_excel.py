@@ -20,7 +20,7 @@ def hold_back(study):
     """The same study with passing checks held back for failed cases."""
     row = study.rows[0]
     check = replace(row.checks[0], verdict=Verdict.NOT_PROVEN, reason="Failed cases.")
-    slack = replace(row.checks[6], utilisation=None, verdict=Verdict.NOT_PROVEN)
+    slack = replace(row.checks[6], verdict=Verdict.NOT_PROVEN)
     checks = [check, *row.checks[1:6], slack]
     held = replace(row, checks=checks, verdict=Verdict.NOT_PROVEN)
     return replace(study, rows=[held, *study.rows[1:]])
@@ -66,13 +66,11 @@ LOADED = [
 
 
 def spoil(content):
-    """One cell of each loaded check typed over; of a slack one, its factor too."""
+    """One cell of each loaded check typed over."""
     book = read_workbook(content, formulas=True)
     sheet = list(book)[2]
-    for (line, check), (letter, value) in zip(LOADED, SPOILS, strict=False):
-        is_slack = check.action_kN == 0.0
-        cell = sheet[f"{'H' if is_slack and value == '-' else letter}{line}"]
-        cell.value = "abc" if is_slack and value == "-" else value
+    for (line, _), (letter, value) in zip(LOADED, SPOILS, strict=False):
+        sheet[f"{letter}{line}"].value = value
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
@@ -97,7 +95,7 @@ def edit(content):
     assert (sheet["L4"].value, sheet["M4"].value) == ("R_k [kN]", "γ_R")
     sheet["L6"] = 1.0  # first net row: tiny pull-out resistance of the foot anchor
     sheet["L22"], sheet["M22"] = 1e4, 1.35  # third: the missing resistance is given
-    sheet["F18"], sheet["E18"], sheet["G18"] = 5.0, 5.0, 5.0  # second: slack no more
+    sheet["L18"] = None  # second: the slack guy loses its resistance
     buffer = io.BytesIO()
     book.save(buffer)
     return buffer.getvalue()
@@ -188,17 +186,17 @@ def test_sentences_of_the_study_go_where_they_no_longer_hold(language, fresh):
         assert (texts == {changed}) is (line in spoilt), check.id
     summary = book[words("heading.summary")]
     assert summary["D3"].value == words("meaning.not_proven")
-    assert summary["M6"].value == changed
-    assert summary["J6"].value == sheet["C5"].value  # the first of those not proven
+    assert summary["N6"].value == changed
+    assert summary["K6"].value == sheet["C5"].value  # the first of those not proven
 
 
 def test_what_governs_and_why_follows_an_edited_cell(fresh):
     book = read_workbook(fresh["edited"])
     checks, summary = book["Checks"], book["Summary"]
-    assert [summary[f"J{line}"].value for line in (6, 7, 8)] == [
+    assert [summary[f"K{line}"].value for line in (6, 7, 8)] == [
         "Foot anchor, pull-out", "Foot anchor, pull-out", "Foot anchor, pull-out"
     ]  # fmt: skip
-    assert summary["K6"].value == "450 kg/m³, φ 15°, θ 35°"
+    assert summary["L6"].value == "450 kg/m³, φ 15°, θ 35°"
     changed = ENGLISH(CHANGED)
     assert [checks[f"X{line}"].value == changed for line in (5, 6, 18, 22)] == [
         False, True, True, True
@@ -268,7 +266,7 @@ def test_sheets_are_ready_to_read_and_print(content):
         assert sheet.page_setup.orientation == "landscape"
         assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
         assert sheet.print_title_rows
-    assert book["Checks"].auto_filter.ref == "A4:X25"
+    assert book["Checks"].auto_filter.ref == "A4:AA25"
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )
@@ -293,7 +291,7 @@ def test_charts_follow_the_cells(content):
         charts = [parts.read(n).decode() for n in parts.namelist() if "/charts/" in n]
     references = "".join(charts)
     assert len(charts) == 3
-    for area in ("Summary!$G$6:$G$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
+    for area in ("Summary!$H$6:$H$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
         assert area in references
 
 

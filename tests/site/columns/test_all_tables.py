@@ -5,7 +5,7 @@ import pytest
 from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
 from netdesign.site.columns.fields import normalise, split_heading
 from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import MEMBER_MODES, NAMED_BY
 
 TABLES = {plan.name: plan.fields for plan in SHEETS} | {
     "quantities": RANGE_QUANTITIES,
@@ -39,7 +39,7 @@ def test_defaults_lie_within_bounds():
 
 def test_every_member_and_mode_has_its_column():
     for member, mode in MEMBER_MODES:
-        sheet = BY_SHEET["Nets"][member].refers_to
+        sheet = BY_SHEET["Nets"][NAMED_BY.get(member, member)].refers_to
         assert BY_SHEET[sheet][mode].unit == "kN"
 
 

@@ -1,0 +1,75 @@
+"""Limits of single values, beyond which a check turns, in words."""
+
+from __future__ import annotations
+
+from netdesign.outcome import Verdict
+from netdesign.report.view.table import Table, given_cell, name_columns, text_cell
+from netdesign.report.words import Words, name_heading, show_check, show_given
+from netdesign.study.records import CheckRecord, HoldRecord, RowStudy
+
+
+def build_holds(row: RowStudy, words: Words) -> Table:
+    """Limits of each check by single quantity, and where it has none; a line each."""
+    keys = ("check", "turns", "does_not_turn", "solves")
+    headings = [words(f"heading.{key}") for key in keys]
+    return Table(
+        caption=words("caption.holds"),
+        columns=name_columns(headings, numbers=headings[3:]),
+        rows=tuple(
+            (
+                text_cell(show_check(words, check)),
+                text_cell("; ".join(list_limits(check, words))),
+                text_cell("; ".join(_list_spans(check, words))),
+                given_cell(sum(hold.solves for hold in check.holds)),
+            )
+            for check in row.checks
+            if check.holds
+        ),
+        empty=words("heading.no_single_value"),
+    )
+
+
+def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
+    """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``."""
+    if check is None:
+        return ()
+    key = "show.holds" if check.verdict is Verdict.PASS else "show.turns"
+    return tuple(
+        words(
+            key,
+            quantity=name_heading(words, hold.quantity),
+            limit=_show_limit(check, hold, words),
+            now=show_given(hold.now),
+        )
+        for hold in check.holds
+        if hold.least is not None or hold.most is not None
+    )
+
+
+def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
+    limits = [
+        f"{sign} {show_given(value)}"
+        for sign, value in (("≥", hold.least), ("≤", hold.most))
+        if value is not None
+    ]
+    if len(limits) == 1:
+        return limits[0]
+    key = "show.both" if check.verdict is Verdict.PASS else "show.either"
+    return words(key, one=limits[0], other=limits[1])
+
+
+def _list_spans(check: CheckRecord, words: Words) -> list[str]:
+    """Quantities with which a check does not turn, and how far was looked."""
+    return [
+        _name_span(hold, words)
+        for hold in check.holds
+        if hold.least is None and hold.most is None
+    ]
+
+
+def _name_span(hold: HoldRecord, words: Words) -> str:
+    low, high = show_given(hold.low), show_given(hold.high)
+    text = words("show.band", low=low, high=high)
+    if hold.note is not None:
+        text = words("show.with_note", text=text, note=words.show(hold.note))
+    return words("show.label", label=name_heading(words, hold.quantity), text=text)

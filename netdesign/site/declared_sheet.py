@@ -1,0 +1,114 @@
+"""Sheet Declared: checks that the engineer declares as proven elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from datetime import date
+from functools import lru_cache
+
+from netdesign.checks import Declaration
+from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.columns.fields import normalise
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.readings import Row, refuse
+from netdesign.site.tables import Table, read_rows
+from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.message import say
+from netdesign.words.names import name_check
+
+# Checks of geometry that somebody may prove elsewhere. A slope that cannot be one and
+# a net below its snow are no matter of proof.
+_OF_GEOMETRY = (
+    ("net", "inclination"),
+    ("net", "spacing"),
+    ("net", "gap"),
+    ("net", "ends"),
+)
+DECLARABLE: tuple[tuple[str, str], ...] = (*MEMBER_MODES, *_OF_GEOMETRY)
+
+_Check = tuple[str, str, str]  # net row ("" for all), member, mode
+
+
+def read_declared(
+    table: Table | None, row_ids: Collection[str], findings: list[Finding]
+) -> tuple[Declaration, ...]:
+    """Declarations of the sheet; none without the sheet.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Declared, if there is one.
+    row_ids : collection of str
+        Ids of sheet Nets.
+    findings : list of Finding
+        Appended to: unknown rows and checks, what is no date, a check declared twice.
+        A line without document or author is a finding of its cell already.
+    """
+    declared: dict[_Check, Declaration] = {}
+    for line in read_rows(table, findings) if table else ():
+        count = len(findings)
+        found = _read_line(line, row_ids, findings)
+        if found is None or len(findings) > count:
+            continue
+        twice = next((one for one in declared.values() if _meet(one, found)), None)
+        if twice:
+            rule = say("declared.twice", place=twice.source)
+            refuse(line["check"], rule, say("declared.once"), findings)
+            continue
+        declared[found.row_id, found.member, found.mode] = found
+    return tuple(declared.values())
+
+
+def _meet(one: Declaration, other: Declaration) -> bool:
+    """Two declarations concern the same check of some net row."""
+    same_row = one.row_id == other.row_id or "" in (one.row_id, other.row_id)
+    return same_row and (one.member, one.mode) == (other.member, other.mode)
+
+
+def _read_line(
+    line: Row, row_ids: Collection[str], findings: list[Finding]
+) -> Declaration | None:
+    row, check, day = line["row"], line["check"], line["date"]
+    if row.word and row_ids and row.word not in row_ids:
+        sheet = say("sheet.Nets")
+        accepted = say("accepted.id_of_sheet", sheet=sheet)
+        accepted = add_nearest(accepted, row.word, row_ids)
+        refuse(row, say("nets.no_id", sheet=sheet), accepted, findings)
+    names = _list_names()
+    subject = names.get(normalise(check.word))
+    if check.word and subject is None:
+        shown = tuple(name_check(*one) for one in DECLARABLE)
+        accepted = say("declared.accepted", checks=shown)
+        refuse(check, say("declared.unknown"), accepted, findings)
+    if day.word and not _is_date(day.word):
+        refuse(day, say("measured.no_date"), say("declared.such_as"), findings)
+    if subject is None or any(reading.state == "faulty" for reading in line.values()):
+        return None
+    return Declaration(
+        row_id=row.word,
+        member=subject[0],
+        mode=subject[1],
+        document=line["document"].word,
+        author=line["author"].word,
+        date=day.word,
+        source=check.place,
+    )
+
+
+def _is_date(text: str) -> bool:
+    try:
+        date.fromisoformat(text)
+    except ValueError:
+        return False
+    return True
+
+
+@lru_cache(maxsize=1)
+def _list_names() -> Mapping[str, tuple[str, str]]:
+    """Checks by their names in every language, as reports have them, and by id."""
+    names: dict[str, tuple[str, str]] = {}
+    for subject in DECLARABLE:
+        title = name_check(*subject)
+        spellings = ["".join(subject), *(render(title, one) for one in LANGUAGES)]
+        names |= dict.fromkeys(map(normalise, spellings), subject)
+    return names

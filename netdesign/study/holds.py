@@ -1,0 +1,305 @@
+"""Limits of each single quantity of a row, beyond which a check turns.
+
+A quantity that ranges is in the envelope; one that is a single value is not certain
+either. Each is moved alone, to both sides, within what is plausible: first to the ends
+of its search, in cases that carry about the members' largest forces; where a check
+turns on the way, by interpolation, until a rounded value on the passing side is
+confirmed in the case that governs and in its nearest rival. Between solved values a
+force is taken to be monotone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS
+from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.site.model import NetRow
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
+from netdesign.study.flips import Target, list_near
+from netdesign.study.probe import Probe
+from netdesign.study.records import HoldRecord
+from netdesign.words.message import Message, say
+
+# Ends of a search; half and twice the given value where nothing else is said.
+_FACTOR = 2.0
+_MORE_SLACK = 0.1
+_ANGLE = math.radians(15.0)
+_LEAST_GLIDE, _LEAST_LENGTH = 1.01, 0.3  # [-]; length over the snow thickness
+_DENSITIES = (150.0, 600.0)  # [kg/m3]
+
+_SERVES = 0.9  # share of its largest force that a member carries in a case it shares
+_CLEAR = 0.85  # utilisation up to which the end of a search needs no confirmation
+_AIM, _CLOSE = 0.975, 0.92  # utilisation aimed at, and near enough below 1
+_AIM_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what a check has left
+_LEAST_USED = 1e-3  # of a member that is slack at one end
+_MOST_STEPS = 4
+_BACK = 0.75
+_DIGITS = 3  # of a limit that is told
+_DECIMALS = 9  # of the ends of a search
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Span:
+    """Single value of a quantity and the ends of its search, SI."""
+
+    name: str
+    now: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeldCheck:
+    """One check whose limits are looked for.
+
+    Attributes
+    ----------
+    target : Target
+        Check as a function of a solved case and of the row.
+    widen : callable
+        Width that loads the support of a changed row [m]: the end effect grows with
+        the glide factor.
+    """
+
+    target: Target
+    widen: Callable[[NetRow], float]
+
+    @property
+    def largest(self) -> float:
+        """Largest force of the member over the solved cases [N]."""
+        solved = (one for one in self.target.results if one.is_converged)
+        return max(self.force(one) for one in solved)
+
+    def force(self, result: CaseResult) -> float:
+        """Upper end of the member's force in a case [N]."""
+        return result.member_forces[self.target.member].high
+
+
+def find_holds(
+    checks: Mapping[str, HeldCheck], probe: Probe
+) -> dict[str, list[HoldRecord]]:
+    """Limits of every single quantity for every check of one row, by the check's id.
+
+    Parameters
+    ----------
+    checks : mapping of str to HeldCheck
+        Checks of one row that have a force and a resistance.
+    probe : Probe
+        Solves what is asked for, each once.
+
+    Verified by
+    -----------
+    tests/study/test_holds.py
+    """
+    if not checks:
+        return {}
+    one = next(iter(checks.values())).target
+    spans = list_spans(one.row, one.ranges)
+    serving = _choose_cases(checks)
+    shared = list(dict.fromkeys(case.case for case in serving.values()))
+    probe.solve_all(
+        [
+            (one.row, move_case(case, span.name, value), probe.law)
+            for span in spans
+            for case in shared
+            for value in (span.low, span.high)
+        ]
+    )
+    return {
+        name: [_Line(check, span, serving[name], probe).record() for span in spans]
+        for name, check in checks.items()
+    }
+
+
+def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:
+    """Quantities of a row that do not range, with the ends of their search."""
+    values = {
+        **{name: ranges[name].low for name in ("density", "friction_angle")},
+        "inclination": ranges["inclination"].low,
+        "thickness": row.snow_thickness,
+        "upslope_length": row.upslope_length,
+        "slack": row.slack,
+        "net_stiffness": row.net_stiffness_per_m,
+    }
+    if row.glide_factor is not None:
+        values["glide_factor"] = row.glide_factor
+    elif row.ground.kind == "sliding":
+        values["slip_length"] = row.ground.slip_length
+    ranged = set(ranges.axes)
+    for pair in ONE_QUANTITY:
+        if ranged & set(pair):
+            ranged |= set(pair)
+    spans = []
+    for name, now in values.items():
+        if name not in ranged:
+            low, high = _find_ends(name, now, row)
+            spans.append(
+                Span(name=name, now=now, low=min(low, now), high=max(high, now))
+            )
+    return spans
+
+
+def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
+    """Ends of the search of a quantity, SI."""
+    if name == "density":
+        return _DENSITIES
+    if name in ("friction_angle", "inclination"):
+        return max(0.0, now - _ANGLE), now + _ANGLE
+    if name == "slack":
+        return 0.0, now + _MORE_SLACK
+    if name == "thickness":
+        return now / _FACTOR, row.net_height
+    if name == "glide_factor":
+        return _LEAST_GLIDE, LARGEST_GLIDE_FACTOR
+    if name == "upslope_length":
+        least = _LEAST_LENGTH * row.snow_thickness
+        return max(now / _FACTOR, least), now * _FACTOR
+    return now / _FACTOR, now * _FACTOR
+
+
+def move_case(case: Case, name: str, value: float) -> Case:
+    """Case with a quantity of its own; another name of the same one goes."""
+    twins = {one for pair in ONE_QUANTITY if name in pair for one in pair}
+    kept = {k: v for k, v in case.values.items() if k not in twins}
+    return Case.of({**kept, name: value})
+
+
+def _choose_cases(checks: Mapping[str, HeldCheck]) -> dict[str, CaseResult]:
+    """For each check a case in which its member carries about its largest force.
+
+    As few as do: members share a case where they can.
+    """
+    chosen: dict[str, CaseResult] = {}
+    for name, check in checks.items():
+        least, at = _SERVES * check.largest, check.target.governing
+        serves = (one for one in chosen.values() if check.force(one) >= least)
+        own = next(one for one in check.target.results if one.case == at)
+        chosen[name] = next(serves, own)
+    return chosen
+
+
+class _Line:
+    """One check along one quantity."""
+
+    def __init__(
+        self, check: HeldCheck, span: Span, serving: CaseResult, probe: Probe
+    ) -> None:
+        self._check, self._target = check, check.target
+        self._span, self._probe = span, probe
+        self._parameter = PARAMETERS[span.name]
+        self._serving = serving.case
+        # what the serving case lacks of the largest force
+        carried = check.force(serving)
+        self._lack = check.largest / carried if carried else 1.0
+        self._near = list_near(self._target)[:2]
+        coupled = self._target.scale * check.largest
+        self._used = max(coupled, self._target.use_floor(self._target.row))
+        self._passes = self._used <= 1.0
+        self._note: Message | None = None
+
+    def record(self) -> HoldRecord:
+        """Limits to both sides, and how far they were searched."""
+        span, before, show = self._span, self._probe.count, self._parameter.show
+        least, low = self._search(span.low)
+        most, high = self._search(span.high)
+        if not self._passes:  # it turns beyond a limit, not before it
+            least, most = most, least
+        return HoldRecord(
+            quantity=self._parameter.key,
+            now=show(span.now),
+            least=least,
+            most=most,
+            low=round(show(low), _DECIMALS),
+            high=round(show(high), _DECIMALS),
+            solves=self._probe.count - before,
+            note=self._note,
+        )
+
+    def _search(self, end: float) -> tuple[float | None, float]:
+        """Limit towards an end, in the unit of its key, and how far was looked."""
+        now = self._span.now
+        if end == now:
+            return None, now
+        used = self._utilise([self._serving], end, self._lack)
+        if used is not None and used <= 1.0 and not (self._passes and used <= _CLEAR):
+            used = self._utilise(self._near, end)
+        if used is None:
+            return None, now
+        if (used <= 1.0) is self._passes:
+            return None, end
+        at_now = (now, self._used)
+        ends = (at_now, (end, used)) if self._passes else ((end, used), at_now)
+        return self._refine(*ends), end
+
+    def _utilise(
+        self, cases: Sequence[Case], value: float, lack: float = 1.0
+    ) -> float | None:
+        """Largest utilisation in some cases with a value; None without a result."""
+        wanted = [
+            (self._target.row, move_case(case, self._span.name, value), self._probe.law)
+            for case in cases
+        ]
+        found = [self._target.utilisation(one) for one in self._probe.solve_all(wanted)]
+        if any(one is None for one in found):
+            self._note = say("hold.no_result", value=self._parameter.show(value))
+            return None
+        moved = wanted[0][0].at(wanted[0][1])
+        coupled = lack * max(one for one in found if one is not None)
+        return self._compare_width(moved) * max(coupled, self._target.use_floor(moved))
+
+    def _compare_width(self, moved: NetRow) -> float:
+        """Width that loads the support of a moved row over that of the row as it is."""
+        row = self._target.row
+        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
+            return 1.0
+        return self._check.widen(moved) / self._check.widen(row)
+
+    def _refine(
+        self, passing: tuple[float, float], failing: tuple[float, float]
+    ) -> float:
+        """Rounded value near the limit, on the passing side and confirmed."""
+        left = 1.0 - passing[1]  # may be little: then less of it is given away
+        goal = max(_AIM, 1.0 - _AIM_SHARE * left)
+        close = max(_CLOSE, 1.0 - _CLOSE_SHARE * left)
+        back = 1.0  # shortens the way after every value that fails
+        for _ in range(_MOST_STEPS):
+            aim = self._aim(passing, failing, back, goal)
+            used = None if aim is None else self._utilise(self._near, aim)
+            if aim is None or used is None:
+                break
+            if used > 1.0:
+                failing, back = (aim, used), _BACK * back
+                continue
+            passing = (aim, used)
+            if used >= close:
+                break
+        return self._parameter.show(passing[0])
+
+    def _aim(
+        self,
+        passing: tuple[float, float],
+        failing: tuple[float, float],
+        back: float,
+        goal: float,
+    ) -> float | None:
+        """Rounded value of about a goal of utilisation; None if there is none.
+
+        The utilisation is taken as a power of the value; where that may be zero, as an
+        exponential of its root: the sag of a net goes like the root of its slack.
+        """
+        (good, low), (bad, high) = passing, failing
+        low = max(low, _LEAST_USED)
+        share = back * math.log(goal / low) / math.log(high / low)
+        if min(good, bad) > 0.0:
+            value = good * (bad / good) ** share
+        else:
+            value = (math.sqrt(good) * (1.0 - share) + math.sqrt(bad) * share) ** 2
+        shown = self._parameter.show(value)
+        step = 10.0 ** (math.floor(math.log10(abs(shown))) - _DIGITS + 1)
+        rounding = math.ceil if good > bad else math.floor
+        told = self._parameter.read(round(rounding(shown / step) * step, 12))
+        return told if min(good, bad) < told < max(good, bad) else None

@@ -1,0 +1,42 @@
+"""Inputs of a row: typed, understood, and how the one follows from the other."""
+
+import pytest
+
+from netdesign.report.view.tables import build_inputs
+from netdesign.report.words import Words
+from netdesign.site.model import InputEcho
+from netdesign.words.message import say
+
+SLIP = InputEcho(
+    label=say("column.Nets.slip_length"),
+    unit="m",
+    text="2.713",
+    value=38.0,
+    cell="Nets!H2",
+    derivation=say(
+        "column.slip_of_table",
+        thickness=2.8417,
+        glide=2.713,
+        low=2.6728,
+        high=2.8377,
+        start=12.5,
+        end=16.0,
+        law="boutillier-2004",
+    ),
+)
+FORMULA = "2.8417 m · (12.5 + (2.713 − 2.6728) / (2.8377 − 2.6728) · (16 − 12.5)), "
+
+
+@pytest.mark.parametrize("language", ["en", "fr", "de"])
+def test_a_derived_input_shows_its_formula_with_numbers(language):
+    (row,) = build_inputs([SLIP], "", Words(language)).rows
+    assert FORMULA in row[1].text
+    assert row[1].text.endswith("boutillier-2004")
+
+
+def test_any_other_input_shows_what_was_typed():
+    typed = InputEcho(
+        label=say("column.Nets.slack"), unit="-", text="0,03", value=0.03, cell="A1"
+    )
+    (row,) = build_inputs([typed], "", Words("en")).rows
+    assert row[1].text == "0,03"

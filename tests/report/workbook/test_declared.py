@@ -1,0 +1,98 @@
+"""A declared check in the workbook: never a pass, and no number makes it one."""
+
+import io
+from dataclasses import replace
+
+import pytest
+
+from netdesign.outcome import Verdict
+from netdesign.report.view.gate import require_consistent
+from netdesign.report.words import Words
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.study.records import DeclarationRecord
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.build_study import as_given, build_study
+from tests.report.reading import read_workbook, recalculate
+
+PROOF = DeclarationRecord(
+    document="Report G-17", author="B. Rüegg", date="", cell="Declared!B2"
+)
+LINE = 5  # of the first check
+EDITS = {
+    "as it was": {},
+    "strong": {"L5": 1e6},
+    "weak": {"L5": 1.0},
+    "no resistance": {"L5": None},
+    "set to pass": {"R5": "PASS"},
+    "another set to declared": {"L6": None, "R6": "DECLARED"},
+}
+EXPECTED = {
+    "as it was": ("DECLARED", "PASS", "DECLARED"),
+    "strong": ("DECLARED", "PASS", "DECLARED"),
+    "weak": ("FAIL", "PASS", "FAIL"),
+    "no resistance": ("DECLARED", "PASS", "DECLARED"),
+    "set to pass": ("NOT PROVEN", "PASS", "NOT PROVEN"),
+    "another set to declared": ("DECLARED", "NOT PROVEN", "NOT PROVEN"),
+}
+
+
+def declare(study):
+    """The first check of a passing row is declared, and has a resistance."""
+    (row,) = study.rows
+    check = replace(
+        row.checks[0],
+        verdict=Verdict.DECLARED,
+        declared=PROOF,
+        reason=as_given("Declared as proven elsewhere."),
+    )
+    checks = [check, *row.checks[1:]]
+    row = replace(row, checks=checks, verdict=Verdict.DECLARED)
+    return replace(study, rows=[row], verdict=Verdict.DECLARED)
+
+
+STUDY = declare(build_study(rows=1))
+
+
+def edit(cells):
+    book = read_workbook(render_workbook(STUDY), formulas=True)
+    for place, value in cells.items():
+        book["Checks"][place] = value
+    buffer = io.BytesIO()
+    book.save(buffer)
+    return buffer.getvalue()
+
+
+@pytest.fixture(scope="module")
+def fresh(tmp_path_factory):
+    books = {name: edit(cells) for name, cells in EDITS.items()}
+    books |= {name: render_workbook(STUDY, name) for name in LANGUAGES}
+    return recalculate(books, tmp_path_factory.mktemp("books"))
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_verdicts_follow_the_numbers_and_never_become_a_pass(fresh, name):
+    book = read_workbook(fresh[name])
+    found = (book["Checks"]["S5"].value, book["Checks"]["S6"].value)
+    assert (*found, book["Summary"]["C6"].value) == EXPECTED[name]
+    assert book["Summary"]["C3"].value == EXPECTED[name][2]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_summary_counts_and_names_what_is_declared(fresh, language):
+    words = Words(language)
+    sheet = read_workbook(fresh[language])[words("heading.summary")]
+    shown = [cell.value for line in sheet.iter_rows() for cell in line]
+    assert sheet["F5"].value == words("verdict.declared")
+    assert sheet["F6"].value == 1
+    assert sheet["D3"].value == words("meaning.declared")
+    assert any("Report G-17" in str(text) for text in shown)
+    assert words("heading.declared_elsewhere") in shown
+
+
+def test_a_study_may_not_call_a_check_declared_without_a_declaration():
+    assert require_consistent(STUDY) is None
+    (row,) = STUDY.rows
+    checks = [replace(row.checks[0], declared=None), *row.checks[1:]]
+    forged = replace(STUDY, rows=[replace(row, checks=checks)])
+    with pytest.raises(Exception, match="without a declaration"):
+        require_consistent(forged)

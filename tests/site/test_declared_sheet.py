@@ -1,0 +1,136 @@
+"""Sheet Declared: checks by their names in any language, every fault with its cell."""
+
+from datetime import datetime
+
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.site.reader import read_site
+from netdesign.words.catalogue import LANGUAGES, render
+from netdesign.words.names import name_check
+
+HEADINGS = ["net row", "check", "document", "author", "date"]
+SOUND_LINE = ["R1", "Post base, bearing", "Report G-17", "B. Rüegg", "2026-03-09"]
+
+
+def with_lines(sheets, *lines):
+    sheets["Declared"] = [HEADINGS, *map(list, lines)]
+    return sheets
+
+
+def the_finding(path):
+    with pytest.raises(SiteDataError) as caught:
+        read_site(path)
+    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
+    return finding
+
+
+def test_without_the_sheet_nothing_is_declared(sheets, save):
+    assert read_site(save(sheets)).declared == ()
+
+
+def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
+    site = read_site(save(with_lines(sheets, SOUND_LINE)))
+    (found,) = site.declared
+    assert (found.row_id, found.member, found.mode) == ("R1", "post_base", "bearing")
+    assert (found.document, found.author, found.date) == tuple(SOUND_LINE[2:])
+    assert found.source == "Declared!B2"
+    assert site.find_declaration("R1", "post_base", "bearing") is found
+    assert site.find_declaration("R2", "post_base", "bearing") is None
+    assert site.find_declaration("R1", "post", "compression") is None
+
+
+def test_a_line_without_a_row_is_of_all_rows(sheets, save):
+    line = [None, *SOUND_LINE[1:4], None]
+    site = read_site(save(with_lines(sheets, line)))
+    for row in ("R1", "R2"):
+        found = site.find_declaration(row, "post_base", "bearing")
+        assert (found.document, found.date) == ("Report G-17", "")
+
+
+def test_a_date_of_the_spreadsheet_program_is_one(sheets, save):
+    line = [*SOUND_LINE[:4], datetime(2025, 11, 3)]
+    (found,) = read_site(save(with_lines(sheets, line))).declared
+    assert found.date == "2025-11-03"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_check_is_known_by_the_name_that_reports_give_it(sheets, save, language):
+    lines = [
+        ["R2", render(name_check(*subject), language), "Report", "A. B.", None]
+        for subject in DECLARABLE
+    ]
+    found = read_site(save(with_lines(sheets, *lines))).declared
+    assert [(one.member, one.mode) for one in found] == list(DECLARABLE)
+
+
+@pytest.mark.parametrize(
+    ("name", "headings", "check"),
+    [
+        (
+            "Déclarées",
+            ["Rangée", "Vérification", "Document", "Auteur", "Date"],
+            "Ancrage de pied, arrachement",
+        ),
+        (
+            "Erklärte",
+            ["Werkreihe", "Nachweis", "Dokument", "Verfasser", "Datum"],
+            "Fußanker, Herausziehen",
+        ),
+    ],
+)
+def test_french_and_german_sheets(sheets, save, name, headings, check):
+    sheets[name] = [headings, ["R1", check, "Note 4", "C. D.", "2026-01-30"]]
+    (found,) = read_site(save(sheets)).declared
+    assert (found.member, found.mode) == ("foot_anchor", "pull_out")
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "rule"),
+    [
+        ("A", "R7", "is no id of sheet Nets"),
+        ("B", "Post base, bearings", "is no check that may be declared"),
+        ("B", "Net, slope", "is no check that may be declared"),
+        ("B", "Net, height", "is no check that may be declared"),
+        ("B", None, "is empty"),
+        ("C", None, "is empty"),
+        ("C", "  ", "is empty"),
+        ("D", None, "is empty"),
+        ("E", "last winter", "is no date"),
+    ],
+)
+def test_a_fault_is_one_finding_with_its_cell(sheets, save, column, value, rule):
+    line = list(SOUND_LINE)
+    line["ABCDE".index(column)] = value
+    finding = the_finding(save(with_lines(sheets, line)))
+    assert (finding.sheet, finding.cell) == ("Declared", f"{column}2")
+    assert str(finding.rule) == rule
+
+
+@pytest.mark.parametrize("second", ["R1", None])
+def test_a_check_declared_twice_is_a_finding_that_names_the_first(sheets, save, second):
+    again = [second, *SOUND_LINE[1:]]
+    finding = the_finding(save(with_lines(sheets, SOUND_LINE, again)))
+    assert finding.cell == "B3"
+    assert str(finding.rule) == "is declared twice: also in Declared!B2"
+
+
+def test_the_same_check_of_another_row_is_no_second(sheets, save):
+    lines = [SOUND_LINE, ["R2", *SOUND_LINE[1:]]]
+    assert len(read_site(save(with_lines(sheets, *lines))).declared) == 2
+
+
+@pytest.mark.parametrize("law", ["boutillier-2004", "zwinger-2007"])
+def test_a_creep_law_is_accepted_by_its_name(sheets, save, law):
+    sheets["Project"] = [["item", "value"], ["extrapolated creep law accepted", law]]
+    assert read_site(save(sheets)).project.accepted_law == law
+
+
+@pytest.mark.parametrize("name", ["yes", "Boutillier", "boutillier-2004 A.B."])
+def test_what_names_no_creep_law_accepts_none(sheets, save, name):
+    sheets["Project"] = [["item", "value"], ["extrapolated creep law accepted", name]]
+    finding = the_finding(save(sheets))
+    assert (finding.sheet, finding.cell) == ("Project", "B2")
+    assert str(finding.rule) == "is no creep law of the program"
+    assert "boutillier-2004" in str(finding.accepted)

@@ -1,0 +1,220 @@
+"""What a pass of a solved row may rest on: snow of the law, proofs, nets above snow."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import Declaration, load_standard
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.outcome import Outcome, Verdict
+from netdesign.site.model import MEMBER_MODES, Project
+from netdesign.snow.snowpack import Layer
+from netdesign.study.cases import search_site, solve_site
+from netdesign.study.judge import judge_site
+from netdesign.study.probe import Probe
+from tests.small_site import RANGES, RUN, STRONG, WEAK, build_row, build_site, resist
+
+LAW = RUN.creep_law.name
+LIGHT = Ranges.of(
+    **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0, count=2)}
+)
+SEARCHED = Ranges.of(
+    density=Interval(low=270.0, high=400.0),
+    friction_angle=Interval(low=math.radians(15), high=math.radians(45)),
+    inclination=Interval(low=math.radians(30), high=math.radians(30)),
+)
+BEARING = Declaration(
+    row_id="R2",
+    member="post_base",
+    mode="bearing",
+    document="Report G-17",
+    author="B. Rüegg",
+    date="2026-03-09",
+    source="Declared!B2",
+)
+PULL_OUT = replace(BEARING, row_id="", member="foot_anchor", mode="pull_out")
+
+
+@pytest.fixture(scope="module")
+def standard():
+    return load_standard("nf-p-95-304-style")
+
+
+@pytest.fixture
+def judge(standard):
+    def judge_rows(*rows, probe=None, **changes):
+        site = build_site(*rows, **changes)
+        solve = solve_site if site.ranges.is_grid else search_site
+        return judge_site(site, solve(site, RUN), standard, RUN, probe)
+
+    return judge_rows
+
+
+def forces(row):
+    """Checks of forces by id."""
+    return {check.id: check for check in row.checks if check.member != "net"}
+
+
+# --- snow that the creep law is not given for ----------------------------------------
+
+
+def test_light_governing_snow_is_not_proven_until_its_law_is_accepted(judge):
+    open_ = judge(build_row("R1"), ranges=LIGHT)
+    assert open_.verdict is Verdict.NOT_PROVEN
+    for check in forces(open_.rows[0]).values():
+        is_loaded = check.demand_high_kN > 0.0
+        assert (check.verdict is Verdict.NOT_PROVEN) is is_loaded
+        if is_loaded:
+            assert "287 kg/m3 lies outside the 367 to 917" in str(check.reason)
+            assert LAW in str(check.reason)
+    assert any("within a factor of 7" in str(note) for note in open_.notes)
+    project = Project(accepted_law=LAW)
+    cells = {"accepted_law": "Project!B8"}
+    closed = judge(build_row("R1"), ranges=LIGHT, project=project, project_cells=cells)
+    assert closed.verdict is Verdict.PASS
+    assert any("Project!B8" in str(note) for note in closed.notes)
+    numbers = [
+        [check.utilisation for check in study.rows[0].checks]
+        for study in (open_, closed)
+    ]
+    assert numbers[0] == numbers[1]
+
+
+def test_another_law_accepted_is_not_this_one(judge):
+    project = Project(accepted_law="zwinger-2007")
+    study = judge(build_row("R1"), ranges=LIGHT, project=project)
+    assert study.verdict is Verdict.NOT_PROVEN
+
+
+def test_only_the_governing_snow_counts(judge):
+    """The lightest of 270 to 400 kg/m3 lies outside too, and decides nothing."""
+    study = judge(build_row("R1"))
+    assert {case.is_calibrated for case in study.rows[0].cases} == {False, True}
+    assert study.verdict is Verdict.PASS
+
+
+def test_what_surely_fails_fails_in_light_snow_too(judge):
+    study = judge(build_row("R1", resistances=resist(WEAK)), ranges=LIGHT)
+    assert forces(study.rows[0])["foot_anchor.tendon"].verdict is Verdict.FAIL
+
+
+def test_one_light_layer_of_the_governing_snow_is_enough(judge):
+    layers = (Layer(thickness=1.5, density=420.0), Layer(thickness=1.0, density=310.0))
+    study = judge(build_row("R1", layers=layers))
+    check = forces(study.rows[0])["foot_anchor.tendon"]
+    assert check.verdict is Verdict.NOT_PROVEN
+    assert "has layers of" in str(check.reason)
+
+
+def test_nothing_is_said_to_pass_with_another_number_while_the_law_is_open(judge):
+    close = resist(foot_anchor__tendon=2.2e5)
+    probe = Probe(RUN.settings, RUN.creep_law)
+    study = judge(build_row("R1", resistances=close), ranges=LIGHT, probe=probe)
+    check = forces(study.rows[0])["foot_anchor.tendon"]
+    assert check.utilisation > 0.9
+    assert {str(change.note) for change in check.changes} == {
+        "once the creep law is accepted for the governing snow"
+    }
+
+
+# --- checks declared as proven elsewhere ---------------------------------------------
+
+
+def test_a_declared_check_is_no_pass_and_neither_is_its_row(judge):
+    blank = resist(post_base__bearing=None)
+    rows = [build_row("R1"), build_row("R2", resistances=blank)]
+    open_ = judge(*rows)
+    assert [row.verdict for row in open_.rows] == [Verdict.PASS, Verdict.NOT_PROVEN]
+    study = judge(*rows, declared=(BEARING,))
+    assert study.verdict is Verdict.DECLARED
+    assert [row.verdict for row in study.rows] == [Verdict.PASS, Verdict.DECLARED]
+    check = forces(study.rows[1])["post_base.bearing"]
+    assert check.verdict is Verdict.DECLARED
+    assert check.declared.document == "Report G-17"
+    assert check.declared.cell == "Declared!B2"
+    assert "no resistance is given" in str(check.reason)
+    assert check.demand_kN == forces(open_.rows[1])["post_base.bearing"].demand_kN
+    assert any("Report G-17" in str(reason) for reason in study.rows[1].reasons)
+
+
+def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
+    study = judge(build_row("R1"), build_row("R2"), declared=(PULL_OUT,))
+    for row in study.rows:
+        declared = [k for k, c in forces(row).items() if c.verdict is Verdict.DECLARED]
+        assert declared == ["foot_anchor.pull_out", "foot_anchor.pull_out.end"]
+        assert row.verdict is Verdict.DECLARED
+
+
+def test_what_fails_here_stays_a_failure_though_declared(judge):
+    weak = resist(foot_anchor__pull_out=WEAK)
+    study = judge(build_row("R1", resistances=weak), declared=(PULL_OUT,))
+    check = forces(study.rows[0])["foot_anchor.pull_out"]
+    assert check.verdict is study.verdict is Verdict.FAIL
+    assert "changes nothing" in str(check.reason)
+
+
+def test_a_declaration_leaves_what_else_is_open(judge):
+    missing = resist(foot_anchor__tendon=None)
+    study = judge(build_row("R1", resistances=missing), declared=(PULL_OUT,))
+    assert study.verdict is Verdict.NOT_PROVEN
+
+
+# --- snow above the net --------------------------------------------------------------
+
+
+def test_forces_of_an_overtopped_net_are_those_of_snow_up_to_its_head(judge):
+    buried = judge(build_row("R1", net_height=2.2)).rows[0]
+    level = judge(build_row("R1", net_height=2.2, snow_thickness=2.2)).rows[0]
+    assert {case.outcome for case in buried.cases} == {Outcome.CONVERGED}
+    assert buried.extremes == level.extremes
+    assert level.verdict is Verdict.PASS
+    assert buried.verdict is Verdict.FAIL
+    assert buried.drawing.snow_thickness_m == 2.2
+    (height,) = (one for one in buried.checks if one.id == "geometry.height")
+    assert height.verdict is Verdict.FAIL
+
+
+@pytest.mark.parametrize("ranges", [RANGES, SEARCHED], ids=["grid", "search"])
+@pytest.mark.parametrize("strength", [STRONG, WEAK])
+def test_an_overtopped_row_leaves_its_forces_open_and_the_others_alone(
+    judge, strength, ranges
+):
+    low = build_row("R1", net_height=2.2, resistances=resist(strength))
+    probe = Probe(RUN.settings, RUN.creep_law)
+    study = judge(low, build_row("R2"), ranges=ranges, probe=probe)
+    first, second = study.rows
+    assert first.verdict is study.verdict is Verdict.FAIL
+    assert len(forces(first)) == 2 * len(MEMBER_MODES)  # inside the row and its end
+    for check in forces(first).values():
+        assert check.verdict is Verdict.NOT_PROVEN
+        assert check.utilisation is not None
+        assert "the snow overtops the net" in str(check.reason)
+        assert check.changes == []
+    assert second.verdict is Verdict.PASS
+
+
+def test_layers_of_an_overtopped_net_keep_their_proportions():
+    layers = (Layer(thickness=1.5, density=420.0), Layer(thickness=1.0, density=310.0))
+    row = build_row("R1", net_height=2.0, layers=layers)
+    held = row.layers_at(row.mean_density)
+    assert [layer.thickness for layer in held] == pytest.approx([1.2, 0.8])
+    assert [layer.density for layer in held] == pytest.approx([420.0, 310.0])
+
+
+@pytest.mark.parametrize(
+    ("height", "expected"), [(2.5 * (1 - 0.9e-6), False), (2.5 * (1 - 1.1e-6), True)]
+)
+def test_a_net_counts_as_overtopped_beyond_rounding_only(height, expected):
+    row = build_row("R1", net_height=height)
+    assert row.is_overtopped is expected
+    assert row.held_thickness == (height if expected else 2.5)
+
+
+def test_checks_with_one_reason_are_told_in_one_sentence(judge):
+    study = judge(build_row("R1", net_height=2.2))
+    forces_told, height_told = map(str, study.rows[0].reasons)
+    titles, _, reason = forces_told.partition(": ")
+    assert titles.count(";") == len(MEMBER_MODES) - 1
+    assert "overtops the net" in reason
+    assert height_told.startswith("Net, height: The net height 2.2 m")

@@ -1,0 +1,176 @@
+"""A site on which more than three quantities range: cases, document, audit, outputs."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import Scene
+from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.report.page.html import render_html
+from netdesign.report.view.case_table import build_case_table
+from netdesign.site.model import InputEcho
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.snow.snowpack import Layer
+from netdesign.study.audit.study_audit import audit_study
+from netdesign.study.cases import search_site, solve_site
+from netdesign.study.document import read_document, write_document
+from netdesign.study.judge import judge_site
+from netdesign.study.probe import Probe, build_scene
+from netdesign.study.record_cases import read_point, record_point
+from netdesign.words.message import say
+from tests.small_site import RUN, build_row, build_site
+
+RANGES = Ranges.of(
+    density=Interval(low=283.0, high=371.0),
+    friction_angle=Interval(low=0.43, high=0.43),
+    inclination=Interval(low=0.52, high=0.52),
+    thickness=Interval(low=2.13, high=2.5),
+    slack=Interval(low=0.021, high=0.073),
+    glide_factor=Interval(low=1.23, high=1.77),
+)
+LAYERS = (
+    Layer(thickness=0.9, density=377.0),
+    Layer(thickness=1.4, density=291.0),
+)
+
+
+def sliding(name, **changes):
+    ground = build_ground_from_glide_factor(1.77, 2.5)
+    return build_row(name, ground=ground, glide_factor=1.77, slack=0.021, **changes)
+
+
+def echo(quantity, end, value):
+    label = say(f"column.{end}_end", name=say(f"column.quantities.{quantity}"))
+    return InputEcho(label=label, unit="-", text=str(value), value=value, cell="B9")
+
+
+@pytest.fixture(scope="module")
+def site():
+    rows = (sliding("uniform"), sliding("layered", layers=LAYERS))
+    ends = [(end, getattr(RANGES["slack"], end)) for end in ("low", "high")]
+    inputs = tuple(echo("slack", end, value) for end, value in ends)
+    return build_site(*rows, ranges=RANGES, range_inputs=inputs)
+
+
+@pytest.fixture(scope="module")
+def envelopes(site):
+    return search_site(site, RUN)
+
+
+@pytest.fixture(scope="module")
+def standard():
+    return load_standard("nf-p-95-304-style")
+
+
+@pytest.fixture(scope="module")
+def study(site, envelopes, standard):
+    probe = Probe(RUN.settings, RUN.creep_law)
+    return judge_site(site, envelopes, standard, RUN, probe)
+
+
+def test_the_worst_foot_case_is_deep_snow_that_glides_on_a_taut_net(envelopes):
+    for envelope in envelopes:
+        assert envelope.maxima.is_closed
+        values = envelope.extremes["foot_anchor"].governing.case.values
+        assert values["thickness"] == 2.5
+        assert values["slack"] == 0.021
+        assert values["glide_factor"] == 1.77
+        assert values["density"] == 371.0
+
+
+def test_a_case_is_that_of_a_row_with_its_values(site):
+    """Whichever way a value comes in, the scene is the same."""
+    case = Case(
+        density=311.0,
+        friction_angle=0.43,
+        inclination=0.52,
+        others=(("thickness", 2.3), ("slack", 0.05), ("glide_factor", 1.5)),
+    )
+    single = replace(case, others=())
+    for row in site.rows:
+        typed = replace(
+            row,
+            snow_thickness=2.3,
+            slack=0.05,
+            ground=build_ground_from_glide_factor(1.5, 2.3),
+        )
+        scene: Scene = build_scene(row, case, BOUTILLIER_2004)
+        assert scene == build_scene(typed, single, BOUTILLIER_2004)
+
+
+def test_points_go_to_records_and_back():
+    values = RANGES.place((0.3, 0.7, 0.2, 0.9))
+    case = Case.of(values)
+    point = record_point(case)
+    assert (point.thickness_m, point.slack) == (values["thickness"], values["slack"])
+    assert point.upslope_length_m is None
+    again = read_point(point)
+    assert again.others == case.others
+    assert again.inclination == pytest.approx(case.inclination, rel=1e-9)
+
+
+def test_the_document_holds_what_ranges_and_nothing_else(study):
+    text = write_document(study)
+    document = json.loads(text)
+    keys = ["density_kg_m3", "friction_deg", "inclination_deg", "thickness_m", "slack"]
+    for row in document["rows"]:
+        assert all([*case["case"]] == [*keys, "glide_factor"] for case in row["cases"])
+        assert [*row["checks"][0]["case"]] == [*keys, "glide_factor"]
+        assert [axis["key"] for axis in row["envelope"]["axes"]][3:] == [
+            "thickness_m", "slack", "glide_factor",
+        ]  # fmt: skip
+    assert read_document(text) == replace(study, digest=document["digest"])
+
+
+def test_the_audit_finds_nothing_but_what_was_altered(study, standard):
+    assert audit_study(study, standard) == []
+    row = study.rows[0]
+    for change in ({"slack": 0.074}, {"slack": None}):
+        case = replace(row.cases[0], case=replace(row.cases[0].case, **change))
+        altered = replace(row, cases=[case, *row.cases[1:]])
+        told = audit_study(replace(study, rows=[altered, *study.rows[1:]]), standard)
+        assert any("slack" in str(one) for one in told)
+
+
+def test_only_single_values_are_moved(study):
+    """At the support that uses its member most."""
+    check = next(one for one in study.rows[0].checks if one.holds)
+    quantities = {hold.quantity for hold in check.holds}
+    assert check.position == "edge"
+    assert quantities == {
+        "friction_deg", "inclination_deg", "upslope_length_m", "stiffness_kN_per_m",
+    }  # fmt: skip
+
+
+def test_outputs_have_a_column_for_what_ranges(study):
+    table = build_case_table(study)
+    assert {"thickness_m", "slack", "glide_factor"} <= set(table.columns)
+    assert "slip_length_m" not in table.columns
+    assert table["slack"].between(0.021, 0.073).all()
+    page = render_html(study)
+    assert "Glide factor" in page
+    assert "d 2.5 m, s 0.021, N 1.77" in page.replace("\N{NO-BREAK SPACE}", " ")
+
+
+def test_a_grid_estimates_what_hides_along_every_range():
+    ranges = Ranges.of(
+        density=Interval(low=371.0, high=371.0, count=1),
+        friction_angle=Interval(low=0.43, high=0.43, count=1),
+        inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
+        slack=Interval(low=0.021, high=0.073, count=3),
+        upslope_length=Interval(low=5.2, high=7.9, count=2),
+    )
+    (grid,) = solve_site(build_site(build_row("R1"), ranges=ranges), RUN)
+    assert len(grid.results) == 6
+    foot = grid.extremes["foot_anchor"]
+    assert foot.unknown == ("upslope_length",)
+    assert foot.hidden > 0.0
+
+
+def test_without_further_ranges_a_case_has_three_values():
+    point = record_point(Case(density=300.0, friction_angle=0.4, inclination=0.5))
+    assert [*point.values] == ["density_kg_m3", "friction_deg", "inclination_deg"]

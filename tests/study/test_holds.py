@@ -1,0 +1,250 @@
+"""Limits of single values: against closed forms, with made-up forces."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import Band
+from netdesign.envelope.parameters import PARAMETERS
+from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import Outcome
+from netdesign.site.model import NetRow
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from netdesign.study.flips import Target
+from netdesign.study.holds import HeldCheck, find_holds, list_spans, move_case
+from tests.small_site import build_row
+
+RANGES = Ranges.of(
+    density=Interval(low=263.0, high=391.0),
+    friction_angle=Interval(low=0.31, high=0.72),
+    inclination=Interval(low=0.52, high=0.52),
+)
+ROW = build_row(
+    "R",
+    snow_thickness=2.47,
+    upslope_length=13.3,
+    ground=build_ground_from_glide_factor(1.62, 2.47),
+    glide_factor=1.62,
+    net_height=3.1,
+    net_stiffness_per_m=7.3e6,
+    slack=0.037,
+    resistances=(),
+)
+GOVERNING = Case(density=391.0, friction_angle=0.72, inclination=0.52)
+RIVAL = Case(density=391.0, friction_angle=0.31, inclination=0.52)
+OTHER = Case(density=263.0, friction_angle=0.31, inclination=0.52)
+
+
+def _loosen(slack: float) -> float:
+    """Share of a slack, finite at none, 1 as the row is."""
+    return (slack + 0.004) / 0.041
+
+
+def _slack_of(share: float) -> float:
+    return 0.041 * share - 0.004
+
+
+def tauter(row: NetRow, case: Case) -> dict[str, float]:
+    """Foot: 1 N as the row is, more with a tauter and stiffer net; post the reverse."""
+    at = row.at(case)
+    foot = _loosen(at.slack) ** -0.21 * (at.net_stiffness_per_m / 7.3e6) ** 0.13
+    foot *= (at.snow_thickness / 2.47) ** 2.1 * (at.glide_factor / 1.62) ** 1.2
+    share = {GOVERNING.density: 1.0, OTHER.density: 0.6}.get(case.density, 1.0)
+    share *= 1.0 if case.friction_angle == 0.72 else 0.95
+    return {"foot_anchor": foot * share, "post": share / foot}
+
+
+def never(*_):
+    return False
+
+
+def alone(*_):
+    """No end effect."""
+    return 1.0
+
+
+class MadeUpProbe:
+    """Stands for the coupled solve; solves each case once, like a probe."""
+
+    def __init__(self, forces=tauter, fails=never):
+        self.count, self._forces, self._fails = 0, forces, fails
+        self._known, self.law = {}, BOUTILLIER_2004
+
+    def solve_all(self, wanted):
+        return [self._solve(row, case) for row, case, _ in wanted]
+
+    def _solve(self, row, case):
+        if (row, case) not in self._known:
+            self.count += 1
+            self._known[row, case] = a_result(self._forces, self._fails, row, case)
+        return self._known[row, case]
+
+
+def a_result(forces, fails, row, case):
+    if fails(row, case):
+        return CaseResult(
+            case=case, outcome=Outcome.DIVERGED, reason="spoilt", member_forces={}
+        )
+    bands = {
+        name: Band(low=force, value=force, high=force)
+        for name, force in forces(row, case).items()
+    }
+    return CaseResult(case=case, outcome=Outcome.CONVERGED, member_forces=bands)
+
+
+def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
+    cases = (GOVERNING, RIVAL, OTHER)
+    return Target(
+        row=row,
+        ranges=ranges,
+        member=member,
+        scale=used,
+        governing=GOVERNING,
+        results=[a_result(forces, never, row, case) for case in cases],
+    )
+
+
+def hold_of(target, quantity, probe=None, widen=alone):
+    held = HeldCheck(target=target, widen=widen)
+    found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
+    return next(one for one in found if one.quantity == quantity)
+
+
+@pytest.mark.parametrize("used", [0.86, 0.91, 0.97])
+def test_a_pass_holds_down_to_the_slack_at_which_a_power_law_turns(used):
+    hold = hold_of(a_target(used), "slack")
+    exact = _slack_of(used ** (1.0 / 0.21))
+    assert exact <= hold.least < 0.037
+    at = used * _loosen(hold.least) ** -0.21
+    assert 0.92 <= at <= 1.0
+    assert hold.most is None
+    assert (hold.low, hold.high) == (0.0, pytest.approx(0.137))
+
+
+@pytest.mark.parametrize("used", [0.83, 0.9])
+def test_the_other_member_turns_on_the_other_side(used):
+    """Slack and stiffness act oppositely on foot and post."""
+    foot, post = (
+        hold_of(a_target(used, member), "thickness_m")
+        for member in ("foot_anchor", "post")
+    )
+    assert foot.most == pytest.approx(2.47 * used ** (-1.0 / 2.1), rel=0.04)
+    assert post.least == pytest.approx(2.47 * used ** (1.0 / 2.1), rel=0.04)
+    assert foot.least is post.most is None
+
+
+def test_limits_are_rounded_to_the_passing_side():
+    hold = hold_of(a_target(0.93), "stiffness_kN_per_m")
+    exact = 7300.0 * 0.93 ** (-1.0 / 0.13)
+    assert hold.most <= exact
+    assert hold.most == float(f"{hold.most:.3g}")
+    assert hold.now == 7300.0
+
+
+@pytest.mark.parametrize("used", [1.04, 1.2])
+def test_a_fail_would_pass_below_a_thickness_and_above_a_slack(used):
+    target = a_target(used)
+    thickness = hold_of(target, "thickness_m")
+    assert thickness.most <= 2.47 * used ** (-1.0 / 2.1)
+    assert thickness.most == pytest.approx(2.47 * used ** (-1.0 / 2.1), rel=0.04)
+    assert thickness.least is None
+    slack = hold_of(target, "slack")
+    exact = _slack_of(used ** (1.0 / 0.21))
+    assert slack.most is None
+    assert slack.least is not None
+    assert slack.least >= exact
+
+
+def test_nothing_in_reach_is_no_limit():
+    hold = hold_of(a_target(4.0), "slack")
+    assert (hold.least, hold.most) == (None, None)
+    assert hold_of(a_target(0.2), "upslope_length_m").least is None
+
+
+def test_the_end_effect_that_grows_with_glide_brings_the_limit_nearer():
+    plain = hold_of(a_target(0.85), "glide_factor")
+    wide = hold_of(a_target(0.85), "glide_factor", widen=lambda row: row.glide_factor)
+    assert plain.most == pytest.approx(1.62 * 0.85 ** (-1 / 1.2), rel=0.05)
+    assert wide.most == pytest.approx(1.62 * 0.85 ** (-1 / 2.2), rel=0.05)
+
+
+def test_a_rival_that_overtakes_is_confirmed_too():
+    """With less slack the rival's force grows faster: it sets the limit."""
+
+    def crossing(row, case):
+        power = -0.6 if case.friction_angle == 0.31 else -0.2
+        share = 0.6 if case.density == 263.0 else 1.0
+        near = 0.97 if case.friction_angle == 0.31 else 1.0
+        force = share * near * _loosen(row.at(case).slack) ** power
+        return {"foot_anchor": force}
+
+    target = a_target(0.8, forces=crossing)
+    hold = hold_of(target, "slack", MadeUpProbe(crossing))
+    worst = max(crossing(ROW, move_case(case, "slack", hold.least))["foot_anchor"]
+                for case in (GOVERNING, RIVAL))  # fmt: skip
+    assert 0.8 * worst <= 1.0
+
+
+def test_the_guidelines_load_limits_what_the_coupled_solve_would_allow():
+    """A floor of 0.9 that rises with the thickness to the power of three."""
+    floor = replace(
+        a_target(0.6), use_floor=lambda row: 0.9 * (row.snow_thickness / 2.47) ** 3
+    )
+    hold = hold_of(floor, "thickness_m")
+    assert hold.most <= 2.47 * 0.9 ** (-1 / 3)
+    assert hold.most == pytest.approx(2.47 * 0.9 ** (-1 / 3), rel=0.03)
+    assert hold_of(a_target(0.6), "thickness_m").most is None
+
+
+def test_members_share_solves():
+    """Ends of the search are solved once for all checks of a row."""
+    probe, targets = MadeUpProbe(), {}
+    for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
+        target = a_target(used, ("foot_anchor", "post")[k % 2])
+        targets[str(k)] = HeldCheck(target=target, widen=alone)
+    find_holds(targets, probe)
+    assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
+
+
+def test_a_case_without_a_result_gives_no_limit_and_says_so():
+    probe = MadeUpProbe(fails=lambda row, case: row.at(case).slack < 0.02)
+    hold = hold_of(a_target(0.9), "slack", probe)
+    assert (hold.least, hold.low) == (None, 0.037)
+    assert "without a result" in str(hold.note)
+
+
+def test_only_what_does_not_range_is_moved():
+    names = [span.name for span in list_spans(ROW, RANGES)]
+    assert names == [
+        "inclination", "thickness", "upslope_length", "slack", "net_stiffness",
+        "glide_factor",
+    ]  # fmt: skip
+    wider = Ranges.of(
+        **dict(RANGES.intervals),
+        snow_height=Interval(low=2.1, high=3.3),
+        slip_length=Interval(low=0.4, high=2.9),
+    )
+    left = [span.name for span in list_spans(ROW, wider)]
+    assert left == ["inclination", "upslope_length", "slack", "net_stiffness"]
+    slip = replace(ROW, glide_factor=None)
+    assert list_spans(slip, RANGES)[-1].name == "slip_length"
+    rough = replace(slip, ground=GroundLaw(kind="no-slip"))
+    assert list_spans(rough, RANGES)[-1].name == "net_stiffness"
+
+
+def test_every_search_holds_what_is_given():
+    for span in list_spans(ROW, RANGES):
+        assert span.low <= span.now <= span.high
+        assert span.low < span.high
+        assert PARAMETERS[span.name].show(span.now) > 0.0
+
+
+def test_a_moved_case_drops_the_other_name_of_the_quantity():
+    case = Case.of({**GOVERNING.values, "snow_height": 3.0, "slack": 0.02})
+    moved = move_case(case, "thickness", 2.2)
+    assert dict(moved.others) == {"slack": 0.02, "thickness": 2.2}
+    assert moved.density == GOVERNING.density
+    assert math.isclose(ROW.at(moved).snow_thickness, 2.2)

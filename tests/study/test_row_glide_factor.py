@@ -1,0 +1,77 @@
+"""Glide factor by which the guideline and the ends of a row are loaded."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.guideline.comparison import find_glide_factor
+from netdesign.snow.ground import (
+    LARGEST_GLIDE_FACTOR,
+    GroundLaw,
+    build_ground_from_glide_factor,
+)
+from netdesign.study.cases import solve_site
+from netdesign.study.effects import find_row_glide_factor
+from netdesign.study.judge import judge_site
+from tests.small_site import RUN, build_row, build_site
+
+SLIDING = GroundLaw(kind="sliding", slip_length=7.3)
+ONE_CASE = Ranges.of(
+    density=Interval(low=347.0, high=347.0, count=1),
+    friction_angle=Interval(low=0.41, high=0.41, count=1),
+    inclination=Interval(low=0.47, high=0.47, count=1),
+)
+
+
+def a_row(ground=SLIDING, glide_factor=None):
+    row = build_row("R1", ground=ground, gap=1.7)
+    layout = replace(row.layout, post_spacing=2.0)  # its ends carry more
+    return replace(row, glide_factor=glide_factor, layout=layout)
+
+
+@pytest.mark.parametrize("glide", [1.0004, 2.713, 3.2])
+def test_a_typed_factor_is_taken_as_it_is(glide):
+    """Whatever slip length the ground has: it is not asked."""
+    assert find_row_glide_factor(a_row(glide_factor=glide)) == glide
+
+
+@pytest.mark.parametrize("glide", [1.37, 2.713, 3.2])
+def test_without_one_the_slip_length_leads_back_to_it(glide):
+    row = a_row()
+    ground = build_ground_from_glide_factor(glide, row.snow_thickness)
+    assert find_row_glide_factor(a_row(ground)) == pytest.approx(glide, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("ground", "expected"),
+    [
+        (GroundLaw(kind="no-slip"), 1.0),
+        (GroundLaw(kind="free"), 3.2),  # the largest of the guideline's tables
+        (GroundLaw(kind="sliding", slip_length=199.0), LARGEST_GLIDE_FACTOR),
+    ],
+)
+def test_at_the_ends_of_the_table(ground, expected):
+    assert find_row_glide_factor(a_row(ground)) == expected
+    assert find_glide_factor(ground, a_row().snow_thickness, 3.2) == expected
+
+
+def study(glide_factor):
+    """A row on ground whose slip length belongs to another factor, at one case."""
+    site = build_site(a_row(glide_factor=glide_factor), ranges=ONE_CASE)
+    standard = load_standard("swiss-guideline-2007")
+    return judge_site(site, solve_site(site, RUN), standard, RUN, None).rows[0]
+
+
+def test_the_end_of_a_row_and_the_guideline_take_the_typed_factor():
+    rows = [study(glide) for glide in (2.413, 3.2)]
+    assert {one.glide_factor for one in rows[0].guideline.cases} == {2.413}
+    assert {one.glide_factor for one in rows[1].guideline.cases} == {3.2}
+    widths = [
+        max(one.action.loaded_width_m for one in row.checks if one.action)
+        for row in rows
+    ]
+    # f_R = (0.92 + 0.65 N) A / 2 over l_R = 0.6 A / 2; structure/THEORY.md, (S9)
+    wider = 0.65 * (3.2 - 2.413) * (1.7 / 2.0) * (0.6 * 1.7 / 2.0)
+    assert widths[1] - widths[0] == pytest.approx(wider, rel=1e-9)
