@@ -136,18 +136,21 @@ def list_reasons(
 
     Checks with the same reason stand before it together.
     """
-    open_: dict[Message, list[Message]] = {}
+    titles: dict[str, list[Message]] = {}
+    reasons: dict[str, Message] = {}
     for check in checks:
         if check.verdict is not Verdict.PASS:
             title = name_check(check.member, check.mode, check.position)
-            open_.setdefault(check.reason, []).append(title)
+            told = str(check.reason)  # numbers that are not shown may differ
+            titles.setdefault(told, []).append(title)
+            reasons.setdefault(told, check.reason)
     unproven = [
         say(
             "row.check_reason",
-            check=tuple(titles) if len(titles) > 1 else titles[0],
-            reason=reason,
+            check=tuple(named) if len(named) > 1 else named[0],
+            reason=reasons[told],
         )
-        for reason, titles in open_.items()
+        for told, named in titles.items()
     ]
     unmet = [
         say("row.law_not_met", law=name("law", one.name))
