@@ -17,6 +17,7 @@ from netdesign.evidence.verification.coupled import (
 )
 from netdesign.evidence.verification.histories import list_histories
 from netdesign.evidence.verification.manufactured import list_manufactured
+from netdesign.evidence.verification.panels import list_panels
 from netdesign.evidence.verification.sliding_net import list_sliding_net
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
 
@@ -36,6 +37,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_walls,
     list_depth_averaged,
     list_histories,
+    list_panels,
 )
 
 

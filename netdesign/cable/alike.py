@@ -1,0 +1,131 @@
+"""Cables under the same forces, of different lengths and ends, pulled all at once.
+
+Newton's method on (C4) for many cables together: one pass through arrays takes hardly
+longer than for one. Only pulls come out; ``solve_funicular`` draws the curve of one.
+Theory: cable/THEORY.md, eqs (C3) to (C5).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.cable.funicular import tension_offsets
+from netdesign.numerics.arrays import Floats
+
+_MOST_STEPS = 100
+_MOST_HALVINGS = 40
+_ACCEPTED_CLIMB = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class AlikeCables:
+    """Common part of cables that differ in length and ends.
+
+    Attributes
+    ----------
+    offsets : ndarray, shape (2, 2 n)
+        Tension vectors at the Gauss points less the pull, (C3).
+    weights : ndarray, shape (2 n,)
+        Of the Gauss points, over the whole length [-].
+    stiffness : float
+        ES, in the unit of the forces.
+    to_foot : ndarray, shape (2,)
+        Pull at the foot less the pull of the first element, (C5).
+    load : ndarray, shape (2,)
+        Sum of the forces.
+    """
+
+    offsets: Floats
+    weights: Floats
+    stiffness: float
+    to_foot: Floats
+    load: Floats
+
+
+def build_alike(forces: Floats, shares: Floats, stiffness: float) -> AlikeCables:
+    """Common part of cables under these forces.
+
+    Parameters
+    ----------
+    forces : ndarray, shape (2, 2 n + 1)
+        Nodal forces, foot to head, as ``solve_funicular`` takes them.
+    shares : ndarray, shape (n,)
+        Unstressed lengths of the elements over that of the whole [-].
+    stiffness : float
+        ES, in the unit of the forces.
+    """
+    bend = -0.75 * forces[:, 1::2]
+    return AlikeCables(
+        offsets=tension_offsets(forces, bend).reshape(2, -1),
+        weights=np.concatenate([shares, shares]) / 2.0,
+        stiffness=stiffness,
+        to_foot=forces[:, 0] - 2.0 / 3.0 * bend[:, 0],
+        load=forces.sum(axis=1),
+    )
+
+
+def find_pulls(
+    cables: AlikeCables, ends: Floats, start: Floats, *, tolerance: float = 1e-12
+) -> Floats | None:
+    """Pull of each cable, the tension vector of its first element at the middle.
+
+    Parameters
+    ----------
+    cables : AlikeCables
+        What they have in common.
+    ends : ndarray, shape (2, K)
+        Head less foot of each, over its unstressed length [-].
+    start : ndarray, shape (2, K)
+        Guesses, in the unit of the forces.
+    tolerance : float
+        Gap at the head, over the length, that counts as closed.
+
+    Returns
+    -------
+    ndarray, shape (2, K), or None
+        In the unit of the forces; None if one of them finds no equilibrium.
+
+    Verified by
+    -----------
+    tests/cable/test_alike.py
+    """
+    pulls = start
+    gap, step = _step(cables, ends, pulls)
+    for _ in range(_MOST_STEPS):
+        if not np.isfinite(gap).all():
+            return None
+        if np.hypot(*gap).max() <= tolerance:
+            return pulls
+        descent = -np.einsum("ik,ik->k", gap, step)
+        share = np.ones(descent.size)
+        for _ in range(_MOST_HALVINGS):
+            new_gap, new_step = _step(cables, ends, pulls + share * step)
+            climb = np.einsum("ik,ik->k", new_gap, step)
+            climbs = ~(climb <= _ACCEPTED_CLIMB * descent)
+            if not climbs.any():
+                break
+            share[climbs] /= 2.0
+        pulls = pulls + share * step
+        gap, step = new_gap, new_step
+    return None
+
+
+def _step(cables: AlikeCables, ends: Floats, pulls: Floats) -> tuple[Floats, Floats]:
+    """Gap at each head, the gradient of (C4), and Newton's step to close it."""
+    x = pulls[0, :, None] + cables.offsets[0]
+    y = pulls[1, :, None] + cables.offsets[1]
+    square = x * x + y * y
+    share = cables.weights / np.sqrt(square)
+    give = share + cables.weights / cables.stiffness
+    gap = np.array([np.einsum("kg,kg->k", x, give), np.einsum("kg,kg->k", y, give)])
+    gap -= ends
+    bent = share / square
+    whole = give.sum(axis=1)
+    xx = whole - np.einsum("kg,kg,kg->k", x, x, bent)
+    yy = whole - np.einsum("kg,kg,kg->k", y, y, bent)
+    xy = -np.einsum("kg,kg,kg->k", x, y, bent)
+    size = xx * yy - xy * xy
+    step = np.array([xy * gap[1] - yy * gap[0], xy * gap[0] - xx * gap[1]]) / size
+    return gap, step

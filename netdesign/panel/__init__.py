@@ -1,0 +1,1 @@
+"""A net between two posts, hung on a ridge rope and a lower rope."""

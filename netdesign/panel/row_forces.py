@@ -1,0 +1,128 @@
+"""Forces of a row of panels on its supports, inside the row and at its end.
+
+Theory: panel/THEORY.md, section 4; structure/THEORY.md, (S1) to (S6).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.guards import require_within
+from netdesign.panel.solution import PanelSolution
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import SupportPoints
+
+# A steeper end guy holds next to nothing along the row.
+LARGEST_GUY_ANGLE = math.radians(80.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EndForces:
+    """Forces of the first or last support of a row.
+
+    Attributes
+    ----------
+    support : AnchorForces
+        Forces in the section, of half a bay [N].
+    foot : tuple of float, shape (3,)
+        Force on the foot anchor: downslope, out of the ground, along the row [N].
+    head_along : float
+        Pull of the ridge rope on the post head along the row [N].
+    guy_tension : float
+        Of the end guy that holds the head along the row [N].
+    post_compression : float
+        Of half a bay and of that guy [N].
+    """
+
+    support: AnchorForces
+    foot: tuple[float, float, float]
+    head_along: float
+    guy_tension: float
+    post_compression: float
+
+    @property
+    def foot_size(self) -> float:
+        """Size of the force on the foot anchor [N]."""
+        return math.hypot(*self.foot)
+
+    @property
+    def foot_off_fall_line(self) -> float:
+        """Angle of that force to the fall line, seen from above the slope [rad]."""
+        return math.atan2(self.foot[2], self.foot[0])
+
+
+def compute_interior_forces(
+    panel: PanelSolution, points: SupportPoints
+) -> AnchorForces | FailedSupport:
+    """Forces of a support between two equal panels.
+
+    Parameters
+    ----------
+    panel : PanelSolution
+        Each of the two.
+    points : SupportPoints
+        Geometry of the support [m].
+
+    Returns
+    -------
+    AnchorForces or FailedSupport
+        Per anchor [N]. The anchor in mid-panel is not among them: ``mid_foot``.
+    """
+    return _resolve(panel, points, panel.panel.post_spacing)
+
+
+def compute_end_forces(
+    panel: PanelSolution, points: SupportPoints, guy_angle: float
+) -> EndForces | FailedSupport:
+    """Forces of the support at a row's end: half a bay, and both ropes, (P7).
+
+    Parameters
+    ----------
+    panel : PanelSolution
+        The last panel.
+    points : SupportPoints
+        Geometry of the support [m].
+    guy_angle : float
+        Of the guy that holds the head along the row, to the row [rad].
+
+    Returns
+    -------
+    EndForces or FailedSupport
+        Per anchor [N].
+
+    Raises
+    ------
+    ModelError
+        If the guy is steeper than ``LARGEST_GUY_ANGLE``.
+
+    Verified by
+    -----------
+    tests/verification/test_panel.py
+    """
+    require_within("end guy angle", guy_angle, 0.0, LARGEST_GUY_ANGLE, "rad")
+    support = _resolve(panel, points, panel.panel.post_spacing / 2.0)
+    if isinstance(support, FailedSupport):
+        return support
+    along = panel.upper.along
+    return EndForces(
+        support=support,
+        foot=(support.foot_anchor.x, support.foot_anchor.y, panel.lower.along),
+        head_along=along,
+        guy_tension=along / math.cos(guy_angle),
+        post_compression=support.head.post_compression + along * math.tan(guy_angle),
+    )
+
+
+def _resolve(
+    panel: PanelSolution, points: SupportPoints, width: float
+) -> AnchorForces | FailedSupport:
+    """Forces in the section from this width of the panel."""
+    spacing = panel.panel.post_spacing
+    return compute_anchor_forces(
+        points,
+        foot_pull_per_m=(panel.foot[0] / spacing, panel.foot[1] / spacing),
+        head_pull_per_m=(panel.head[0] / spacing, panel.head[1] / spacing),
+        post_spacing=width,
+    )

@@ -1,0 +1,213 @@
+"""Strips of the net, hung again between two ropes under the forces that they had.
+
+Nodal forces stay vectors at their material points, so that foot and head together
+keep their sum. Theory: panel/THEORY.md, section 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.cable.alike import AlikeCables, build_alike, find_pulls
+from netdesign.cable.funicular import solve_funicular, tension_offsets
+from netdesign.cable.net import Net
+from netdesign.coupling.solution import Solution
+from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome
+from netdesign.panel.inputs import Panel
+from netdesign.panel.stations import Stations
+from netdesign.words.message import say
+
+# Share of the chord that a cut must leave between two ropes; choice of this program.
+LEAST_NET = 0.1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Strip:
+    """A metre of net as the section at the post has it.
+
+    Attributes
+    ----------
+    forces : ndarray, shape (2, 2 n + 1)
+        Of the snow on its nodes, foot to head [N/m].
+    shares : ndarray, shape (n,)
+        Unstressed lengths of its elements over that of the whole [-].
+    stiffness : float
+        ES [N/m].
+    head : ndarray, shape (2,)
+        Position of the post's head [m].
+    slack : float
+        Of the net, over its chord [-].
+    foot_pull : ndarray, shape (2,)
+        On its foot [N/m].
+    alike : AlikeCables
+        What it has in common with the strips between posts [N/m].
+    """
+
+    forces: Floats
+    shares: Floats
+    stiffness: float
+    head: Floats
+    slack: float
+    foot_pull: Floats
+    alike: AlikeCables
+
+    @property
+    def load(self) -> Floats:
+        """Sum of the forces, shape (2,) [N/m]."""
+        return self.alike.load
+
+    @property
+    def chord(self) -> float:
+        """Distance of foot and head [m]."""
+        return float(np.hypot(*self.head))
+
+
+def build_strip(solution: Solution) -> Strip:
+    """Strip of a net at rest.
+
+    The unstressed lengths follow from the curve: each element is as long as it would
+    be without the tension that the forces leave in it.
+
+    Parameters
+    ----------
+    solution : Solution
+        A steady state: of a history no instant has both the forces and the curve.
+
+    Raises
+    ------
+    ModelError
+        If the solution is no steady state of a net.
+    """
+    net = solution.scene.net
+    if solution.method != "steady" or not isinstance(net, Net):
+        raise ModelError(say("panel.steady_only", method=solution.method))
+    curve, forces = solution.net_curve, solution.net_forces
+    above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
+    forces = np.concatenate([forces, above], axis=1)
+    foot_pull = np.array([solution.foot.x, solution.foot.y])
+    bend = -0.75 * forces[:, 1::2]
+    pull = foot_pull + 2.0 / 3.0 * bend[:, 0] - forces[:, 0]  # (C5)
+    tension = pull[:, None, None] + tension_offsets(forces, bend)
+    give = 1.0 / np.hypot(*tension) + 1.0 / net.stiffness_per_m
+    reach = (tension * give).mean(axis=1)  # of an element, over its length
+    lengths = np.hypot(*np.diff(curve[:, ::2])) / np.hypot(*reach)
+    shares = lengths / lengths.sum()
+    return Strip(
+        forces=forces,
+        shares=shares,
+        stiffness=net.stiffness_per_m,
+        head=net.head,
+        slack=net.slack,
+        foot_pull=foot_pull,
+        alike=build_alike(forces, shares, net.stiffness_per_m),
+    )
+
+
+def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
+    """Unstressed length of the strip at each station and in mid-panel, (P4).
+
+    Parameters
+    ----------
+    panel : Panel
+        Its cut, and the ropes that it may follow.
+    strip : Strip
+        The net at the post.
+    stations : Stations
+        Places of the strips.
+
+    Returns
+    -------
+    ndarray, shape (K + 1,)
+        [m].
+
+    Raises
+    ------
+    SolveError
+        If the ropes hang so low that less than ``LEAST_NET`` is left of the chord.
+    """
+    lowered = np.zeros(stations.xi.size + 1)
+    if panel.cut in ("upper", "fitted"):
+        lowered += panel.upper.sag * stations.upper.drape
+    if panel.cut == "fitted":
+        lowered += panel.lower.sag * stations.lower.drape
+    lengths = strip.chord - panel.post_spacing * lowered
+    if not lengths.min() > LEAST_NET * strip.chord:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
+    return np.asarray((1.0 + strip.slack) * lengths)
+
+
+def pull_strips(
+    strip: Strip, lengths: Floats, displacements: Floats, start: Floats
+) -> Floats:
+    """Pulls of the strips between displaced ropes.
+
+    Parameters
+    ----------
+    strip : Strip
+        Forces and shares of the length.
+    lengths : ndarray, shape (K,)
+        Unstressed [m].
+    displacements : ndarray, shape (2, 2, K)
+        Of the lower and the upper rope, (x, y) at each station [m].
+    start : ndarray, shape (2, K)
+        What each pulled with on the lower rope last [N/m].
+
+    Returns
+    -------
+    ndarray, shape (2, 2, K)
+        On the lower and the upper rope [N/m].
+
+    Raises
+    ------
+    SolveError
+        If one of them finds no equilibrium.
+    """
+    cables = strip.alike
+    ends = strip.head[:, None] + displacements[1] - displacements[0]
+    to_foot = cables.to_foot[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):  # then nothing is found
+        pulls = find_pulls(cables, ends / lengths, start - to_foot)
+    if pulls is None:
+        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.strip_not_found"))
+    foot = pulls + to_foot
+    return np.array([foot, cables.load[:, None] - foot])
+
+
+def draw_strip(strip: Strip, length: float, ends: Floats, foot_pull: Floats) -> Floats:
+    """Curve of a strip in the section's axes.
+
+    Parameters
+    ----------
+    strip : Strip
+        Forces and shares of the length.
+    length : float
+        Unstressed [m].
+    ends : ndarray, shape (2, 2)
+        Displacement of its foot and of its head [m].
+    foot_pull : ndarray, shape (2,)
+        About what it pulls with on its foot [N/m].
+
+    Returns
+    -------
+    ndarray, shape (2, 2 n + 1)
+        Nodes, foot to head [m].
+
+    Raises
+    ------
+    SolveError
+        If it finds no equilibrium.
+    """
+    cable = solve_funicular(
+        strip.forces,
+        strip.shares * length,
+        strip.stiffness,
+        strip.head + ends[1] - ends[0],
+        foot_pull,
+    )
+    if cable.outcome is not Outcome.CONVERGED:
+        raise SolveError(cable.outcome, say("panel.strip_not_found"))
+    return np.asarray(cable.curve + ends[0][:, None])

@@ -1,0 +1,147 @@
+"""Panels at rest: mirror and scale, what is refused and by which name."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.outcome import Outcome
+from netdesign.panel import solve as solving
+from netdesign.panel.inputs import Panel, Rope
+from netdesign.panel.solution import FailedPanel, PanelSolution
+from netdesign.panel.solve import STATIONS, solve_panel
+
+PANEL = Panel(
+    post_spacing=3.8,
+    lower=Rope(stiffness=21e6, sag=0.037),
+    upper=Rope(stiffness=16e6, sag=0.062),
+    cut="upper",
+)
+
+
+@pytest.fixture
+def section(solved):
+    return solved(inclination_deg=30.0, slack=0.03, ground="no-slip")
+
+
+@pytest.mark.parametrize("mid", [False, True])
+def test_result_is_whole_and_in_balance(section, mid):
+    solved = solve_panel(section, replace(PANEL, has_mid_anchors=mid))
+    assert isinstance(solved, PanelSolution)
+    assert solved.outcome is Outcome.CONVERGED
+    assert solved.balance.largest < 1e-8
+    both = np.array(solved.foot) + solved.mid_foot + solved.head
+    load = np.array([section.foot.x + section.head.x, section.foot.y + section.head.y])
+    np.testing.assert_allclose(both, 3.8 * load, rtol=1e-9)
+    assert solved.stations.shape == (STATIONS + 1,)
+    assert solved.curves.shape == (STATIONS + 1, *section.net_curve.shape)
+    assert solved.stations[-1] == 1.9
+    assert (solved.mid_foot == (0.0, 0.0)) is not mid
+
+
+@pytest.mark.parametrize("mid", [False, True])
+def test_curves_end_on_the_ropes(section, mid):
+    solved = solve_panel(section, replace(PANEL, has_mid_anchors=mid))
+    middle = solved.curves[-1]
+    np.testing.assert_allclose(middle[:, 0], solved.lower.mid_displacement, atol=1e-12)
+    head = section.scene.net.head + solved.upper.mid_displacement
+    np.testing.assert_allclose(middle[:, -1], head, atol=1e-10)
+
+
+def test_scaled_forces_scale_the_panel(section):
+    """Heavier snow on stiffer ropes and net: the same shape."""
+    heavy = 1.73
+    net = section.scene.net
+    scaled = replace(
+        section,
+        scene=replace(
+            section.scene, net=replace(net, stiffness_per_m=heavy * net.stiffness_per_m)
+        ),
+        net_forces=heavy * section.net_forces,
+        foot=replace(section.foot, x=heavy * section.foot.x, y=heavy * section.foot.y),
+    )
+    stiffer = replace(
+        PANEL,
+        lower=replace(PANEL.lower, stiffness=heavy * 21e6),
+        upper=replace(PANEL.upper, stiffness=heavy * 16e6),
+    )
+    before, after = solve_panel(section, PANEL), solve_panel(scaled, stiffer)
+    np.testing.assert_allclose(after.foot, heavy * np.array(before.foot), rtol=1e-8)
+    assert after.lower.along == pytest.approx(heavy * before.lower.along, rel=1e-8)
+    np.testing.assert_allclose(after.curves, before.curves, atol=1e-8)
+
+
+def test_more_sag_unloads_the_foot(section):
+    sizes = []
+    for sag in (0.0, 0.03, 0.06, 0.12):
+        panel = replace(PANEL, lower=replace(PANEL.lower, sag=sag), cut="uniform")
+        sizes.append(math.hypot(*solve_panel(section, panel).foot))
+    assert (np.diff(sizes) < 0.0).all()
+
+
+def test_net_on_the_ground_in_mid_panel_is_named(solved):
+    """Much slack, an inclined net, and ropes cut to fit: it would hang too low."""
+    low = solved(inclination_deg=38.0, slack=0.07, ground="no-slip")
+    panel = replace(PANEL, post_spacing=5.9, cut="uniform")
+    panel = replace(
+        panel,
+        lower=replace(panel.lower, sag=0.0),
+        upper=replace(panel.upper, sag=0.15),
+    )
+    failed = solve_panel(low, panel)
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is Outcome.OUT_OF_VALIDITY
+    assert "the net would lie on the ground" in str(failed.reason)
+
+
+def test_cut_without_net_is_a_result(section):
+    slack = Rope(stiffness=2e7, sag=0.3)
+    panel = Panel(post_spacing=9.3, lower=slack, upper=slack, cut="fitted")
+    failed = solve_panel(section, panel)
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is Outcome.OUT_OF_VALIDITY
+    assert "leaves next to no net" in str(failed.reason)
+
+
+def test_soft_ropes_that_pass_each_other_on_the_way(solved):
+    """A strip then hangs from nothing; half the way brings the rounds to their end."""
+    low = solved(thickness_m=1.7, inclination_deg=3.0, slack=0.06, slope_deg=47.0)
+    panel = Panel(
+        post_spacing=5.9,
+        lower=Rope(stiffness=1.2e6, sag=0.05),
+        upper=Rope(stiffness=2.4e6, sag=0.05),
+        cut="fitted",
+    )
+    soft = solve_panel(low, panel)
+    assert isinstance(soft, PanelSolution)
+    assert soft.balance.largest < 1e-8
+
+
+@pytest.mark.parametrize("stations", [0, 11])
+def test_number_of_stations_is_guarded(section, stations):
+    with pytest.raises(ModelError, match="stations"):
+        solve_panel(section, PANEL, stations=stations)
+
+
+@pytest.mark.parametrize("stations", [1, 10])
+def test_number_of_stations_at_its_bounds(section, stations):
+    solved = solve_panel(section, PANEL, stations=stations)
+    assert solved.stations.shape == (stations + 1,)
+
+
+def test_rounds_that_do_not_end_are_a_reason(section, monkeypatch):
+    monkeypatch.setattr(solving, "_MOST_ROUNDS", 3)
+    failed = solve_panel(section, PANEL)
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is Outcome.MAX_ITERATIONS
+
+
+def test_panel_out_of_balance_is_refused(section, monkeypatch):
+    """A loose end of the rounds shows in the moments."""
+    monkeypatch.setattr(solving, "_STILL", 1e-3)
+    failed = solve_panel(section, PANEL)
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is Outcome.BALANCE_VIOLATED
+    assert "balance misses" in str(failed.reason)
