@@ -16,6 +16,11 @@ from netdesign.site.columns.dimension_columns import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
+from netdesign.site.columns.support_columns import (
+    ANCHOR_BENDING,
+    GUYS_AND_AXES,
+    POST_BENDING,
+)
 from netdesign.site.columns.unit_names import (
     ANGLES,
     DENSITIES,
@@ -203,6 +208,7 @@ NETS = word_plan(
             _reference("downhill_guy", "Ropes"),
             _reference("post", "Posts"),
             *ROW_POSITION,
+            *GUYS_AND_AXES,
         ),
     )
 )
@@ -286,6 +292,7 @@ ANCHORS = word_plan(
                 note="how the pull-out resistance is known",
             ),
             *ANCHOR_DIMENSIONS,
+            *ANCHOR_BENDING,
         ),
     )
 )
@@ -307,6 +314,7 @@ POSTS = word_plan(
             _TYPE_ID,
             _resistance("compression", "compression"),
             *POST_DIMENSIONS,
+            *POST_BENDING,
         ),
     )
 )
