@@ -35,7 +35,14 @@ LATERAL_SHARE = "lateral.share"
 CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
-MODES = ("tendon", "pull_out", "rope", "compression", "bearing")
+ROPE_ANGLE = "anchor.angle.rope"
+BAR_ANGLE = "anchor.angle.bar"
+POST_EFFICIENCY = "post.efficiency"
+ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
+MODES = (
+    *("tendon", "pull_out", "rope", "compression", "bearing"),
+    *("bending", "compression_bending", "sliding"),
+)
 BASES = ("tested", "computed", "declared")
 
 # Accepted values of each file, with the unit in which they stand there.
@@ -49,6 +56,8 @@ LIMIT_UNITS = {
     HEIGHT_RATIO: "-",
     MAX_GAP: "m",
     GROUND_FRICTION: "-",
+    ROPE_ANGLE: "deg",
+    BAR_ANGLE: "deg",
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
@@ -59,6 +68,7 @@ LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
     ACTION_FACTOR,
+    ACCEPTANCE_TEST,
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
 )
@@ -85,6 +95,7 @@ MODEL_UNITS = {
     "end.length_cap": "-",
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
+    POST_EFFICIENCY: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {
@@ -195,7 +206,10 @@ class TableRow(_Table):
 
 
 class TableEntry(_Table):
-    """Values by a count: rows in order, without overlap and without a gap."""
+    """Values by a count: rows in order, without overlap and without a gap.
+
+    Counts below those of the first row have no value.
+    """
 
     id: Annotated[str, AfterValidator(_table_id)]
     clause: Text
@@ -211,7 +225,7 @@ class TableEntry(_Table):
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
-        expected = 1.0
+        expected = float(self.rows[0].from_)
         for number, row in enumerate(self.rows, 1):
             if row.from_ != expected:
                 raise ContentError(_describe_gap(number, row.from_, expected))
@@ -225,11 +239,16 @@ class TableEntry(_Table):
 
 
 class ChoiceEntry(_Table):
-    """A named set of factors that takes the place of those in factors.toml."""
+    """A named set of factors and tables that take the place of their namesakes.
+
+    ``without`` names factors that the set does not have.
+    """
 
     name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
     text: Text
     factor: list[FactorEntry]
+    table: list[TableEntry] = []
+    without: list[Annotated[str, AfterValidator(_factor_id)]] = []
 
 
 class LimitsFile(_Table):

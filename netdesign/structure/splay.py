@@ -128,7 +128,8 @@ def weigh_splay(points: SupportPoints) -> SplayWeights | None:
         return None
     share = abs(below) / (abs(above) + abs(below))
     return SplayWeights(
-        uphill=share, post=share * _dot(uphill, post) + (1 - share) * _dot(downhill, post)
+        uphill=share,
+        post=share * _dot(uphill, post) + (1 - share) * _dot(downhill, post),
     )
 
 
@@ -143,7 +144,9 @@ def _share_on_loaded_side(
     in_uphill = (-_cross(pull, post) - held * below) / (above - below)
     in_downhill = held - in_uphill
     compression = (
-        _dot(pull, post) + in_uphill * _dot(uphill, post) + in_downhill * _dot(downhill, post)
+        _dot(pull, post)
+        + in_uphill * _dot(uphill, post)
+        + in_downhill * _dot(downhill, post)
     )
     if min(in_uphill, in_downhill, compression) < 0.0:
         return _fail()
