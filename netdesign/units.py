@@ -24,6 +24,11 @@ def kilonewton_from_newton(value: float) -> float:
     return value / 1e3
 
 
+def kilonewton_if_known(value: float | None) -> float | None:
+    """Force in N to kN; none where there is none."""
+    return None if value is None else kilonewton_from_newton(value)
+
+
 def meter_from_millimeter(value: float) -> float:
     """Length in mm to m."""
     return value / 1e3

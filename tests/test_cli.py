@@ -20,7 +20,7 @@ from netdesign import __version__, cli
 from netdesign.edge.resources import find_resource
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
-from netdesign.study.records import read_document, write_document
+from netdesign.study.document import read_document, write_document
 from netdesign.words.message import dump, restore, say
 from netdesign.words.names import name_check
 

@@ -5,6 +5,7 @@ under ``TYPE_CHECKING`` count like all others.
 """
 
 import ast
+import re
 import sys
 from dataclasses import dataclass
 from fnmatch import fnmatch
@@ -73,7 +74,7 @@ THIRD_PARTY = {
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
-    "pydantic": ("checks.schema", "files.scene", "study.records", "edge.json_text"),
+    "pydantic": ("checks.schema", "files.scene", "study.document", "edge.json_text"),
     "pydantic_core": ("checks.schema", "edge.json_text", "words.text_field"),
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
@@ -243,6 +244,23 @@ def test_the_page_of_the_architecture_names_every_room():
     page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
     tops = {room.split(".")[0] for room in ROOMS - {ROOT, "cli", "__main__"}}
     assert {top for top in tops if f"`{top}`" not in page} == set()
+
+
+def test_the_page_of_the_architecture_names_what_exists():
+    page = (PACKAGE / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    classes = {
+        node.name
+        for path in MODULES.values()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    }
+    values = set(re.findall(r"`([A-Z][a-z]\w+)`", page))
+    files = set(re.findall(r"`(\w+(?:/\w+)+(?:\.py)?)`", page))
+    assert {"Case", "Extreme", "CheckRecord"} <= values <= classes
+    rooms = [path for path in PACKAGE.iterdir() if path.is_dir()]
+    roots = (PACKAGE.parent, PACKAGE, *rooms)
+    assert "study/records.py" in files
+    assert {f for f in files if not any((r / f).exists() for r in roots)} == set()
 
 
 def test_no_allowance_is_idle():

@@ -200,7 +200,7 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
 def _show(
     studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
 ) -> None:
-    from netdesign.study.records import write_document
+    from netdesign.study.document import write_document
 
     if not as_json:
         from netdesign.report.terminal import (

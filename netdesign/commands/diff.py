@@ -37,7 +37,7 @@ def diff(old: Path, new: Path, *, as_json: bool, language: Language) -> None:
     netdesign diff rev-a/study.json rev-b/study.json --json
     """
     from netdesign.report.difference import compare_studies, write_difference
-    from netdesign.study.records import load_study
+    from netdesign.study.document import load_study
 
     changes = compare_studies(load_study(old), load_study(new))
     if as_json:

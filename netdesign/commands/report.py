@@ -57,7 +57,7 @@ def report(
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import ReportStyle, name_files, render_files
     from netdesign.report.words import VERDICTS
-    from netdesign.study.records import load_study
+    from netdesign.study.document import load_study
 
     study = load_study(study_file)
     language: Language = options["language"]
@@ -86,7 +86,7 @@ def _require_sound(
         With the contradictions, or if a file that was given is not the study's.
     """
     from netdesign.study.audit import audit_study
-    from netdesign.study.records import compute_digest
+    from netdesign.study.document import compute_digest
 
     site = _find_site(study, study_file, site_file, language)
     profile = _find_profile(study, standard, language)

@@ -105,7 +105,7 @@ def _verify_study(
     from netdesign.checks import load_standard
     from netdesign.study.audit import audit_study
     from netdesign.study.check_site import check_site
-    from netdesign.study.records import load_study
+    from netdesign.study.document import load_study
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
     study = load_study(path)
@@ -177,7 +177,7 @@ class _Shown:
 
     def digest(self, study: Study) -> bool:
         """Whether the document is as it was written; one without a digest may be."""
-        from netdesign.study.records import compute_digest
+        from netdesign.study.document import compute_digest
 
         if not study.digest:
             return True
@@ -197,7 +197,7 @@ class _Shown:
     ) -> None:
         """Tell which values do not come out; the hash may differ in last digits."""
         from netdesign.report.view.tables import hash_results
-        from netdesign.study.records import write_document
+        from netdesign.study.document import write_document
         from netdesign.study.values import SAME
 
         stored, now = hash_results(study), hash_results(again)

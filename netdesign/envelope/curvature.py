@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.ranges import Case
@@ -12,27 +12,12 @@ from netdesign.envelope.run import CaseResult
 AXES = ("density", "friction_angle", "inclination")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EnvelopeGap:
-    """How much larger a force may be between the cases than at them.
-
-    Attributes
-    ----------
-    size : float
-        Sum over the axes [N]; an estimate for smooth forces, not a bound.
-    unknown : tuple of str
-        Axes with two samples only, or with a failed neighbour: nothing is known.
-    """
-
-    size: float
-    unknown: tuple[str, ...]
-
-
-def estimate_gap(extreme: Extreme, results: Sequence[CaseResult]) -> EnvelopeGap:
-    """Largest rise of a parabola over its samples, added up along the axes.
+def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
+    """Extreme with the largest rise of a parabola over its samples.
 
     Through three neighbouring samples with second difference D a parabola rises at
-    most |D| / 8 above the larger of two neighbours.
+    most |D| / 8 above the larger of two neighbours; the rises along the axes are added.
+    With two samples only, or a failed neighbour, nothing is known along an axis.
 
     Parameters
     ----------
@@ -43,8 +28,8 @@ def estimate_gap(extreme: Extreme, results: Sequence[CaseResult]) -> EnvelopeGap
 
     Returns
     -------
-    EnvelopeGap
-        At the governing case.
+    Extreme
+        With what may hide about its governing case.
     """
     forces = {
         result.case: result.member_forces[extreme.member].value
@@ -62,7 +47,7 @@ def estimate_gap(extreme: Extreme, results: Sequence[CaseResult]) -> EnvelopeGap
             unknown.append(axis)
         else:
             size += abs(difference) / 8.0
-    return EnvelopeGap(size=size, unknown=tuple(unknown))
+    return replace(extreme, hidden=size, unknown=tuple(unknown))
 
 
 def _second_difference(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from netdesign.checks.result import Band
 from netdesign.envelope.run import CaseResult
@@ -22,11 +22,37 @@ class Extreme:
         Its largest value, and the largest lower and upper ends of all bands [N].
     governing : CaseResult
         The case of the largest value; carries the coincident forces.
+    hidden : float
+        How much larger it may be between the cases than at them [N].
+    is_bounded : bool
+        A search has bounded what is hidden; of a grid it is an estimate for smooth
+        forces, or nothing is known yet.
+    unknown : tuple of str
+        Axes along which nothing is known of it.
     """
 
     member: str
     force: Band
     governing: CaseResult
+    hidden: float = 0.0
+    is_bounded: bool = False
+    unknown: tuple[str, ...] = ()
+
+    @property
+    def widened(self) -> Band:
+        """Largest force anywhere in the ranges [N].
+
+        The upper end adds what may hide between the cases.
+        """
+        return replace(self.force, high=self.force.high + self.hidden)
+
+    @property
+    def upper_bound(self) -> float | None:
+        """Largest force with what may hide, without the numerical error [N].
+
+        None where nothing bounds it.
+        """
+        return self.force.value + self.hidden if self.is_bounded else None
 
 
 def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:

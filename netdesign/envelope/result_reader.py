@@ -9,9 +9,11 @@ from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed import choose_watched, name_sources, read_signed
 from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
+from netdesign.structure.members import Member
 
 # A gap closer than this share of the numerical error is not worth a case.
 _RESOLUTION = 0.5
+_GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -78,7 +80,7 @@ class ResultReader:
         ]
         floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
-            behind += [member for member in self.members if member.endswith("_guy")]
+            behind += [member for member in self.members if member in _GUYS]
         errors = [self.errors[member] for member in behind if member in self.errors]
         return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
 

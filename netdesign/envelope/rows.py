@@ -6,12 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.envelope.curvature import estimate_hidden
 from netdesign.envelope.extremes import (
     Extreme,
     describe_gap,
-    find_extreme,
     find_extremes,
 )
 from netdesign.envelope.parameters import place_scene
@@ -80,6 +79,27 @@ class Confirmation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowGrid:
+    """All cases of a row's grid, and how many of them needed no solve."""
+
+    results: Sequence[CaseResult]
+    skipped: int = 0
+
+    @property
+    def gap(self) -> Message | None:
+        """Why the extremes do not cover every case; None if they do."""
+        return describe_gap(self.results)
+
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces by member, with an estimate of what hides between them."""
+        found = find_extremes(self.results)
+        return {
+            member: estimate_hidden(one, self.results) for member, one in found.items()
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RowEnvelope:
     """End of a row's search. Forces in N per anchor, or N/m without a layout.
 
@@ -130,52 +150,22 @@ class RowEnvelope:
                 )
         return None
 
-    def hidden(self, member: str) -> float:
-        """How much larger a member's force may be between the cases [N]."""
-        place = self.members.index(member)
-        return max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
+    @property
+    def extremes(self) -> dict[str, Extreme]:
+        """Largest forces by member; a confirmation above the bound raises its end."""
+        found = find_extremes(self.results)
+        return {member: self._bound(one) for member, one in found.items()}
 
-    def force(self, member: str) -> Band:
-        """Largest force of a member at the cases, with its numerical error.
-
-        A confirmation that lies above the bound raises the upper end.
-        """
-        bands = [one.member_forces[member] for one in self.results if one.is_converged]
+    def _bound(self, extreme: Extreme) -> Extreme:
+        place, member = self.members.index(extreme.member), extreme.member
+        hidden = max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
         confirmed = [
-            one.confirmed.member_forces[member].high - self.hidden(member)
+            one.confirmed.member_forces[member].high - hidden
             for one in self.confirmations
             if one.confirmed.is_converged
         ]
-        return Band(
-            low=max(band.low for band in bands),
-            value=max(band.value for band in bands),
-            high=max([*(band.high for band in bands), *confirmed]),
-        )
-
-    def bound(self, member: str) -> Band:
-        """Largest force of a member over the whole ranges, with everything unsure.
-
-        The band's upper end adds what may hide between the cases.
-        """
-        force = self.force(member)
-        return replace(force, high=force.high + self.hidden(member))
-
-    def upper_bound(self, member: str) -> float:
-        """Largest force with what may hide, without the numerical error [N]."""
-        return self.force(member).value + self.hidden(member)
-
-    def governing(self, member: str) -> CaseResult:
-        """Case of a member's largest force; carries the coincident forces."""
-        return find_extreme(member, self.results).governing
-
-    @property
-    def extremes(self) -> dict[str, Extreme]:
-        """Largest forces by member, without what may hide between the cases."""
-        found = find_extremes(self.results)
-        return {
-            member: replace(one, force=self.force(member))
-            for member, one in found.items()
-        }
+        force = replace(extreme.force, high=max([extreme.force.high, *confirmed]))
+        return replace(extreme, force=force, hidden=hidden, is_bounded=True)
 
 
 def refine_settings(settings: SolverSettings) -> SolverSettings:

@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
-from typing import NamedTuple
 
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.result_reader import ResultReader
 from netdesign.envelope.rows import (
     Confirmation,
     RowEnvelope,
+    RowGrid,
     RowTask,
     build_point_task,
     list_grid,
@@ -285,14 +285,9 @@ def _describe_wave(asked: _Asked) -> Wave:
     )
 
 
-class Grid(NamedTuple):
-    """All cases of a tensor grid, and how many of them needed no solve."""
-
-    results: list[CaseResult]
-    skipped: int
-
-
-def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) -> Grid:
+def run_grid(
+    task: RowTask, counts: Mapping[str, int | None], runner: Runner
+) -> RowGrid:
     """Solve a tensor grid with so many samples of each axis."""
     points = list_grid([counts[name] or 2 for name in task.ranges.axes])
     skip = FrictionSkip(task.ranges.axes)
@@ -301,4 +296,4 @@ def run_grid(task: RowTask, counts: Mapping[str, int | None], runner: Runner) ->
     cases = _Cases(task, points, skip)
     while batches := cases.ask():
         cases.tell(runner.solve_batches(batches))
-    return Grid(results=cases.finish(), skipped=skip.skipped)
+    return RowGrid(results=cases.finish(), skipped=skip.skipped)

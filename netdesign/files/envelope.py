@@ -7,12 +7,12 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from netdesign import __version__
-from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.rows import RowEnvelope
+from netdesign.envelope.extremes import Extreme, find_extremes
+from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.search import Grid
 from netdesign.solving.runner import Counts
-from netdesign.study.record_envelope import record_case, record_envelope
+from netdesign.study.record_cases import show_case, show_coincident
+from netdesign.study.record_envelope import record_envelope
 from netdesign.study.records import BoundRecord, EnvelopeRecord
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.catalogue import Language, render
@@ -78,13 +78,13 @@ def write_envelope_document(
 
 
 def write_grid_document(
-    grid: Grid, counts: Counts, wall_s: float, language: Language = "en"
+    grid: RowGrid, counts: Counts, wall_s: float, language: Language = "en"
 ) -> dict[str, Any]:
     """Document of a grid of cases, which has no upper bound.
 
     Parameters
     ----------
-    grid : Grid
+    grid : RowGrid
         All cases.
     counts : Counts
         Of the run.
@@ -94,7 +94,7 @@ def write_grid_document(
         Of the reason.
     """
     results = grid.results
-    reason = describe_gap(results)
+    reason = grid.gap
     extremes = find_extremes(results)
     return {
         "schema": SCHEMA,
@@ -111,8 +111,8 @@ def write_grid_document(
                 "upper_bound": None,  # a grid says nothing between its cases
                 "low": kilonewton_from_newton(extreme.force.low),
                 "high": kilonewton_from_newton(extreme.force.high),
-                "case": record_case(extreme.governing.case),
-                "coincident": _list_coincident(extreme.governing, member),
+                "case": show_case(extreme.governing.case.values),
+                "coincident": _list_coincident(extreme),
             }
             for member, extreme in extremes.items()
         ],
@@ -131,7 +131,8 @@ def write_grid_document(
 def _write_bound(
     envelope: RowEnvelope, bound: BoundRecord, language: Language
 ) -> dict[str, Any]:
-    band = envelope.bound(bound.quantity)
+    extreme = envelope.extremes[bound.quantity]
+    band = extreme.widened
     confirmation = None
     if bound.confirmation is not None:
         told = render(bound.confirmation.reason or "", language)
@@ -145,9 +146,7 @@ def _write_bound(
         "low": kilonewton_from_newton(band.low),
         "high": kilonewton_from_newton(band.high),
         "case": bound.case,
-        "coincident": _list_coincident(
-            envelope.governing(bound.quantity), bound.quantity
-        ),
+        "coincident": _list_coincident(extreme),
         "confirmation": confirmation,
         "sensitivity": {
             "unexplained": bound.unexplained,
@@ -156,16 +155,13 @@ def _write_bound(
     }
 
 
-def _list_coincident(result: CaseResult, member: str) -> dict[str, float]:
-    return {
-        QUANTITY_KEYS[other]: kilonewton_from_newton(band.value)
-        for other, band in result.member_forces.items()
-        if other != member
-    }
+def _list_coincident(extreme: Extreme) -> dict[str, float]:
+    found = show_coincident(extreme, tuple(QUANTITY_KEYS))
+    return {QUANTITY_KEYS[other]: force for other, force in found.items()}
 
 
 def _list_values(results: Sequence[CaseResult]) -> dict[str, list[float]]:
-    cases = [record_case(result.case) for result in results]
+    cases = [show_case(result.case.values) for result in results]
     return {key: [case[key] for case in cases] for key in (cases[0] if cases else ())}
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from netdesign.study.records import Study, write_document
+from netdesign.study.document import write_document
+from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 STUDY_FILE = "study.json"

@@ -18,7 +18,7 @@ from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
 # What a member can fail by; the keys under which resistances are given.
-MEMBER_MODES: tuple[tuple[str, str], ...] = (
+MEMBER_MODES: tuple[tuple[Member, str], ...] = (
     (Member.FOOT_ANCHOR, "tendon"),
     (Member.FOOT_ANCHOR, "pull_out"),
     (Member.UPHILL_GUY, "rope"),
@@ -30,8 +30,8 @@ MEMBER_MODES: tuple[tuple[str, str], ...] = (
     (Member.POST, "compression"),
 )
 # Checked only where the workbook gives the resistance, in the sheet of that member.
-OPTIONAL_MODES: tuple[tuple[str, str, str], ...] = (
-    (Member.POST_BASE, "bearing", "post"),
+OPTIONAL_MODES: tuple[tuple[Member, str, Member], ...] = (
+    (Member.POST_BASE, "bearing", Member.POST),
 )
 
 
@@ -42,7 +42,7 @@ class Resistance:
     ``value`` [N] is None where the workbook gives none; ``source`` is its cell.
     """
 
-    member: str
+    member: Member
     mode: str
     value: float | None
     basis: str  # "tested", "computed", "declared" or "" where nothing is given

@@ -36,6 +36,7 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
+from netdesign.structure.members import Member
 from netdesign.words.message import Message, say
 
 Types = Mapping[str, Row]  # the lines of one type sheet, by id
@@ -304,7 +305,7 @@ def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ..
 
 
 def _find_resistance(
-    reading: Reading, mode: str, member: str, type_sheets: TypeSheets
+    reading: Reading, mode: str, member: Member, type_sheets: TypeSheets
 ) -> Resistance:
     """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:

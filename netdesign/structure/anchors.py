@@ -20,13 +20,13 @@ class GroundForce:
     Attributes
     ----------
     member : str
-        What brings the force: "net", "uphill_guy", "downhill_guy" or "post".
+        What brings the force: the net, a guy or the post.
     x, y : float
         Parts along the slope (downslope positive) and normal to it (out of the
         ground positive) [N].
     """
 
-    member: str
+    member: Member
     x: float
     y: float
 
@@ -67,6 +67,16 @@ class AnchorForces:
     post_base: GroundForce
     head: HeadForces
     is_foot_shared: bool
+
+    @property
+    def on_ground(self) -> dict[Member, GroundForce]:
+        """Force at each point on the ground."""
+        return {
+            Member.FOOT_ANCHOR: self.foot_anchor,
+            Member.UPHILL_ANCHOR: self.uphill_anchor,
+            Member.DOWNHILL_ANCHOR: self.downhill_anchor,
+            Member.POST_BASE: self.post_base,
+        }
 
     @property
     def member_forces(self) -> dict[str, float]:
@@ -134,7 +144,7 @@ def compute_anchor_forces(
     if isinstance(head, FailedSupport):
         return head
     return AnchorForces(
-        foot_anchor=GroundForce(member="net", x=foot[0], y=foot[1]),
+        foot_anchor=GroundForce(member=Member.NET, x=foot[0], y=foot[1]),
         uphill_anchor=_force_from_head(
             Member.UPHILL_GUY,
             points.head,
@@ -156,7 +166,7 @@ def compute_anchor_forces(
 
 
 def _force_from_head(
-    member: str, head: Point, place: Point, thrust: float
+    member: Member, head: Point, place: Point, thrust: float
 ) -> GroundForce:
     """Force of a member on ``place``; ``thrust`` [N] pushes it away from the head."""
     if thrust == 0.0:  # also where a slack guy has no length

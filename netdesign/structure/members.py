@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
+from types import MappingProxyType
 
 
 class Member(StrEnum):
-    """Part of a support that can fail: an anchor, a guy, the post, its base."""
+    """The net, and each part of a support that can fail: anchors, guys, post, base."""
 
+    NET = "net"
     FOOT_ANCHOR = "foot_anchor"
     UPHILL_GUY = "uphill_guy"
     UPHILL_ANCHOR = "uphill_anchor"
@@ -23,4 +26,15 @@ REPORTED_MEMBERS = (
     Member.UPHILL_GUY,
     Member.DOWNHILL_GUY,
     Member.POST,
+)
+# Pressed, not pulled: they carry nothing along the row.
+PUSHED_MEMBERS = (Member.POST, Member.POST_BASE)
+# Points of a support on the ground, in their order, and what brings the force there.
+BROUGHT_BY: Mapping[str, Member] = MappingProxyType(
+    {
+        Member.FOOT_ANCHOR: Member.NET,
+        Member.UPHILL_ANCHOR: Member.UPHILL_GUY,
+        Member.DOWNHILL_ANCHOR: Member.DOWNHILL_GUY,
+        Member.POST_BASE: Member.POST,
+    }
 )

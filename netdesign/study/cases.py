@@ -16,8 +16,8 @@ from netdesign.envelope.confirm import (
     confirm_rows,
 )
 from netdesign.envelope.ranges import Case, Ranges, build_cases
-from netdesign.envelope.rows import RowEnvelope, RowTask, refine_settings
-from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.envelope.rows import RowEnvelope, RowGrid, RowTask, refine_settings
+from netdesign.envelope.run import CaseTask, build_task, run_cases
 from netdesign.envelope.search import Wave, search_rows
 from netdesign.errors import ModelError
 from netdesign.search.maxima import SearchSettings
@@ -208,7 +208,7 @@ def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:
 
 def solve_site(
     site: Site, run: CheckRun, runner: Runner | None = None
-) -> list[list[CaseResult]]:
+) -> list[RowGrid]:
     """Solve all cases of all net rows; no limit profile is needed for it.
 
     Parameters
@@ -222,17 +222,18 @@ def solve_site(
 
     Returns
     -------
-    list of list of CaseResult
-        For each row its cases in the order of the grid; failed ones are named.
+    list of RowGrid
+        For each row its cases in their order; failed ones are named.
     """
     cases = build_cases(site.ranges)
     tasks = [_build_tasks(row, cases, run) for row in site.rows]
     results = run_cases([task for of_row in tasks for task in of_row], runner)
     count = len(cases)
     by_row = [results[k * count : (k + 1) * count] for k in range(len(site.rows))]
-    if run.method == "steady":
-        return by_row
-    return confirm_rows(tasks, by_row, build_history_settings(run.settings), runner)
+    if run.method == "transient":
+        settings = build_history_settings(run.settings)
+        by_row = confirm_rows(tasks, by_row, settings, runner)
+    return [RowGrid(results=of_row) for of_row in by_row]
 
 
 def follow_site(

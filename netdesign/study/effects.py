@@ -12,7 +12,7 @@ from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import read_end_effect
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.members import Member
+from netdesign.structure.members import PUSHED_MEMBERS, Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -24,7 +24,6 @@ from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 GUIDELINE = "swiss-guideline-2007"
-_PUSHED = (Member.POST, Member.POST_BASE)  # carries nothing along the row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +54,7 @@ class RowEffects:
 
     def lateral_factor(self, member: str) -> float:
         """Part of the factor that the load along the row brings [-]."""
-        if member in _PUSHED:
+        if member in PUSHED_MEMBERS:
             return 1.0
         return compute_lateral_factor(self.lateral_share)
 
@@ -116,7 +115,7 @@ def check_ends(effects: RowEffects) -> CheckResult | None:
     return CheckResult(
         id="geometry.ends",
         clause="-",
-        member="net",
+        member=Member.NET,
         mode="ends",
         verdict=Verdict.NOT_PROVEN,
         reason=not_proven(*effects.missing),

@@ -17,6 +17,7 @@ from netdesign.envelope.curvature import AXES
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
@@ -53,7 +54,7 @@ class Target:
 
     row: NetRow
     ranges: Ranges
-    member: str
+    member: Member
     scale: float
     governing: Case
     results: Sequence[CaseResult]

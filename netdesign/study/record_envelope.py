@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.parameters import PARAMETERS
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import Confirmation, RowEnvelope
 from netdesign.search.maxima import RESOLVED_SHARE, Addition
 from netdesign.search.sensitivity import (
@@ -20,6 +21,7 @@ from netdesign.search.sensitivity import (
     measure_sensitivity,
     measure_unexplained,
 )
+from netdesign.study.record_cases import show_case, show_coincident, show_parameter
 from netdesign.study.records import (
     AdditionRecord,
     AxisRecord,
@@ -31,7 +33,7 @@ from netdesign.study.records import (
     LineRecord,
     MapRecord,
 )
-from netdesign.units import given_degree_from_radian, kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton
 
 _LINE_POINTS = 25
 _MAP_POINTS = 9
@@ -39,21 +41,6 @@ _MAPS = 3
 _DRAWN_DECIMALS = 4  # of kN
 
 Levels = Mapping[str, Sequence[tuple[str, float]]]  # member: check id, force [N]
-
-
-def show_parameter(name: str, value: float) -> float:
-    """Value of a parameter in the unit of its key."""
-    if PARAMETERS[name].key.endswith("_deg"):
-        return given_degree_from_radian(value)
-    return value
-
-
-def record_case(case: Case) -> dict[str, float]:
-    """Every quantity of a case under its key, in the unit of the key."""
-    return {
-        PARAMETERS[name].key: show_parameter(name, value)
-        for name, value in case.values.items()
-    }
 
 
 def record_envelope(
@@ -70,7 +57,7 @@ def record_envelope(
     levels : mapping, optional
         For each member the forces at which a check of it flips, with the check's id.
     """
-    maxima, task = envelope.maxima, envelope.task
+    maxima, task, extremes = envelope.maxima, envelope.task, envelope.extremes
     shown = [member for member in members if member in envelope.members]
     answers = measure_sensitivity(maxima, *map(envelope.members.index, shown))
     return EnvelopeRecord(
@@ -93,7 +80,7 @@ def record_envelope(
         failed=sum(not result.is_converged for result in envelope.results),
         bounds=[
             _record_bound(
-                envelope, member, shown, (levels or {}).get(member, ()), found
+                envelope, extremes[member], shown, (levels or {}).get(member, ()), found
             )
             for member, found in zip(shown, answers, strict=True)
         ],
@@ -103,30 +90,24 @@ def record_envelope(
 
 def _record_bound(
     envelope: RowEnvelope,
-    member: str,
+    extreme: Extreme,
     shown: Sequence[str],
     levels: Sequence[tuple[str, float]],
     answers: Sequence[Sensitivity],
 ) -> BoundRecord:
-    place = envelope.members.index(member)
-    maxima = envelope.maxima
-    governing = envelope.governing(member)
+    place = envelope.members.index(extreme.member)
     return BoundRecord(
-        quantity=member,
-        max_kN=kilonewton_from_newton(envelope.force(member).value),
-        upper_bound_kN=kilonewton_from_newton(envelope.upper_bound(member)),
-        case=record_case(governing.case),
-        coincident_kN={
-            other: kilonewton_from_newton(governing.member_forces[other].value)
-            for other in shown
-            if other != member
-        },
-        unexplained=measure_unexplained(maxima, place),
+        quantity=extreme.member,
+        max_kN=kilonewton_from_newton(extreme.force.value),
+        upper_bound_kN=kilonewton_from_newton(extreme.force.value + extreme.hidden),
+        case=show_case(extreme.governing.case.values),
+        coincident_kN=show_coincident(extreme, shown),
+        unexplained=measure_unexplained(envelope.maxima, place),
         drivers=_record_drivers(envelope.task.ranges.axes, answers),
         flips=_find_flips(envelope, place, levels),
         lines=_record_lines(envelope, place),
         maps=_record_maps(envelope, place),
-        confirmation=_record_confirmation(envelope, member),
+        confirmation=_record_confirmation(envelope, extreme.member),
     )
 
 
@@ -268,13 +249,12 @@ def _record_addition(envelope: RowEnvelope, one: Addition) -> AdditionRecord:
     def show(value: float) -> float | None:
         return kilonewton_from_newton(value) if math.isfinite(value) else None
 
-    values = envelope.task.ranges.place(one.point)
     names = envelope.quantities
     return AdditionRecord(
         round=one.round,
         reason=one.reason,
         quantity=names[one.quantity] if names else "",
-        case={PARAMETERS[k].key: show_parameter(k, v) for k, v in values.items()},
+        case=show_case(envelope.task.ranges.place(one.point)),
         predicted_kN=show(one.predicted),
         claimed_kN=show(one.standard_error),
         found_kN=show(one.found),

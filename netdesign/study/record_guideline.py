@@ -13,9 +13,9 @@ from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, load_guideline
-from netdesign.study.members import record_point
+from netdesign.study.record_cases import record_point
 from netdesign.study.records import GuidelineCase, GuidelineRecord
-from netdesign.units import kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import say
 
 # Why the two differ, by the kind of ground.
@@ -92,11 +92,11 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
         height_vertical_m=case.height_vertical,
         creep_factor=snow.creep_factor if snow else None,
         glide_factor=snow.glide_factor if snow else None,
-        rigid_kN_per_m=_kilonewton(snow.rigid if snow else None),
-        load_kN_per_m=_kilonewton(snow.resultant[0] if snow else None),
-        foot_anchor_kN=_kilonewton(own_foot),
-        uphill_guy_kN=_kilonewton(forces.get(Member.UPHILL_GUY)),
-        post_kN=_kilonewton(forces.get(Member.POST)),
+        rigid_kN_per_m=kilonewton_if_known(snow.rigid if snow else None),
+        load_kN_per_m=kilonewton_if_known(snow.resultant[0] if snow else None),
+        foot_anchor_kN=kilonewton_if_known(own_foot),
+        uphill_guy_kN=kilonewton_if_known(forces.get(Member.UPHILL_GUY)),
+        post_kN=kilonewton_if_known(forces.get(Member.POST)),
         load_difference_percent=_compare(load, snow.resultant[0] if snow else None),
         foot_difference_percent=_compare(foot, own_foot),
         reason=case.reason,
@@ -105,7 +105,3 @@ def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCa
 
 def _compare(solved: float, other: float | None) -> float | None:
     return 100.0 * (solved / other - 1.0) if other else None
-
-
-def _kilonewton(value: float | None) -> float | None:
-    return None if value is None else kilonewton_from_newton(value)

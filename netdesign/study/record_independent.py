@@ -13,32 +13,27 @@ from netdesign.cable.tension import (
     compute_ratio_bounds,
     compute_turning_angles,
 )
-from netdesign.checks.laws import (
-    DIRECTION,
-    DIRECTION_ERRORS,
-    LIMITS,
-    is_law_met,
-)
+from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
 from netdesign.envelope.run import CaseResult
 from netdesign.solving.state import SolvedState
 from netdesign.study.records import HeadForce, IndependentRecord
 
 
 def record_independent(
-    result: CaseResult, head: list[HeadForce]
+    result: CaseResult | None, head: list[HeadForce]
 ) -> list[IndependentRecord]:
     """Independent checks of a converged case; none where it has no solution.
 
     Parameters
     ----------
-    result : CaseResult
-        The drawn case.
+    result : CaseResult or None
+        The drawn case; None where there is none.
     head : list of HeadForce
         As ``record_head`` gives them [kN].
     """
-    state = result.solution
-    if state is None:
+    if result is None or result.solution is None:
         return []
+    state = result.solution
     checks = [
         _judge("global_balance", state.balance.relative_residual),
         _judge("friction_excess", state.balance.friction_excess),

@@ -23,7 +23,12 @@ from netdesign.structure.anchors import compute_anchor_forces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, place_support
 from netdesign.study.records import MonitoringRecord
-from netdesign.units import celsius_from_kelvin, day_from_second, kilonewton_from_newton
+from netdesign.units import (
+    celsius_from_kelvin,
+    day_from_second,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
 from netdesign.words.message import Message, say
 
 _START: Start = "steady"
@@ -97,10 +102,7 @@ def _record(series: MonitoringSeries, modelled: _Modelled) -> MonitoringRecord:
         member=series.member,
         source=series.source,
         times_d=[day_from_second(time) for time in series.times],
-        tensions_kN=[
-            None if value is None else kilonewton_from_newton(value)
-            for value in series.tensions
-        ],
+        tensions_kN=[kilonewton_if_known(value) for value in series.tensions],
         air_temperatures_C=[
             None if value is None else celsius_from_kelvin(value)
             for value in series.air_temperatures

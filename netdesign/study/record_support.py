@@ -1,28 +1,29 @@
-"""Forces on the ground and on the post head of one case, for the report."""
+"""The drawn case of a net row: section, forces on the ground and on the post head."""
 
 from __future__ import annotations
 
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
+from netdesign.structure.anchors import AnchorForces
+from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects
-from netdesign.study.records import AnchorRecord, HeadForce
+from netdesign.study.record_cases import record_point
+from netdesign.study.records import AnchorRecord, Arrow, Drawing, HeadForce
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 
+_DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
-def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord]:
+
+def record_anchors(
+    result: CaseResult | None, effects: RowEffects
+) -> list[AnchorRecord]:
     """Force vectors on the ground with their direction; slack ones have none."""
-    anchors = result.anchors
-    if anchors is None:
+    if result is None or result.anchors is None:
         return []
     share = effects.lateral_share
     records = []
-    for name, force in (
-        (Member.FOOT_ANCHOR, anchors.foot_anchor),
-        (Member.UPHILL_ANCHOR, anchors.uphill_anchor),
-        (Member.DOWNHILL_ANCHOR, anchors.downhill_anchor),
-        (Member.POST_BASE, anchors.post_base),
-    ):
+    for name, force in result.anchors.on_ground.items():
         lateral = 0.0 if force.member == Member.POST else share * force.size
         direction = force.direction
         records.append(
@@ -41,19 +42,19 @@ def record_anchors(result: CaseResult, effects: RowEffects) -> list[AnchorRecord
     return records
 
 
-def record_head(row: NetRow, result: CaseResult) -> list[HeadForce]:
+def record_head(row: NetRow, result: CaseResult | None) -> list[HeadForce]:
     """Forces on the post head, the net's pull first; together they are zero.
 
     The pull is that of the solve; the members' are the reverse of what each does to
     the ground, so that an error in the support would leave the polygon open.
     """
-    if result.solution is None or result.anchors is None:
+    if result is None or result.solution is None or result.anchors is None:
         return []
     pull, width = result.solution.head, row.layout.post_spacing
     anchors = result.anchors
     members = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
     forces = [
-        ("net", pull.x * width, pull.y * width),
+        (Member.NET, pull.x * width, pull.y * width),
         *((force.member, -force.x, -force.y) for force in members if force.size > 0),
     ]
     return [
@@ -63,4 +64,52 @@ def record_head(row: NetRow, result: CaseResult) -> list[HeadForce]:
             y_kN=kilonewton_from_newton(y),
         )
         for member, x, y in forces
+    ]
+
+
+def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
+    """Section of a case with its forces; None where it has no solution."""
+    if result is None or result.solution is None or result.anchors is None:
+        return None
+    solution, anchors = result.solution, result.anchors
+    points = place_support(row.layout, solution.head_point)
+    curve = solution.net_curve.T.round(_DRAWN_DECIMALS).tolist()
+    in_snow = len(solution.net_slides)
+    sticks = [not bool(slides) for slides in solution.net_slides]
+    edges = solution.mesh_nodes[:, solution.mesh_edges].round(_DRAWN_DECIMALS)
+    return Drawing(
+        case=record_point(result.case),
+        slope_deg=degree_from_radian(row.slope_angle),
+        snow_thickness_m=row.snow_thickness,
+        net_m=[(x, y) for x, y in curve],
+        sticks=sticks + [True] * (len(curve) - in_snow),
+        mesh_edges_m=[
+            (float(x0), float(y0), float(x1), float(y1))
+            for (x0, x1), (y0, y1) in zip(edges[0].T, edges[1].T, strict=True)
+        ],
+        head_m=points.head,
+        post_base_m=points.post_base,
+        uphill_anchor_m=points.uphill_anchor,
+        downhill_anchor_m=points.downhill_anchor,
+        arrows=_list_arrows(points, anchors),
+    )
+
+
+def _list_arrows(points: SupportPoints, anchors: AnchorForces) -> list[Arrow]:
+    """Forces on the ground at their points; that on the base is drawn as the post's."""
+    places = (
+        points.net_foot,
+        points.uphill_anchor,
+        points.downhill_anchor,
+        points.post_base,
+    )
+    return [
+        Arrow(
+            member=Member.POST if name == Member.POST_BASE else name,
+            x_m=place[0],
+            y_m=place[1],
+            force_x_kN=kilonewton_from_newton(force.x),
+            force_y_kN=kilonewton_from_newton(force.y),
+        )
+        for (name, force), place in zip(anchors.on_ground.items(), places, strict=True)
     ]

@@ -6,26 +6,15 @@ kg/m3), named in each field, exactly as the JSON document shows them.
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections import Counter
-from dataclasses import dataclass, field, replace
-from datetime import datetime
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-from netdesign.edge.causes import explain, explain_shape
-from netdesign.edge.given_files import list_faults, read_bounded
-from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
-from netdesign.errors import ContentError, StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.words.message import say
 from netdesign.words.text_field import Text
 
 SCHEMA: Literal["netdesign.study/2"] = "netdesign.study/2"
-_OLD_SCHEMA = "netdesign.study/1"
-_HOW_FAR = 200  # signs from the start, among which a document names its schema
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -250,6 +239,23 @@ class CheckRecord:
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
 
+    @property
+    def utilisation_band(self) -> tuple[float | None, float | None]:
+        """Utilisation at the low and at the high end of the demand [-].
+
+        A slack member uses nothing of any resistance, even of one that is not given.
+        """
+        low, high, resistance = (
+            self.demand_low_kN,
+            self.demand_high_kN,
+            self.resistance_kN,
+        )
+        if resistance is None and self.utilisation == 0.0:
+            return 0.0, 0.0
+        if not resistance or low is None or high is None:
+            return None, None
+        return low / resistance, high / resistance
+
 
 @dataclass(frozen=True, kw_only=True)
 class Arrow:
@@ -362,6 +368,14 @@ class IndependentRecord:
     is_met: bool
 
 
+def list_verdicts(
+    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
+) -> list[Verdict]:
+    """Verdicts that make up that of a row; a law that is not met leaves it unproven."""
+    unmet = [Verdict.NOT_PROVEN for law in independent if not law.is_met]
+    return [*(check.verdict for check in checks), *unmet]
+
+
 @dataclass(frozen=True, kw_only=True)
 class RowStudy:
     """Everything about one net row."""
@@ -442,88 +456,3 @@ class Study:
     notes: list[Text]
     provenance: Provenance
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there
-
-
-def compute_digest(study: Study) -> str:
-    """SHA-256 of a study without its own digest.
-
-    It shows that a document is the one whose digest is printed in a report, or that it
-    was altered by somebody who did not think of it. Who alters a document on purpose
-    can compute it again: only a new solve shows that the numbers are true.
-    """
-    # 2 and 2.0 are one number, and become one when a document is read
-    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
-    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
-
-
-def write_document(study: Study) -> str:
-    """JSON text of a study, with its digest.
-
-    Numbers stand in full, keys in the order of the fields.
-    """
-    return write_json(replace(study, digest=compute_digest(study)))
-
-
-def read_document(text: str) -> Study:
-    """Study from its JSON text.
-
-    Raises
-    ------
-    StudyError
-        Naming every key that is missing, unknown or of the wrong kind; of a large
-        document those of the first faulty member of each list.
-    """
-    from pydantic import ValidationError
-
-    if _OLD_SCHEMA in text[:_HOW_FAR]:
-        raise StudyError(say("study_file.old_schema", old=_OLD_SCHEMA, new=SCHEMA))
-    try:
-        study: Study = read_json(Study, text)
-        _require_sense(study)
-    except ValidationError as error:
-        faults = [
-            say(
-                "text.at_place",
-                place=".".join(map(str, fault["loc"])) or say("study.document"),
-                text=explain_shape(fault),
-            )
-            for fault in error.errors(include_input=False, include_url=False)
-        ]
-        raise StudyError(
-            say("study.faults", schema=SCHEMA, faults=list_faults(faults))
-        ) from None
-    except ValueError as error:
-        raise StudyError(
-            say("study.fault", schema=SCHEMA, fault=explain(error))
-        ) from None
-    return study
-
-
-def _require_sense(study: Study) -> None:
-    """Refuse what has the right kind and is impossible all the same."""
-    counts = Counter(row.id for row in study.rows)
-    twice = [name for name, count in counts.items() if count > 1]
-    if twice:
-        raise ContentError(say("study.id_twice", id=f"{twice[0]!r:.60}"))
-    started = study.provenance.started
-    try:
-        datetime.fromisoformat(started or "1980-01-01")
-    except ValueError:
-        raise ContentError(say("study.no_date", started=f"{started!r:.60}")) from None
-
-
-def load_study(path: Path) -> Study:
-    """Study from a stored file.
-
-    Raises
-    ------
-    StudyError
-        If the file cannot be read, or is no study.
-    """
-    try:
-        text = read_bounded(path, MAX_JSON_BYTES).decode()
-    except (OSError, ValueError) as error:
-        raise StudyError(
-            say("study.unreadable", path=str(path), cause=explain(error))
-        ) from None
-    return read_document(text)

@@ -9,7 +9,7 @@ from netdesign.resistance.catalogue import find_rope_factor, find_termination
 from netdesign.resistance.steel import compute_rope_resistance
 from netdesign.site.model import Resistance, Site
 from netdesign.study.records import ChangeRecord
-from netdesign.units import kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -77,7 +77,7 @@ def _record(quantity: Message, value: float, given: Resistance) -> ChangeRecord:
     return ChangeRecord(
         quantity=quantity,
         unit="kN",
-        now=kilonewton_from_newton(given.value) if given.value is not None else None,
+        now=kilonewton_if_known(given.value),
         bound=math.floor(kilonewton_from_newton(value) * 10.0) / 10.0,
         sense="has",
         solves=0,

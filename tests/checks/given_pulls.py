@@ -8,12 +8,13 @@ import openpyxl
 from netdesign.checks import Band, load_standard
 from netdesign.coupling.scene import SolverSettings
 from netdesign.envelope.ranges import build_cases
+from netdesign.envelope.rows import RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
 from netdesign.site.reader import read_site
 from netdesign.structure import compute_anchor_forces, place_support
 from netdesign.study.cases import CheckRun
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 
 NETS = {
     "id": "R",
@@ -87,7 +88,7 @@ def study_row(tmp_path: Path, profile, *, anchor, foot, head, **nets):
     site = read_site(path)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
-    return judge_site(site, [[result]], load_standard(profile), run)
+    return judge_site(site, [RowGrid(results=[result])], load_standard(profile), run)
 
 
 def give_pulls(site, foot, head) -> CaseResult:

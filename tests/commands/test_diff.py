@@ -5,13 +5,8 @@ import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
-from netdesign.study.records import (
-    SCHEMA,
-    ProfileRecord,
-    Provenance,
-    Study,
-    write_document,
-)
+from netdesign.study.document import write_document
+from netdesign.study.records import SCHEMA, ProfileRecord, Provenance, Study
 
 STUDY = Study(
     schema=SCHEMA,

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from netdesign import cli
-from netdesign.study.records import read_document, write_document
+from netdesign.study.document import read_document, write_document
 from tests.short_example import write_short_example
 from tests.words.english import find_words
 

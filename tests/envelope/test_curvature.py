@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import Band
-from netdesign.envelope.curvature import estimate_gap
+from netdesign.envelope.curvature import estimate_hidden
 from netdesign.envelope.extremes import find_extremes
 from netdesign.envelope.ranges import Interval, Ranges, build_cases
 from netdesign.envelope.run import CaseResult
@@ -39,26 +39,26 @@ def test_parabola_never_rises_above_the_estimate(top):
         return 100.0 - 40.0 * (x - top) ** 2
 
     extreme, results = run(force)
-    gap = estimate_gap(extreme, results)
-    assert gap.unknown == ()
-    assert gap.size == pytest.approx(40.0 * 0.5**2 * 2 / 8, rel=1e-12)
-    assert force(top) <= extreme.force.value + gap.size * (1 + 1e-12)
+    found = estimate_hidden(extreme, results)
+    assert found.unknown == ()
+    assert found.hidden == pytest.approx(40.0 * 0.5**2 * 2 / 8, rel=1e-12)
+    assert force(top) <= extreme.force.value + found.hidden * (1 + 1e-12)
 
 
 def test_smooth_force_between_many_samples():
     extreme, results = run(lambda x: 100.0 * math.sin(2.2 * x + 0.3), count=7)
-    gap = estimate_gap(extreme, results)
-    assert extreme.force.value + 1.1 * gap.size >= 100.0
-    assert gap.size < 2.0
+    found = estimate_hidden(extreme, results)
+    assert extreme.force.value + 1.1 * found.hidden >= 100.0
+    assert found.hidden < 2.0
 
 
 def test_straight_force_hides_nothing():
     extreme, results = run(lambda x: 50.0 + x)
-    assert estimate_gap(extreme, results).size == pytest.approx(0.0, abs=1e-12)
+    assert estimate_hidden(extreme, results).hidden == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(("count", "failed"), [(2, ()), (3, (0,)), (5, (1,))])
 def test_what_is_not_known_is_named(count, failed):
     extreme, results = run(lambda x: 2.0 - x, count=count, failed=failed)
-    gap = estimate_gap(extreme, results)
-    assert (gap.size, gap.unknown) == (0.0, ("friction_angle",))
+    found = estimate_hidden(extreme, results)
+    assert (found.hidden, found.unknown) == (0.0, ("friction_angle",))

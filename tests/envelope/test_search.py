@@ -63,7 +63,7 @@ def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
     assert found.gap is None
     for result in grid:
         for member, band in result.member_forces.items():
-            assert band.value <= found.bound(member).high
+            assert band.value <= found.extremes[member].widened.high
             place = found.members.index(member)
             bound = found.maxima.upper_bound[place]
             assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
@@ -71,14 +71,14 @@ def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
 
 def test_the_maximum_is_that_of_its_governing_case_with_all_coincident_forces(found):
     for place, member in enumerate(found.members):
-        governing = found.governing(member)
+        governing = found.extremes[member].governing
         assert governing.member_forces[member].value == found.maxima.maximum[place]
         assert set(governing.member_forces) == set(found.members)
 
 
 def test_the_band_holds_numerical_error_and_what_hides(found):
     for place, member in enumerate(found.members):
-        band = found.bound(member)
+        band = found.extremes[member].widened
         hidden = found.maxima.upper_bound[place] - found.maxima.maximum[place]
         largest = max(r.member_forces[member].high for r in found.results)
         assert band.high >= largest + hidden - 1e-9
@@ -87,7 +87,7 @@ def test_the_band_holds_numerical_error_and_what_hides(found):
 
 def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
     assert {one.member for one in found.confirmations} == {
-        member for member in found.members if found.bound(member).value > 0.0
+        member for member in found.members if found.extremes[member].widened.value > 0.0
     }
     for one in found.confirmations:
         assert one.confirmed.case == one.screened.case
@@ -98,7 +98,8 @@ def test_governing_cases_are_confirmed_on_a_finer_mesh(found):
         assert one.difference == pytest.approx(forces[0] / forces[1] - 1.0)
         assert abs(one.difference) < 0.1
         assert (
-            found.bound(one.member).high >= one.confirmed.member_forces[one.member].high
+            found.extremes[one.member].widened.high
+            >= one.confirmed.member_forces[one.member].high
         )
 
 
@@ -166,7 +167,7 @@ def spoil_rough_dense(job, end):
 def test_a_failed_case_leaves_a_gap_by_name():
     (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil_rough_dense)))
     assert "failed (spoilt)" in str(found.gap)
-    assert all(found.governing(m).is_converged for m in found.members)
+    assert all(found.extremes[m].governing.is_converged for m in found.members)
 
 
 def test_an_open_gap_is_told(found):
@@ -180,8 +181,10 @@ def test_no_gap_is_closed_beyond_the_accuracy_of_the_cases():
     (found,) = search_rows([closest], Runner())
     assert found.maxima.is_closed
     assert len(found.results) <= 60
-    foot = found.governing("foot_anchor").member_forces["foot_anchor"]
-    assert found.hidden("foot_anchor") <= 0.5 * (foot.high - foot.value) * (1 + 1e-9)
+    foot = found.extremes["foot_anchor"].governing.member_forces["foot_anchor"]
+    assert found.extremes["foot_anchor"].hidden <= 0.5 * (foot.high - foot.value) * (
+        1 + 1e-9
+    )
 
 
 def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
@@ -189,7 +192,7 @@ def test_without_a_layout_the_nets_tensions_are_followed_per_metre():
     assert found.members == ("foot", "head", "rope")
     foot, head, rope = found.maxima.maximum
     assert rope >= max(foot, head) * (1.0 - 1e-12)
-    governing = found.governing("foot")
+    governing = found.extremes["foot"].governing
     assert governing.solution.foot.size == foot
 
 

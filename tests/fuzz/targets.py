@@ -43,7 +43,7 @@ from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.workbook import write_site_workbook
 from netdesign.solving.state import CaseEnd
 from netdesign.solving.store import CaseStore, StoreError
-from netdesign.study.records import read_document, write_document
+from netdesign.study.document import read_document, write_document
 from netdesign.words.message import say
 from tests.full_scene import FULL_SCENE
 from tests.report.build_study import build_study

@@ -26,7 +26,7 @@ from netdesign.solving.solve import solve_scene
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import OwnProcess
 from netdesign.study.cases import CheckRun, search_site, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from tests import small_site
 from tests.small_site import RANGES as GRID
 from tests.small_site import STRONG, WEAK, build_row, resist
@@ -51,11 +51,8 @@ def build_site(ranges=GRID, *, strength=STRONG, **missing):
 def judge(site, runner=None, standard=None):
     """Study of a site, searched or sampled as its ranges ask for."""
     standard = standard or load_standard(PROFILE)
-    if site.ranges.is_grid:
-        return judge_site(site, solve_site(site, RUN, runner), standard, RUN)
-    found = search_site(site, RUN, runner)
-    results = [list(one.results) for one in found]
-    return judge_site(site, results, standard, RUN, envelopes=found)
+    solve = solve_site if site.ranges.is_grid else search_site
+    return judge_site(site, solve(site, RUN, runner), standard, RUN)
 
 
 @pytest.fixture(autouse=True)

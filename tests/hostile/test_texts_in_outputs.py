@@ -23,7 +23,7 @@ from netdesign.report.view.case_table import render_cases
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
-from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.words.message import Message, say
 from tests.report.build_study import build_study
 

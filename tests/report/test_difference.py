@@ -5,13 +5,9 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict
-from netdesign.report.difference import (
-    compare_studies,
-    name_area,
-    write_difference,
-)
+from netdesign.report.difference import compare_studies, name_area, write_difference
 from netdesign.report.words import ENGLISH
-from netdesign.study.records import read_document, write_document
+from netdesign.study.document import read_document, write_document
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
 

@@ -15,7 +15,7 @@ from netdesign.report.view.case_table import render_cases
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words, show_own
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.records import read_document, write_document
+from netdesign.study.document import read_document, write_document
 from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
 from netdesign.words.message import Message, say
 from tests.report.build_study import SCRIPT, build_study

@@ -12,7 +12,7 @@ from netdesign.report.terminal import print_summary
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import ENGLISH, show_number
 from netdesign.report.workbook.excel import render_workbook
-from netdesign.study.records import write_document
+from netdesign.study.document import write_document
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader, read_rows, read_workbook
 

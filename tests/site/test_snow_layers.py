@@ -8,11 +8,12 @@ import pytest
 from netdesign.checks import load_standard
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Case
+from netdesign.envelope.rows import RowGrid
 from netdesign.site.reader import read_site
 from netdesign.snow.creep_law import BOUTILLIER_2004, ICE_DENSITY
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import CheckRun, search_site, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from netdesign.study.probe import build_scene
 from tests.solving.made_up_workers import Recording
 
@@ -123,7 +124,7 @@ def test_densities_outside_the_creep_law_are_told_layer_by_layer(
     site = read_site(save(layered))
     run = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
     standard = load_standard("nf-p-95-304-style")
-    study = judge_site(site, [[] for _ in site.rows], standard, run)
+    study = judge_site(site, [RowGrid(results=[]) for _ in site.rows], standard, run)
     notes = [str(note) for note in study.notes if "the creep law" in str(note)]
     if not is_layered:
         assert notes == []
@@ -145,7 +146,9 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     workers = Recording()
     results = solve_site(site, run, Runner(workers=workers))
     packs = [job.scene.snowpack for job in workers.jobs]
-    assert [pack.density for pack in packs] == [r.case.density for r in results[0]]
+    assert [pack.density for pack in packs] == [
+        r.case.density for r in results[0].results
+    ]
     for pack in packs:
         # in proportion as typed, with the mean of the case
         assert [layer.density for layer in pack.layers] == pytest.approx(
@@ -157,7 +160,8 @@ def test_layers_reach_the_solver_and_change_its_forces(layered, save):
     del layered["Snow"]
     uniform = solve_site(read_site(save(layered)), run)
     heads = [
-        found[0][0].member_forces["uphill_guy"].value for found in (results, uniform)
+        found[0].results[0].member_forces["uphill_guy"].value
+        for found in (results, uniform)
     ]
     assert abs(heads[0] / heads[1] - 1) > 0.01
 

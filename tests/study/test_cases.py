@@ -18,9 +18,9 @@ from netdesign.solving.runner import Runner
 from netdesign.solving.store import CaseStore
 from netdesign.solving.workers import ProcessPool
 from netdesign.study.cases import count_cases, list_phases, search_site, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.document import read_document, write_document
+from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
-from netdesign.study.records import read_document, write_document
 from netdesign.words.message import say
 from tests.small_site import ROWS, RUN, build_row, build_site, resist
 from tests.solving.made_up_workers import Recording
@@ -44,8 +44,7 @@ def envelopes():
 
 
 def judge(standard, envelopes, site=SITE):
-    results = [one.results for one in envelopes]
-    return judge_site(site, results, standard, RUN, envelopes=envelopes)
+    return judge_site(site, envelopes, standard, RUN)
 
 
 def on_row(check):
@@ -90,7 +89,7 @@ def test_what_may_hide_is_in_the_demand_that_is_checked(standard, envelopes):
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
     assert check.demand_high_kN > check.demand_kN
-    band = envelopes[0].bound("foot_anchor")
+    band = envelopes[0].extremes["foot_anchor"].widened
     factor = on_row(check) * check.action_factor * check.resistance_factor
     between = 0.5 * (band.value + band.high) * factor
     row = build_row("R1", resistances=resist(foot_anchor__tendon=between))
@@ -189,14 +188,16 @@ def test_governing_cases_of_a_search_are_confirmed_by_histories(standard, envelo
     settings = [job.settings for job in workers.jobs]
     histories = [one for one in settings if isinstance(one, TransientSettings)]
     steady = envelopes[0]
-    governing = {id(steady.governing(member)) for member in loaded(steady)}
+    governing = {id(steady.extremes[member].governing) for member in loaded(steady)}
     assert len(histories) == len(governing)
     assert found.gap is None
     for member in loaded(steady):
-        assert found.force(member).value >= steady.force(member).value
-        assert found.bound(member).high >= steady.bound(member).high
-        assert found.upper_bound(member) > found.force(member).value
-    study = judge_site(site, [found.results], standard, run, envelopes=[found])
+        assert found.extremes[member].force.value >= steady.extremes[member].force.value
+        assert (
+            found.extremes[member].widened.high >= steady.extremes[member].widened.high
+        )
+        assert found.extremes[member].upper_bound > found.extremes[member].force.value
+    study = judge_site(site, [found], standard, run)
     assert study.provenance.settings["method"] == "transient"
     record = study.rows[0].envelope.bounds[0]
     assert record.max_kN == study.rows[0].extremes[0].max_kN
@@ -226,7 +227,7 @@ def test_a_history_that_fails_leaves_its_searched_row_unproven(
 
 def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     """The snow density that is told passes with the bound, and a little more fails."""
-    band = envelopes[0].bound("foot_anchor")
+    band = envelopes[0].extremes["foot_anchor"].widened
     study = judge(standard, envelopes)
     check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
     factor = on_row(check) * check.action_factor * check.resistance_factor
@@ -235,8 +236,7 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     )
     site = build_site(row, ranges=RANGES)
     probe = Probe(RUN.settings, RUN.creep_law)
-    results = [one.results for one in envelopes[:1]]
-    again = judge_site(site, results, standard, RUN, probe, envelopes=envelopes[:1])
+    again = judge_site(site, envelopes[:1], standard, RUN, probe)
     check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
     assert check.verdict is Verdict.FAIL
     changes = {str(change.quantity): change for change in check.changes}
@@ -258,7 +258,7 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
 
 
 def loaded(envelope):
-    return [m for m in envelope.members if envelope.force(m).high > 0.0]
+    return [m for m in envelope.members if envelope.extremes[m].force.high > 0.0]
 
 
 # --- what is promised beforehand -----------------------------------------------------
@@ -305,15 +305,10 @@ def test_each_phase_solves_no_more_than_was_promised(standard, is_grid, seed):
     site, runner, asked = draw_site(seed, is_grid=is_grid), Runner(), []
     runner.on_ask = asked.extend
     promised = {one.key: one for one in list_phases(site, RUN)}
-    envelopes = None if is_grid else search_site(site, RUN, runner)
-    results = (
-        solve_site(site, RUN, runner)
-        if envelopes is None
-        else [list(one.results) for one in envelopes]
-    )
+    solved = (solve_site if is_grid else search_site)(site, RUN, runner)
     of_envelope = runner.counts.solved
     probe = Probe(RUN.settings, RUN.creep_law, runner)
-    study = judge_site(site, results, standard, RUN, probe, envelopes=envelopes)
+    study = judge_site(site, solved, standard, RUN, probe)
     beside = runner.counts.solved - of_envelope
     assert 0 < of_envelope <= promised["envelope"].cases
     assert 0 < beside <= promised["checks"].most

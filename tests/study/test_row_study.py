@@ -12,7 +12,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES, Resistance
 from netdesign.snow.ground import GroundLaw
 from netdesign.study.cases import CheckRun, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
 from tests.small_site import build_row, build_site
 

@@ -224,9 +224,9 @@ def _measure_one_row() -> dict[str, Any]:
     runner = Runner()
     with Clock() as clock:
         (found,) = search_rows([task], runner)
-    members = {name: found.force(name).value for name in found.members}
-    scale = task.search.small_share * max(members.values())
-    gap = max(found.hidden(name) / max(most, scale) for name, most in members.items())
+    extremes = found.extremes.values()
+    scale = task.search.small_share * max(one.force.value for one in extremes)
+    gap = max(one.hidden / max(one.force.value, scale) for one in extremes)
     error = max(
         pull.error / pull.size
         for result in found.results

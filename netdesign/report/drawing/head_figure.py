@@ -10,6 +10,7 @@ from netdesign.report.drawing.figures import ACCENT, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.structure.members import Member
 from netdesign.study.records import HeadForce
 
 _TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
@@ -26,7 +27,7 @@ def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
     )
     sketch = Sketch()
     for force, (start, end) in zip(forces, pairwise(corners), strict=True):
-        colour = ACCENT if force.member == "net" else INK
+        colour = ACCENT if force.member == Member.NET else INK
         sketch.arrow(start, end, stroke=colour, width=1.2)
         at, anchor = _place_name(start, end, middle)
         size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))

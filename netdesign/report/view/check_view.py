@@ -108,22 +108,9 @@ def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     return max(known, key=_ratio, default=None)
 
 
-def find_utilisation_band(check: CheckRecord) -> tuple[float | None, float | None]:
-    """Utilisation at the low and at the high end of the demand.
-
-    A slack member uses nothing of any resistance, even of one that is not given.
-    """
-    resistance = check.resistance_kN
-    if resistance is None and check.utilisation == 0.0:
-        return 0.0, 0.0
-    if not resistance or check.demand_low_kN is None or check.demand_high_kN is None:
-        return None, None
-    return check.demand_low_kN / resistance, check.demand_high_kN / resistance
-
-
 def view_check(check: CheckRecord, words: Words) -> CheckView:
     """Put one check into words."""
-    low, high = find_utilisation_band(check)
+    low, high = check.utilisation_band
     return CheckView(
         title=show_check(words, check),
         clause=show_text(check.clause),
@@ -157,7 +144,7 @@ def _build_bar(
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check that has a demand and a resistance."""
-    low, high = find_utilisation_band(check)
+    low, high = check.utilisation_band
     demand = show_with_unit("demand_kN", check.demand_kN)
     resistance = show_with_unit("resistance_kN", check.resistance_kN)
     needed = show_with_unit("resistance_kN", check.demand_high_kN)

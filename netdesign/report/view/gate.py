@@ -9,9 +9,8 @@ from html.parser import HTMLParser
 
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.view.check_view import find_utilisation_band
 from netdesign.study.audit.comparing import tell_value, tell_verdict
-from netdesign.study.records import CheckRecord, Study
+from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 
@@ -36,8 +35,7 @@ def require_consistent(study: Study) -> None:
     _require_earned(whole, study.verdict, (row.verdict for row in study.rows))
     for row in study.rows:
         place = say("audit.row", row=row.id)
-        held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
-        parts = [*(check.verdict for check in row.checks), *held]
+        parts = list_verdicts(row.checks, row.independent)
         _require_earned(place, row.verdict, parts)
         for check in row.checks:
             where = say("audit.check", place=place, check=check.id)
@@ -76,7 +74,7 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
     _require_sizes(place, check)
     is_slack = check.utilisation == 0.0 and check.action_kN == 0.0
     if check.verdict is Verdict.PASS and not (is_slack or _is_of_geometry(check)):
-        _, high = find_utilisation_band(check)
+        _, high = check.utilisation_band
         if high is None or not high <= 1:
             raise NetDesignError(
                 say(

@@ -36,7 +36,8 @@ from netdesign.report.words import (
     show_verdict,
 )
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.records import ProfileRecord, RowStudy, Study, compute_digest
+from netdesign.study.document import compute_digest
+from netdesign.study.records import ProfileRecord, RowStudy, Study
 from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"

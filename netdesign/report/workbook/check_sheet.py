@@ -23,10 +23,7 @@ from netdesign.report.view.check_formulas import (
     write_unchanged,
     write_verdict,
 )
-from netdesign.report.view.check_view import (
-    CheckView,
-    find_utilisation_band,
-)
+from netdesign.report.view.check_view import CheckView
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
@@ -270,7 +267,7 @@ class _CheckLine:
         self._put_number(_RESISTANCE_K, check.resistance_characteristic_kN)
         self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
         self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
-        low, high = find_utilisation_band(check)
+        low, high = check.utilisation_band
         is_slack = write_slack([at(field) for field in _DEMANDS], at(_SET))
         for field, demand_field, ratio in zip(
             _RATIOS, _DEMANDS, (low, check.utilisation, high), strict=True
@@ -304,7 +301,7 @@ class _CheckLine:
             strict=True,
         ):
             self._put(field, Cell(text=text))
-        numbers = (*find_utilisation_band(check), check.resistance_characteristic_kN)
+        numbers = (*check.utilisation_band, check.resistance_characteristic_kN)
         for field, number in zip(_STUDY_NUMBERS, numbers, strict=True):
             self._put_number(field, number)
         live = (_RATIOS[0], _RATIOS[2], _RESISTANCE_K)

@@ -7,17 +7,10 @@ from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.view.check_formulas import write_merged
-from netdesign.report.view.check_view import (
-    find_governing,
-    find_highest,
-    find_utilisation_band,
-)
+from netdesign.report.view.check_view import find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import (
-    MISSING,
-    number_format,
-)
+from netdesign.report.words import MISSING, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
@@ -215,7 +208,7 @@ def _write_reasons(
 
 def _write_largest(book: Book, sheet: Any, index: int, row: RowStudy) -> None:
     highest = find_highest(row.checks)
-    known = [find_utilisation_band(check)[1] for check in row.checks]
+    known = [check.utilisation_band[1] for check in row.checks]
     ends = [end for end in known if end is not None]
     cached = (highest.utilisation if highest else None, max(ends, default=None))
     form = book.format(align="right", num_format=number_format("utilisation"))

@@ -9,6 +9,7 @@ from netdesign.checks.check import judge
 from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES
+from netdesign.structure.members import BROUGHT_BY, PUSHED_MEMBERS, Member
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
     SAME,
@@ -23,13 +24,6 @@ from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
-# Whose largest force a member carries too; that of a base is a part of its post's.
-_CARRIES = {
-    "uphill_anchor": "uphill_guy",
-    "downhill_anchor": "downhill_guy",
-    "post_base": "post",
-}
-_PUSHED = ("post", "post_base")
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: ("check.fails", "check.fails_besides"),
@@ -54,10 +48,10 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
-        if check.id != f"{check.member}.{check.mode}" and check.member != "net":
+        if check.id != f"{check.member}.{check.mode}" and check.member != Member.NET:
             what = name_check(check.member, check.mode)
             yield say("audit.check_of_other", place=where, what=what)
-        if check.member != "net":
+        if check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, complete=is_complete(row))
@@ -96,9 +90,9 @@ def _audit_action(
         if check.action_kN is not None or (extreme is None) is not (record is None):
             yield say("audit.action_or_force", place=place)
         return
-    is_part = check.member == "post_base"
+    is_part = check.member == Member.POST_BASE
     lateral = 1.0
-    if check.member not in _PUSHED:
+    if check.member not in PUSHED_MEMBERS:
         lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
     on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
     on_force = on_row * (check.action_factor or 0.0)
@@ -138,9 +132,11 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     extremes = {extreme.quantity: extreme for extreme in row.extremes}
     drawing = row.drawing
     is_shared = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
-    if check.member == "uphill_anchor" and is_shared:
-        return extremes.get("foot_anchor")  # one anchor carries both, (S7)
-    return extremes.get(_CARRIES.get(check.member, check.member))
+    if check.member == Member.UPHILL_ANCHOR and is_shared:
+        return extremes.get(Member.FOOT_ANCHOR)  # one anchor carries both, (S7)
+    if check.member in extremes:
+        return extremes[check.member]
+    return extremes.get(BROUGHT_BY.get(check.member, Member.NET))  # its guy's or post's
 
 
 def _audit_verdict(
@@ -149,17 +145,15 @@ def _audit_verdict(
     """The verdict from the band, as ``checks.check`` gives it."""
     resistance, verdict = check.resistance_kN, Verdict.NOT_PROVEN
     low, high = check.demand_low_kN, check.demand_high_kN
+    used_low, used_high = check.utilisation_band
     is_known = low is not None and high is not None and check.demand_kN is not None
     if check.action_kN == 0.0 and not check.demand_high_kN and complete:
         verdict = Verdict.PASS
         if check.utilisation != 0.0:
             used = show_value(check.utilisation)
             yield say("audit.slack_but_used", place=place, used=used)
-    elif resistance and low is not None and high is not None:
-        verdict = judge(
-            low / resistance, high / resistance,
-            least=0.0, most=1.0, is_complete=complete,
-        )  # fmt: skip
+    elif resistance and used_low is not None and used_high is not None:
+        verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
     if check.verdict is not verdict and not is_held_back(check):
@@ -196,6 +190,6 @@ def _audit_spreads(place: Message, check: CheckRecord) -> Iterator[Message]:
     high = used + sum((one or 0.0) - used for _, one in ends)
     bands = (check.demand_low_kN or 0.0, check.demand_high_kN or 0.0)
     pairs: list[Pair] = [("spreads.low", low, bands[0] / resistance)]
-    if check.member != "post_base":
+    if check.member != Member.POST_BASE:
         pairs.append(("spreads.high", high, bands[1] / resistance))
     yield from tell_unequal(place, pairs)

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import Outcome
+from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.audit.comparing import SAME, is_same, tell_unequal
 from netdesign.study.records import (
     BoundRecord,
@@ -21,7 +22,6 @@ from netdesign.study.records import (
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-MEMBERS = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
 _AXES = ("density_kg_m3", "friction_deg", "inclination_deg")
 Spans = Mapping[str, tuple[float, float]]
 
@@ -81,7 +81,7 @@ def find_largest(row: RowStudy, member: str) -> CaseRecord | None:
 def _audit_case(
     place: Message, case: CaseRecord, spans: Spans, tolerance: float
 ) -> Iterator[Message]:
-    forces = [read_force(case, member) for member in MEMBERS]
+    forces = [read_force(case, member) for member in REPORTED_MEMBERS]
     numbers = [*forces]
     if math.isfinite(tolerance):
         numbers += [case.error_percent, case.balance_residual]
@@ -108,7 +108,7 @@ def _audit_case(
 
 
 def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
-    wanted = list(MEMBERS) if list_solved(row) else []
+    wanted = list(REPORTED_MEMBERS) if list_solved(row) else []
     named = [extreme.quantity for extreme in row.extremes]
     if named != wanted:
         yield say(
@@ -119,7 +119,9 @@ def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
         )
     for extreme in row.extremes:
         largest = (
-            find_largest(row, extreme.quantity) if extreme.quantity in MEMBERS else None
+            find_largest(row, extreme.quantity)
+            if extreme.quantity in REPORTED_MEMBERS
+            else None
         )
         if largest is not None:
             member = name_member(extreme.quantity)
@@ -130,7 +132,7 @@ def _audit_extremes(place: Message, row: RowStudy) -> Iterator[Message]:
 def _audit_extreme(
     place: Message, extreme: ExtremeRecord, largest: CaseRecord
 ) -> Iterator[Message]:
-    others = [member for member in MEMBERS if member != extreme.quantity]
+    others = [member for member in REPORTED_MEMBERS if member != extreme.quantity]
     yield from tell_unequal(
         place,
         [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -10,25 +9,22 @@ from netdesign.checks import Band, Standard, check_member
 from netdesign.envelope.ranges import Case, build_cases
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
+from netdesign.structure.members import Member
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
-from netdesign.study.check_site import (
-    is_calibrated,
-    list_case_notes,
-    list_notes,
-    list_row_notes,
-)
 from netdesign.study.effects import find_effects, load_guideline
-from netdesign.study.members import (
-    record_geometry,
-    record_point,
-    record_result,
-)
+from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
+from netdesign.study.record_cases import is_calibrated, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.row_checks import record_geometry, record_result
 from netdesign.study.values import compare_values
-from netdesign.units import newton_from_kilonewton
+from netdesign.units import (
+    degree_from_radian,
+    newton_from_kilonewton,
+    radian_from_degree,
+)
 from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
@@ -57,7 +53,7 @@ def audit_site(
     parts = (
         ("project", study.project, site.project),
         ("ranges", study.range_inputs, list(site.range_inputs)),
-        ("notes", study.notes, list_notes(site, law)),
+        ("notes", study.notes, list_site_notes(site, law)),
         ("site_file", study.provenance.site_file, site.file_name),
     )
     for name, one, other in parts:
@@ -98,7 +94,7 @@ def _audit_row(
     drawing = row.drawing
     if drawing is not None:
         drawn = (drawing.slope_deg, drawing.snow_thickness_m)
-        wanted = (math.degrees(given.slope_angle), given.snow_thickness)
+        wanted = (degree_from_radian(given.slope_angle), given.snow_thickness)
         if any(compare_values(drawn, wanted)):
             yield say(
                 "audit.other_section",
@@ -180,8 +176,8 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     point = stored.case
     case = Case(
         density=point.density_kg_m3,
-        friction_angle=math.radians(point.friction_deg),
-        inclination=math.radians(point.inclination_deg),
+        friction_angle=radian_from_degree(point.friction_deg),
+        inclination=radian_from_degree(point.inclination_deg),
     )
     again = compare_case(
         given,
@@ -192,7 +188,7 @@ def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.other_guideline", place=place, value=found.message)
-    largest = find_largest(row, "foot_anchor")
+    largest = find_largest(row, Member.FOOT_ANCHOR)
     if largest is not None and not (
         same_point(point, largest.case)
         and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from dataclasses import asdict
 
 from netdesign.checks import Standard
-from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
 from netdesign.study.audit.check_audit import audit_checks
 from netdesign.study.audit.comparing import is_of_steady_states, tell_verdict
 from netdesign.study.audit.envelope_audit import Spans, audit_envelope
 from netdesign.study.audit.support_audit import audit_support
-from netdesign.study.check_site import list_reasons
-from netdesign.study.records import RowStudy, Study
+from netdesign.study.notes import list_reasons
+from netdesign.study.records import RowStudy, Study, list_verdicts
 from netdesign.words.message import Message, say
 
 _AXES = {
@@ -75,7 +75,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
         yield say("audit.value_twice")
     if standard is None or standard.sha256 != study.profile.sha256:
         return
-    from netdesign.study.check_site import record_profile
+    from netdesign.study.record_provenance import record_profile
 
     again = record_profile(standard)
     stored = {value.id: asdict(value) for value in study.profile.values}
@@ -91,8 +91,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
 def _audit_verdict(row: RowStudy) -> Iterator[Message]:
     """Verdict and reasons of a row from its checks and independent checks."""
     place = say("audit.row", row=row.id)
-    held = [Verdict.NOT_PROVEN for law in row.independent if not law.is_met]
-    verdict = merge_verdicts([*(check.verdict for check in row.checks), *held])
+    verdict = merge_verdicts(list_verdicts(row.checks, row.independent))
     if row.verdict is not verdict:
         yield tell_verdict(place, row.verdict, verdict)
     reasons = list_reasons(row.checks, row.independent)

@@ -10,6 +10,7 @@ from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.outcome import Outcome
 from netdesign.structure.head import HeadForces, compute_head_forces
 from netdesign.structure.layout import SupportPoints
+from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS, Member
 from netdesign.study.audit.comparing import Pair, tell_unequal, tell_value
 from netdesign.study.audit.envelope_audit import (
     find_largest,
@@ -31,8 +32,6 @@ from netdesign.study.records import (
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
-_ANCHORS = ("foot_anchor", "uphill_anchor", "downhill_anchor", "post_base")
-_BROUGHT_BY = ("net", "uphill_guy", "downhill_guy", "post")
 _LAWS = ("global_balance", "friction_excess", "end_direction", "tension_share")
 _END_SHARE = 0.005  # of the chord: the drawn points are rounded to a tenth of a mm
 _BESIDE_NET = 0.15  # rad, over so short a piece of a net that sags
@@ -73,7 +72,7 @@ def _find_governing(row: RowStudy) -> CasePoint | None:
     rated = [one for one in row.checks if one.utilisation is not None and one.case]
     if rated:
         return max(rated, key=lambda check: check.utilisation or 0.0).case
-    largest = find_largest(row, "foot_anchor")
+    largest = find_largest(row, Member.FOOT_ANCHOR)
     return largest.case if largest else None
 
 
@@ -81,7 +80,7 @@ def _audit_anchors(
     place: Message, anchors: list[AnchorRecord], drawing: Drawing, share: float
 ) -> Iterator[Message]:
     named = tuple((one.anchor, one.member) for one in anchors)
-    if named != tuple(zip(_ANCHORS, _BROUGHT_BY, strict=True)):
+    if named != tuple(BROUGHT_BY.items()):
         names = name_members(one.anchor for one in anchors)
         yield say("audit.other_anchors", place=place, named=names)
         return
@@ -97,10 +96,10 @@ def _audit_anchors(
         return
     for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
         where = say("audit.part", place=place, part=name_member(one.anchor))
-        lateral = 0.0 if one.member == "post" else share * one.size_kN
+        lateral = 0.0 if one.member == Member.POST else share * one.size_kN
         size = math.hypot(one.force_x_kN, one.force_y_kN)
         turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
-        if arrow.member != one.anchor.replace("post_base", "post"):
+        if arrow.member != _name_arrow(one.anchor):
             drawn_as = name_member(arrow.member)
             yield say("audit.drawn_as", place=where, member=drawn_as)
         yield from tell_unequal(
@@ -117,26 +116,32 @@ def _audit_anchors(
         )
 
 
+def _name_arrow(anchor: str) -> str:
+    return Member.POST if anchor == Member.POST_BASE else anchor
+
+
 def _audit_sizes(
     place: Message, anchors: list[AnchorRecord], drawing: Drawing, drawn: CaseRecord
 ) -> Iterator[Message]:
     """Forces on the ground against those of the case; one anchor may carry two."""
-    if len(anchors) != len(_ANCHORS):
+    if len(anchors) != len(BROUGHT_BY):
         return
     foot, uphill, downhill, post = (one.size_kN for one in anchors)
     is_shared = drawing.uphill_anchor_m == (0.0, 0.0)
     sizes = (foot + uphill if is_shared else foot, uphill, downhill, post)
-    members = ("foot_anchor", "uphill_guy", "downhill_guy", "post")
     yield from tell_unequal(
         say("audit.drawn_case", place=place),
-        [(m, s, read_force(drawn, m)) for m, s in zip(members, sizes, strict=True)],
+        [
+            (m, s, read_force(drawn, m))
+            for m, s in zip(REPORTED_MEMBERS, sizes, strict=True)
+        ],
     )
 
 
 def _audit_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Message]:
     """Members that hold the net's pull on the head, from (S1) to (S4)."""
     pull, *others = row.head
-    if pull.member != "net" or len(row.anchors) != len(_ANCHORS):
+    if pull.member != Member.NET or len(row.anchors) != len(BROUGHT_BY):
         yield say("audit.no_pull", place=place)
         return
     points = SupportPoints(
@@ -152,9 +157,9 @@ def _audit_head(place: Message, row: RowStudy, drawing: Drawing) -> Iterator[Mes
         return
     _, uphill, downhill, base = row.anchors
     sizes = (
-        ("post", base, held.post_compression),
-        ("uphill_guy", uphill, held.uphill_guy_tension),
-        ("downhill_guy", downhill, held.downhill_guy_tension),
+        (Member.POST, base, held.post_compression),
+        (Member.UPHILL_GUY, uphill, held.uphill_guy_tension),
+        (Member.DOWNHILL_GUY, downhill, held.downhill_guy_tension),
     )
     within = _CLOSE * math.hypot(pull.x_kN, pull.y_kN)
     for member, anchor, force in sizes:
@@ -191,7 +196,9 @@ def _find_angle(
 
 
 def _compare_head(
-    place: Message, others: list[HeadForce], expected: list[tuple[str, float, float]]
+    place: Message,
+    others: list[HeadForce],
+    expected: Sequence[tuple[str, float, float]],
 ) -> Iterator[Message]:
     if [one.member for one in others] != [member for member, _, _ in expected]:
         yield say("audit.other_members", place=place)

@@ -6,7 +6,8 @@ from netdesign.report.drawing.monitoring_figure import (
     draw_monitoring,
 )
 from netdesign.report.page.html import render_html
-from netdesign.study.records import MonitoringRecord, read_document, write_document
+from netdesign.study.document import read_document, write_document
+from netdesign.study.records import MonitoringRecord
 from netdesign.words.message import say
 from tests.report.build_study import build_study
 from tests.report.reading import PageReader

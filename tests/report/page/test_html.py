@@ -7,7 +7,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.page import html
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import ENGLISH, Words
-from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import MENTION, SCRIPT, build_study
 from tests.report.reading import PageReader

@@ -5,11 +5,10 @@ from dataclasses import replace
 import pytest
 
 from netdesign.outcome import Verdict, merge_verdicts
-from netdesign.report.view.check_view import find_utilisation_band
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
-from netdesign.study.records import compute_digest
+from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import FORMULA, SCRIPT, build_study
 from tests.report.reading import read_rows, read_workbook, recalculate
@@ -112,7 +111,7 @@ def assert_equals_study(content, study):
     book = read_workbook(content)
     rows = read_rows(book["Checks"], "No.")
     for line, check in zip(rows, expected_checks(study), strict=True):
-        low, high = find_utilisation_band(check)
+        low, high = check.utilisation_band
         expected = {
             "E_k [kN]": check.action_kN,
             "E_d low [kN]": check.demand_low_kN,

@@ -17,8 +17,8 @@ from netdesign.site.reader import read_site
 from netdesign.solving.runner import Runner
 from netdesign.study import check_site as use_case
 from netdesign.study.audit import audit_study
-from netdesign.study.check_site import _record_provenance
-from netdesign.study.records import compute_digest, read_document, write_document
+from netdesign.study.document import compute_digest, read_document, write_document
+from netdesign.study.record_provenance import record_provenance
 from netdesign.study.repeat import list_differences
 from netdesign.words.catalogue import render
 from tests.alter_study import alter_leaf, list_leaves
@@ -86,7 +86,7 @@ def try_both(monkeypatch, call, tmp_path, text, site):
         yield Runner(), None  # without a fault
 
     def judge(_site, _profiles, run, _runner, _watch):
-        return [replace(fresh, provenance=_record_provenance(site, run))]
+        return [replace(fresh, provenance=record_provenance(site, run))]
 
     monkeypatch.setattr(verify_command, "open_run", solve)
     monkeypatch.setattr(use_case, "check_site", judge)

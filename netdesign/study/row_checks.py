@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from netdesign.checks import (
-    Band,
     CheckResult,
     RowGeometry,
     Standard,
     check_geometry,
     check_member,
 )
-from netdesign.envelope.curvature import EnvelopeGap, estimate_gap
-from netdesign.envelope.extremes import (
-    Extreme,
-    describe_gap,
-    find_extreme,
-    find_extremes,
-)
-from netdesign.envelope.ranges import Case, Ranges
-from netdesign.envelope.rows import RowEnvelope
-from netdesign.envelope.run import CaseResult
+from netdesign.envelope.extremes import Extreme, find_extreme
+from netdesign.envelope.ranges import Ranges
+from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS
@@ -37,9 +29,10 @@ from netdesign.study.flips import (
     find_spacing_change,
 )
 from netdesign.study.probe import Probe
-from netdesign.study.records import CasePoint, ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.record_cases import record_point
+from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.stronger_types import find_type_change
-from netdesign.units import given_degree_from_radian, kilonewton_from_newton
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -48,56 +41,32 @@ _FAULT_BESIDE = say("check.fault_beside")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RowTask:
+class RowCheck:
     """One net row under one profile.
 
-    ``probe`` is None where nothing beyond the envelope is to be solved; ``envelope``
-    where the results are a grid; ``on_check`` is called after each check of a force.
+    ``probe`` is None where nothing beyond the solved cases is to be solved;
+    ``on_check`` is called after each check of a force.
     """
 
     site: Site
     row: NetRow
-    results: Sequence[CaseResult]
+    solved: RowGrid | RowEnvelope
     standard: Standard
     probe: Probe | None
-    envelope: RowEnvelope | None = None
     on_check: Callable[[], None] = lambda: None
 
-    @property
-    def extremes(self) -> dict[str, Extreme]:
-        """Largest forces at the cases, by member."""
-        if self.envelope is None:
-            return find_extremes(self.results)
-        return self.envelope.extremes
 
-    @property
-    def gap(self) -> Message | None:
-        """Why the extremes do not cover every case; None if they do."""
-        if self.envelope is None:
-            return describe_gap(self.results)
-        return self.envelope.gap
+def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckRecord]:
+    """Every check of a row: each member in each mode, then the geometry.
 
-    def estimate_between(self, extreme: Extreme) -> EnvelopeGap:
-        """What may hide between the cases: bounded by a search, else estimated."""
-        if self.envelope is None:
-            return estimate_gap(extreme, self.results)
-        return EnvelopeGap(size=self.envelope.hidden(extreme.member), unknown=())
-
-    @property
-    def ranges(self) -> Ranges:
-        """Of the envelope."""
-        return self.site.ranges
-
-
-def check_row(task: RowTask) -> list[CheckRecord]:
-    """Every check of a row: each member in each mode, then the geometry."""
-    extremes = task.extremes
+    ``extremes`` are those of its solved cases.
+    """
     effects = find_effects(task.row, task.standard)
     checks = []
     for given in task.row.resistances:
         checks.append(_check_one(task, given, extremes, effects))
         task.on_check()
-    return [*checks, *record_geometry(task.row, task.ranges, task.standard)]
+    return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
 
 
 def record_geometry(
@@ -107,15 +76,6 @@ def record_geometry(
     geometry = [*check_geometry(read_geometry(row, ranges), standard)]
     ends = check_ends(find_effects(row, standard))
     return [record_result(one) for one in [*geometry, *([ends] if ends else [])]]
-
-
-def record_point(case: Case) -> CasePoint:
-    """Case in engineer's units."""
-    return CasePoint(
-        density_kg_m3=case.density,
-        friction_deg=given_degree_from_radian(case.friction_angle),
-        inclination_deg=given_degree_from_radian(case.inclination),
-    )
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
@@ -132,22 +92,21 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
 
 
 def _check_one(
-    task: RowTask,
+    task: RowCheck,
     given: Resistance,
     extremes: Mapping[str, Extreme],
     effects: RowEffects,
 ) -> CheckRecord:
     extreme = extremes.get(given.member)
-    gap = task.gap
+    gap = task.solved.gap
     if extreme is None:
         return record_result(check_member(None, given, task.standard, gap=gap), given)
-    between = task.estimate_between(extreme)
     factor = effects.factor(given.member)
-    action = _widen(extreme.force, between).times(factor)
+    action = extreme.widened.times(factor)
     result = check_member(action, given, task.standard, gap=gap)
     before = task.probe.faults if task.probe else 0
-    spreads = _list_spreads(task, extreme, between, result)
-    changes = _list_changes(task, given, extreme, effects, result, between)
+    spreads = _list_spreads(task, extreme, result)
+    changes = _list_changes(task, given, extreme, effects, result)
     if task.probe and task.probe.faults > before and not gap:
         result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
     return replace(
@@ -159,10 +118,6 @@ def _check_one(
     )
 
 
-def _widen(force: Band, between: EnvelopeGap) -> Band:
-    return Band(low=force.low, value=force.value, high=force.high + between.size)
-
-
 def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
     """Check in engineer's units, without what stands behind its action."""
     demand, utilisation = result.demand, result.utilisation
@@ -171,17 +126,17 @@ def record_result(result: CheckResult, given: Resistance | None = None) -> Check
         clause=result.clause,
         member=result.member,
         mode=result.mode,
-        demand_kN=_kilonewton(demand.value if demand else None),
-        demand_low_kN=_kilonewton(demand.low if demand else None),
-        demand_high_kN=_kilonewton(demand.high if demand else None),
-        resistance_kN=_kilonewton(result.design_resistance),
+        demand_kN=kilonewton_if_known(demand.value if demand else None),
+        demand_low_kN=kilonewton_if_known(demand.low if demand else None),
+        demand_high_kN=kilonewton_if_known(demand.high if demand else None),
+        resistance_kN=kilonewton_if_known(result.design_resistance),
         utilisation=utilisation.value if utilisation else None,
         verdict=result.verdict,
         case=None,
         reason=result.reason,
-        action_kN=_kilonewton(result.action.value if result.action else None),
+        action_kN=kilonewton_if_known(result.action.value if result.action else None),
         action_factor=result.action_factor,
-        resistance_characteristic_kN=_kilonewton(result.resistance),
+        resistance_characteristic_kN=kilonewton_if_known(result.resistance),
         resistance_factor=result.resistance_factor,
         resistance_basis=given.basis if given else "",
         resistance_type=given.type_id if given else "",
@@ -205,14 +160,14 @@ def _describe_derivation(
 
 
 def _list_spreads(
-    task: RowTask, extreme: Extreme, between: EnvelopeGap, result: CheckResult
+    task: RowCheck, extreme: Extreme, result: CheckResult
 ) -> list[SpreadRecord]:
     """Parts of the interval of a utilisation, the creep law's for comparison."""
     used = result.utilisation
     if used is None or extreme.force.value == 0.0:
         return []
     scale = used.value / extreme.force.value
-    unknown = tuple(name("axis", axis) for axis in between.unknown)
+    unknown = tuple(name("axis", axis) for axis in extreme.unknown)
     spreads = [
         SpreadRecord(
             source=say("spread.numerical_error"),
@@ -223,7 +178,7 @@ def _list_spreads(
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
-            high=used.value + between.size * scale,
+            high=used.value + extreme.hidden * scale,
             in_verdict=True,
             note=say("spread.unknown_along", axes=unknown) if unknown else None,
         ),
@@ -252,19 +207,18 @@ def _list_creep_laws(
 
 
 def _list_changes(
-    task: RowTask,
+    task: RowCheck,
     given: Resistance,
     extreme: Extreme,
     effects: RowEffects,
     result: CheckResult,
-    between: EnvelopeGap,
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check."""
     if result.demand is None or result.demand.high == 0.0:
         return []
     used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
-    gap = task.gap
+    gap = task.solved.gap
     if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
         return []  # a case without result is not mended by any change
     changes = _list_resistance_changes(task, given, result)
@@ -276,16 +230,16 @@ def _list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None:
         return changes
-    at_cases = find_extreme(given.member, task.results).force.high
-    margin = (extreme.force.high + between.size) / at_cases
+    at_cases = find_extreme(given.member, task.solved.results).force.high
+    margin = extreme.widened.high / at_cases
     on_force = effects.factor(given.member) * (result.action_factor or math.nan)
     target = Target(
         row=task.row,
-        ranges=task.ranges,
+        ranges=task.site.ranges,
         member=given.member,
         scale=on_force * margin / result.design_resistance,
         governing=extreme.governing.case,
-        results=task.results,
+        results=task.solved.results,
     )
     found = (
         find_density_change(target, task.probe),
@@ -296,7 +250,7 @@ def _list_changes(
 
 
 def _list_resistance_changes(
-    task: RowTask, given: Resistance, result: CheckResult
+    task: RowCheck, given: Resistance, result: CheckResult
 ) -> list[ChangeRecord]:
     """Characteristic resistance that is needed, and the type that has it."""
     factor: float | None = result.resistance_factor
@@ -312,7 +266,7 @@ def _list_resistance_changes(
     change = ChangeRecord(
         quantity=say("change.characteristic_resistance"),
         unit="kN",
-        now=_kilonewton(result.resistance),
+        now=kilonewton_if_known(result.resistance),
         bound=shown,
         sense="at least",
         solves=0,
@@ -320,7 +274,3 @@ def _list_resistance_changes(
     )
     kind = find_type_change(task.site, given, result.demand.high, task.standard)
     return [change, kind] if kind else [change]
-
-
-def _kilonewton(value: float | None) -> float | None:
-    return None if value is None else kilonewton_from_newton(value)

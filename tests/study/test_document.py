@@ -7,6 +7,7 @@ import pytest
 from netdesign.errors import StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
+from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.records import (
     Arrow,
     CasePoint,
@@ -19,9 +20,6 @@ from netdesign.study.records import (
     Provenance,
     RowStudy,
     Study,
-    compute_digest,
-    read_document,
-    write_document,
 )
 from netdesign.words.message import say
 

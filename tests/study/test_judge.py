@@ -8,13 +8,14 @@ import pytest
 
 from netdesign.checks import load_standard
 from netdesign.envelope.ranges import Interval, Ranges, build_cases
+from netdesign.envelope.rows import RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import MEMBER_MODES
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.cases import count_cases, solve_site
-from netdesign.study.check_site import judge_site
+from netdesign.study.judge import judge_site
 from netdesign.words.message import say
 from netdesign.words.names import name_check
 from tests.small_site import (
@@ -36,9 +37,13 @@ def standard():
     return load_standard("nf-p-95-304-style")
 
 
+def gather(results):
+    return [RowGrid(results=of_row) for of_row in results]
+
+
 @pytest.fixture(scope="module")
 def results():
-    return solve_site(SITE, RUN)
+    return [of_row.results for of_row in solve_site(SITE, RUN)]
 
 
 @pytest.fixture
@@ -47,7 +52,7 @@ def judge(results, standard):
 
     def judge_row(of_row=None, *, site=None, **changes):
         site = site or build_site(build_row("R1", **changes))
-        return judge_site(site, [of_row or results[0]], standard, RUN)
+        return judge_site(site, gather([of_row or results[0]]), standard, RUN)
 
     return judge_row
 
@@ -66,7 +71,7 @@ def check_of(study, check_id):
 
 
 def test_study_is_complete(results, standard):
-    study = judge_site(SITE, results, standard, RUN)
+    study = judge_site(SITE, gather(results), standard, RUN)
     assert study.schema == "netdesign.study/2"
     assert study.project.name == "Combe"
     assert [row.id for row in study.rows] == ["R1", "R2"]
@@ -87,7 +92,7 @@ def test_study_is_complete(results, standard):
 
 
 def test_cases_are_counted_and_listed_in_the_order_of_the_grid(results, standard):
-    study = judge_site(SITE, results, standard, RUN)
+    study = judge_site(SITE, gather(results), standard, RUN)
     assert count_cases(SITE) == 8 == sum(len(of_row) for of_row in results)
     cases = build_cases(RANGES)
     for of_row, row in zip(results, study.rows, strict=True):
@@ -179,7 +184,7 @@ def test_verdicts_of_the_rows_merge(results, standard, first, second, whole):
         replace(ROWS[0], resistances=resist(foot_anchor__tendon=first)),
         replace(ROWS[1], resistances=resist(foot_anchor__tendon=second)),
     )
-    study = judge_site(build_site(*rows), results, standard, RUN)
+    study = judge_site(build_site(*rows), gather(results), standard, RUN)
     own = {STRONG: Verdict.PASS, WEAK: Verdict.FAIL, None: Verdict.NOT_PROVEN}
     assert [row.verdict for row in study.rows] == [own[first], own[second]]
     assert study.verdict == whole
@@ -325,12 +330,12 @@ def test_order_of_rows_and_cases_changes_nothing(results, standard, seed):
         replace(ROWS[0], resistances=resist(foot_anchor__tendon=None)),
         replace(ROWS[1], resistances=resist(post__compression=WEAK)),
     )
-    straight = judge_site(build_site(*rows), results, standard, RUN)
+    straight = judge_site(build_site(*rows), gather(results), standard, RUN)
     draw = random.Random(seed)
     order = [1, 0] if seed % 2 else [0, 1]
     shuffled = [draw.sample(results[k], len(results[k])) for k in order]
     site = build_site(*(rows[k] for k in order))
-    study = judge_site(site, shuffled, standard, RUN)
+    study = judge_site(site, gather(shuffled), standard, RUN)
     assert study.verdict == straight.verdict == Verdict.FAIL
     for k, row in zip(order, study.rows, strict=True):
         expected = straight.rows[k]
@@ -343,7 +348,7 @@ def test_order_of_rows_and_cases_changes_nothing(results, standard, seed):
 
 def test_results_must_belong_to_the_rows(results, standard):
     with pytest.raises(ValueError, match="shorter"):
-        judge_site(SITE, results[:1], standard, RUN)
+        judge_site(SITE, gather(results[:1]), standard, RUN)
 
 
 def test_a_site_without_rows_proves_nothing(standard):

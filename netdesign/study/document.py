@@ -1,0 +1,105 @@
+"""A study as JSON text with its digest, and back; a faulty text is refused by place."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import Counter
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+from netdesign.edge.causes import explain, explain_shape
+from netdesign.edge.given_files import list_faults, read_bounded
+from netdesign.edge.json_text import MAX_JSON_BYTES, read_json, write_json
+from netdesign.errors import ContentError, StudyError
+from netdesign.study.records import SCHEMA, Study
+from netdesign.words.message import say
+
+_OLD_SCHEMA = "netdesign.study/1"
+_HOW_FAR = 200  # signs from the start, among which a document names its schema
+
+
+def compute_digest(study: Study) -> str:
+    """SHA-256 of a study without its own digest.
+
+    It shows that a document is the one whose digest is printed in a report, or that it
+    was altered by somebody who did not think of it. Who alters a document on purpose
+    can compute it again: only a new solve shows that the numbers are true.
+    """
+    # 2 and 2.0 are one number, and become one when a document is read
+    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
+
+
+def write_document(study: Study) -> str:
+    """JSON text of a study, with its digest.
+
+    Numbers stand in full, keys in the order of the fields.
+    """
+    return write_json(replace(study, digest=compute_digest(study)))
+
+
+def read_document(text: str) -> Study:
+    """Study from its JSON text.
+
+    Raises
+    ------
+    StudyError
+        Naming every key that is missing, unknown or of the wrong kind; of a large
+        document those of the first faulty member of each list.
+    """
+    from pydantic import ValidationError
+
+    if _OLD_SCHEMA in text[:_HOW_FAR]:
+        raise StudyError(say("study_file.old_schema", old=_OLD_SCHEMA, new=SCHEMA))
+    try:
+        study: Study = read_json(Study, text)
+        _require_sense(study)
+    except ValidationError as error:
+        faults = [
+            say(
+                "text.at_place",
+                place=".".join(map(str, fault["loc"])) or say("study.document"),
+                text=explain_shape(fault),
+            )
+            for fault in error.errors(include_input=False, include_url=False)
+        ]
+        raise StudyError(
+            say("study.faults", schema=SCHEMA, faults=list_faults(faults))
+        ) from None
+    except ValueError as error:
+        raise StudyError(
+            say("study.fault", schema=SCHEMA, fault=explain(error))
+        ) from None
+    return study
+
+
+def _require_sense(study: Study) -> None:
+    """Refuse what has the right kind and is impossible all the same."""
+    counts = Counter(row.id for row in study.rows)
+    twice = [name for name, count in counts.items() if count > 1]
+    if twice:
+        raise ContentError(say("study.id_twice", id=f"{twice[0]!r:.60}"))
+    started = study.provenance.started
+    try:
+        datetime.fromisoformat(started or "1980-01-01")
+    except ValueError:
+        raise ContentError(say("study.no_date", started=f"{started!r:.60}")) from None
+
+
+def load_study(path: Path) -> Study:
+    """Study from a stored file.
+
+    Raises
+    ------
+    StudyError
+        If the file cannot be read, or is no study.
+    """
+    try:
+        text = read_bounded(path, MAX_JSON_BYTES).decode()
+    except (OSError, ValueError) as error:
+        raise StudyError(
+            say("study.unreadable", path=str(path), cause=explain(error))
+        ) from None
+    return read_document(text)

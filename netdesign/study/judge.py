@@ -1,0 +1,167 @@
+"""Judgement of a site by a profile: its cases and checks as one study."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+
+from netdesign.checks import Standard
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.envelope.run import CaseResult
+from netdesign.outcome import merge_verdicts
+from netdesign.site.model import Site
+from netdesign.structure.members import REPORTED_MEMBERS, Member
+from netdesign.study.cases import CheckRun
+from netdesign.study.effects import RowEffects, find_effects
+from netdesign.study.notes import (
+    list_case_notes,
+    list_history_notes,
+    list_reasons,
+    list_row_notes,
+    list_site_notes,
+)
+from netdesign.study.probe import Probe
+from netdesign.study.record_cases import record_case, record_extreme
+from netdesign.study.record_envelope import record_envelope
+from netdesign.study.record_guideline import record_guideline
+from netdesign.study.record_independent import record_independent
+from netdesign.study.record_provenance import record_profile, record_provenance
+from netdesign.study.record_support import record_anchors, record_drawing, record_head
+from netdesign.study.records import (
+    SCHEMA,
+    CheckRecord,
+    MonitoringRecord,
+    RowStudy,
+    Study,
+    list_verdicts,
+)
+from netdesign.study.row_checks import RowCheck, check_row
+from netdesign.units import newton_from_kilonewton
+
+
+def judge_site(
+    site: Site,
+    solved: Sequence[RowGrid | RowEnvelope],
+    standard: Standard,
+    run: CheckRun,
+    probe: Probe | None = None,
+    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
+    on_check: Callable[[], None] = lambda: None,
+) -> Study:
+    """Check every anchor of every net row against one profile.
+
+    Parameters
+    ----------
+    site : Site
+        What the engineer gives.
+    solved : sequence of RowGrid or RowEnvelope
+        As ``solve_site`` or ``search_site`` returns them.
+    standard : Standard
+        Limit profile.
+    run : CheckRun
+        Settings and identity of the run, for the provenance.
+    probe : Probe, optional
+        Solves what the envelope does not hold: other creep laws, and where a check
+        flips. Without it a study has neither; give the same one for each profile.
+    monitoring : mapping of str to list of MonitoringRecord
+        As ``follow_site`` returns it; decides nothing.
+    on_check : callable, optional
+        Called after each check of a force.
+
+    Returns
+    -------
+    Study
+        Complete; a failed case is in it by name.
+    """
+    rows = [
+        _judge_row(
+            RowCheck(
+                site=site,
+                row=row,
+                solved=of_row,
+                standard=standard,
+                probe=probe,
+                on_check=on_check,
+            ),
+            run,
+        )
+        for row, of_row in zip(site.rows, solved, strict=True)
+    ]
+    rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
+    return Study(
+        schema=SCHEMA,
+        verdict=merge_verdicts(row.verdict for row in rows),
+        project=site.project,
+        profile=record_profile(standard),
+        rows=rows,
+        range_inputs=list(site.range_inputs),
+        notes=list_site_notes(site, run.creep_law),
+        provenance=record_provenance(site, run),
+    )
+
+
+def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
+    row, solved = task.row, task.solved
+    extremes = solved.extremes
+    checks = check_row(task, extremes)
+    cases = [record_case(result, run.creep_law, row) for result in solved.results]
+    effects = find_effects(row, task.standard)
+    governing = _governing_result(checks, extremes)
+    foot = extremes.get(Member.FOOT_ANCHOR)
+    head = record_head(row, governing)
+    independent = record_independent(governing, head)
+    return RowStudy(
+        id=row.id,
+        verdict=merge_verdicts(list_verdicts(checks, independent)),
+        checks=checks,
+        extremes=[
+            record_extreme(extremes[member])
+            for member in REPORTED_MEMBERS
+            if member in extremes
+        ],
+        cases=cases,
+        inputs=list(row.inputs),
+        drawing=record_drawing(row, governing),
+        reasons=list_reasons(checks, independent),
+        anchors=record_anchors(governing, effects),
+        head=head,
+        independent=independent,
+        guideline=record_guideline(row, foot.governing) if foot else None,
+        notes=[
+            *list_row_notes(row, effects),
+            *list_case_notes(cases),
+            *list_history_notes(extremes),
+        ],
+        envelope=(
+            record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks, effects))
+            if isinstance(solved, RowEnvelope)
+            else None
+        ),
+    )
+
+
+def _list_levels(
+    checks: Sequence[CheckRecord], effects: RowEffects
+) -> dict[str, list[tuple[str, float]]]:
+    """Solved force at which each check is just met, by member [N]."""
+    levels: dict[str, list[tuple[str, float]]] = {}
+    for check in checks:
+        if check.resistance_kN is not None and check.action_factor:
+            on_row = check.action_factor * effects.factor(check.member)
+            level = newton_from_kilonewton(check.resistance_kN / on_row)
+            levels.setdefault(check.member, []).append((check.id, level))
+    return levels
+
+
+def _governing_result(
+    checks: Sequence[CheckRecord], extremes: Mapping[str, Extreme]
+) -> CaseResult | None:
+    """Case of the largest utilisation; without any, of the largest foot force."""
+    rated = [c for c in checks if c.utilisation is not None and c.member in extremes]
+    if rated:
+        worst = max(rated, key=lambda check: check.utilisation or 0.0)
+        return extremes[worst.member].governing
+    foot = extremes.get(Member.FOOT_ANCHOR)
+    return foot.governing if foot else None

@@ -1,0 +1,132 @@
+"""Notes and reasons of a study: what was taken for granted, done otherwise, not met."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from netdesign.coupling.solution import RELEASED
+from netdesign.envelope.extremes import Extreme
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow, Site
+from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
+from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study.effects import RowEffects
+from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
+from netdesign.units import kilonewton_from_newton
+from netdesign.words.message import Message, say
+from netdesign.words.names import name, name_check, name_member
+
+
+def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
+    """What the reader noted, and what the model does with the site's snow."""
+    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
+
+
+def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:
+    """Say where the creep law is used outside the densities it was fitted to."""
+    low, high = (bound * ICE_DENSITY for bound in law.calibrated)
+    return [
+        say(
+            "note.outside_calibration",
+            what=what,
+            least=least,
+            largest=largest,
+            low=low,
+            high=high,
+            law=law.name,
+        )
+        for what, least, largest in _list_density_spans(site)
+        if least < low or largest > high
+    ]
+
+
+def _list_density_spans(site: Site) -> list[tuple[Message, float, float]]:
+    """Densities over the range [kg/m3]: of uniform snow, and of each row's layers."""
+    span = site.ranges["density"]
+    spans = []
+    if not all(row.layers for row in site.rows):
+        spans.append((say("note.snow_densities"), span.low, span.high))
+    for row in site.rows:
+        if row.layers:
+            least = min(layer.density for layer in row.layers_at(span.low))
+            largest = max(layer.density for layer in row.layers_at(span.high))
+            spans.append((say("note.layer_densities", row=row.id), least, largest))
+    return spans
+
+
+def _layer_notes(site: Site) -> list[Message]:
+    """Say what the range of density does to layered snow."""
+    return [
+        say(
+            "note.layers_scaled",
+            row=row.id,
+            count=len(row.layers),
+            density=row.mean_density,
+        )
+        for row in site.rows
+        if row.layers
+    ]
+
+
+def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
+    """What was taken for granted about this row."""
+    notes = []
+    if not math.isfinite(row.gap):
+        notes.append(say("row.ends_free"))
+    if effects.width.position == "edge":
+        notes.append(say("row.edge_governs"))
+    checked = {given.mode for given in row.resistances}
+    if "bearing" not in checked:
+        notes.append(say("row.bearing_not_checked"))
+    return notes
+
+
+def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
+    """What was done otherwise than asked in some cases."""
+    released = sum(case.reason == RELEASED for case in cases)
+    if not released:
+        return []
+    return [say("row.in_cases", count=released, all=len(cases), what=RELEASED)]
+
+
+def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
+    """Which of steady state and history is the demand, and why, by member."""
+    notes = []
+    for member in REPORTED_MEMBERS:
+        compared = extremes[member].governing.compared if member in extremes else None
+        if compared is None:
+            continue
+        history, steady = (
+            one.member_forces[member] for one in (compared.history, compared.steady)
+        )
+        reaches = {
+            "history_low": kilonewton_from_newton(history.low),
+            "history_high": kilonewton_from_newton(history.high),
+            "steady_low": kilonewton_from_newton(steady.low),
+            "steady_high": kilonewton_from_newton(steady.high),
+        }
+        key = "row.history_exceeds" if compared.exceeds(member) else "row.history_stays"
+        notes.append(say(key, member=name_member(member), **reaches))
+    return notes
+
+
+def list_reasons(
+    checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
+) -> list[Message]:
+    """Why a row does not pass: each check that does not, each law that is not met."""
+    unproven = [
+        say(
+            "row.check_reason",
+            check=name_check(check.member, check.mode),
+            reason=check.reason,
+        )
+        for check in checks
+        if check.verdict is not Verdict.PASS
+    ]
+    unmet = [
+        say("row.law_not_met", law=name("law", one.name))
+        for one in independent
+        if not one.is_met
+    ]
+    return [*unproven, *unmet]

@@ -1,0 +1,68 @@
+"""Profile and origin of a study, as records."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+
+from netdesign import __version__
+from netdesign.checks import Standard
+from netdesign.site.model import Site
+from netdesign.snow.creep_law import CreepLaw
+from netdesign.study.cases import CheckRun
+from netdesign.study.records import ProfileRecord, ProfileValue, Provenance
+
+_LIBRARIES = ("numpy", "scipy", "scikit-fem")
+
+
+def record_profile(standard: Standard) -> ProfileRecord:
+    """Every value of a limit profile, as a study states it."""
+    return ProfileRecord(
+        id=standard.id,
+        title=standard.title,
+        edition=standard.edition,
+        sha256=standard.sha256,
+        version=standard.version,
+        choice=standard.choice,
+        values=[
+            ProfileValue(
+                id=entry.id,
+                clause=entry.clause,
+                text=entry.text,
+                value=entry.value,
+                unit=entry.unit,
+                status=entry.status,
+                source=entry.source,
+            )
+            for entry in standard.listed
+        ],
+    )
+
+
+def record_provenance(site: Site, run: CheckRun) -> Provenance:
+    """Versions, files and settings of a run."""
+    settings = run.settings
+    return Provenance(
+        version=__version__,
+        command=run.command,
+        started=run.started,
+        site_file=site.file_name,
+        site_sha256=site.sha256,
+        settings={
+            "method": run.method,
+            "creep_law": name_law(run.creep_law),
+            "accuracy": repr(settings.accuracy),  # in full: the study is solved again
+            "stress_tolerance": f"{settings.stress_tolerance:g}",
+            "shape_tolerance": f"{settings.shape_tolerance:g}",
+            "balance_tolerance": f"{settings.balance_tolerance:g}",
+        },
+        libraries={
+            "python": platform.python_version(),
+            **{name: importlib.metadata.version(name) for name in _LIBRARIES},
+        },
+    )
+
+
+def name_law(law: CreepLaw) -> str:
+    """Name and source of a creep law, as a study states it."""
+    return f"{law.name} ({law.source})"
