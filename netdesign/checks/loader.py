@@ -269,7 +269,9 @@ def _take_from_choice(
 ) -> list[EntryT]:
     """Entries with those of the chosen set in place of their namesakes."""
     replaced = {entry.id for entry in chosen} | set(without)
-    return [*(entry for entry in given if entry.id not in replaced), *chosen]
+    kept: list[EntryT] = [entry for entry in given if entry.id not in replaced]
+    kept.extend(chosen)
+    return kept
 
 
 def _read_files(folder: Path) -> dict[str, bytes]:

@@ -71,6 +71,10 @@ class GivenResistance(Protocol):
     def tests(self) -> PullOutTests | None:
         """Pull-out tests in the place of a value [N]; None without."""
 
+    @property
+    def lack(self) -> Message | None:
+        """Why there is no value, where "none is given" does not say it."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckResult:

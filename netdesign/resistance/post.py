@@ -109,7 +109,7 @@ def compute_bearing_resistance(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PostSection:
-    """What bending of a post needs beside its resistance to buckling.
+    """Section of a post that bends, beside its resistance to buckling.
 
     Attributes
     ----------

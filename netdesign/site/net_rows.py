@@ -23,6 +23,12 @@ from netdesign.site.snow_layers import (
     refuse_unknown_rows,
     settle_thickness,
 )
+from netdesign.site.support_types import (
+    list_dependent,
+    read_anchor_types,
+    read_axes,
+    read_guys,
+)
 from netdesign.site.tables import Table, read_rows
 from netdesign.site.type_resistances import find_tests
 from netdesign.snow.ground import (
@@ -181,6 +187,9 @@ def _build_net_row(
         inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        guys=read_guys(row),
+        axes=tuple(read_axes(row).items()),
+        anchors=tuple(read_anchor_types(row, type_sheets["Anchors"] or {}).items()),
     )
 
 
@@ -301,7 +310,10 @@ def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ..
         _find_resistance(row[named_by], mode, member, type_sheets)
         for member, mode, named_by in OPTIONAL_MODES
     ]
-    return (*needed, *(one for one in optional if one.value is not None))
+    dependent = list_dependent(
+        row, type_sheets["Anchors"] or {}, type_sheets["Posts"] or {}
+    )
+    return (*needed, *(one for one in optional if one.value is not None), *dependent)
 
 
 def _find_resistance(

@@ -29,6 +29,7 @@ from netdesign.site.net_rows import build_net_rows, index_by_id
 from netdesign.site.ranges import build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_layers import check_densities, read_layers
+from netdesign.site.support_types import check_support_types
 from netdesign.site.tables import (
     Table,
     find_table,
@@ -173,6 +174,7 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] 
             rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
         check_tests(row, findings)
+        check_support_types(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
     by_id = index_by_id(filled, findings)
     return by_id if "id" in table.columns else None

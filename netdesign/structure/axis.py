@@ -1,4 +1,4 @@
-"""Pull of the structure against the axis of an anchor: angle, and parts of the force."""
+"""Pull on an anchor against its axis: angle, and parts of the force."""
 
 from __future__ import annotations
 
@@ -31,7 +31,13 @@ class AxisParts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PullRange:
-    """Directions of the pulls on one anchor, from least to largest [rad]."""
+    """Directions of the pulls on one anchor.
+
+    Attributes
+    ----------
+    least, largest : float
+        As `measure_pull` counts them [rad].
+    """
 
     least: float
     largest: float
@@ -42,7 +48,18 @@ class PullRange:
         return 0.5 * (self.least + self.largest)
 
     def find_largest_angle(self, axis: float) -> float:
-        """Largest angle between a pull of the range and an axis [rad]."""
+        """Largest angle between a pull of the range and an axis.
+
+        Parameters
+        ----------
+        axis : float
+            Inclination of the anchor [rad].
+
+        Returns
+        -------
+        float
+            [rad].
+        """
         return max(abs(self.least - axis), abs(self.largest - axis))
 
 
@@ -92,7 +109,18 @@ def resolve_on_axis(x: float, y: float, axis: float, anchor: str) -> AxisParts:
 
 
 def find_pull_range(directions: Iterable[float]) -> PullRange | None:
-    """Least and largest of some directions [rad]; None of none."""
+    """Least and largest of some directions.
+
+    Parameters
+    ----------
+    directions : iterable of float
+        As `measure_pull` counts them [rad].
+
+    Returns
+    -------
+    PullRange or None
+        None of none.
+    """
     found = sorted(directions)
     return PullRange(least=found[0], largest=found[-1]) if found else None
 
@@ -113,6 +141,11 @@ def turn_sideways(angle: float, share: float) -> float:
     -------
     float
         [rad].
+
+    Raises
+    ------
+    ModelError
+        If the share is out of its range.
     """
     require_within("lateral share", share, 0.0, 1.0)
     return math.acos(math.cos(angle) / math.hypot(1.0, share))

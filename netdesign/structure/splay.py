@@ -19,6 +19,28 @@ LEAST_SPLAY, MOST_SPLAY = math.radians(5.0), math.radians(60.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Guys:
+    """Guys on each side of a post, uphill and downhill alike.
+
+    Attributes
+    ----------
+    count : int
+        1 or 2.
+    splay : float or None
+        beta, between each of two guys and the section [rad]; None if not given.
+    """
+
+    count: int = 1
+    splay: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what the model does not know."""
+        require_within("guys", self.count, 1, 2)
+        if self.splay is not None:
+            require_within("splay", self.splay, LEAST_SPLAY, MOST_SPLAY, "rad")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SplayedHead:
     """Forces at a head held by two splayed guys on each side of the post.
 
@@ -113,7 +135,7 @@ def compute_splayed_head(
 
 
 def weigh_splay(points: SupportPoints) -> SplayWeights | None:
-    """How two guys on one side share a load; None unless the post stands between them.
+    """Parts that two guys on one side take; None unless the post stands between them.
 
     Theory: structure/THEORY.md, eqs. (S17) and (S18).
 

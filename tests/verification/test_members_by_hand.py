@@ -1,8 +1,8 @@
 """Members beyond axial force by hand: bent anchor, splayed guys, post under snow.
 
 Numbers are worked out with a pocket calculator's steps from the norm's formulas; the
-program has to find them to 0.1 %. Shown to fail with a sign or a factor of two spoilt in
-(R7) to (R11) and (S15): see the commit.
+program has to find them to 0.1 %. Nine formulas of (R7) to (R12), (S15) and (S16) were
+spoilt by a sign or a factor, one at a time: each time a test here failed.
 """
 
 import math
@@ -97,7 +97,7 @@ def test_post_under_snow():
     lambda = 1.0121, Phi = 0.5 (1 + 0.49 * 0.8121 + 1.0243) = 1.2111,
     chi = 1 / (1.2111 + sqrt(1.4668 - 1.0243)) = 0.5329: N_k = 538.0 kN.
     Snow: 13.5 kPa * 2.0 * 0.14 m = 3.78 kN/m, M = 3.78 * 3.4^2 / 8 = 5.462 kN m,
-    design 1.5 * 5.462 = 8.193 kN m. W = 215.6 cm3 (snow bends it about its strong axis):
+    design 1.5 * 5.462 = 8.193 kN m. W = 215.6 cm3 (strong axis, which the snow bends):
     M_Rk = 50.67 kN m; gamma 1.05: m = 1.05 * 8.193 / 50.67 = 0.16979.
     (1 - 1.05 C / 538.0) (1 - C / 985.6) = 0.16979: C = 372.2 kN
     (1 - 0.72642) (1 - 0.37764) = 0.17026, of 0.16979; R_k = 1.05 C = 391.0 kN.
