@@ -12,7 +12,7 @@ from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import read_end_effect
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.members import PUSHED_MEMBERS, Member
+from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -37,7 +37,9 @@ class RowEffects:
     width : LoadedWidth
         Of the governing support.
     lateral_share : float
-        Share of a pulled member's force along the row [-].
+        Share of the load along the row [-].
+    is_foot_shared : bool
+        The uphill guy ends at the net's foot.
     missing : tuple of Message
         What the profile does not say.
     """
@@ -46,6 +48,7 @@ class RowEffects:
     width: LoadedWidth
     lateral_share: float
     missing: tuple[Message, ...]
+    is_foot_shared: bool = False
 
     def factor(self, member: str) -> float:
         """Force on the governing support over the solved one [-]."""
@@ -54,8 +57,9 @@ class RowEffects:
 
     def lateral_factor(self, member: str) -> float:
         """Part of the factor that the load along the row brings [-]."""
-        if member in PUSHED_MEMBERS:
-            return 1.0
+        is_foot = member == Member.FOOT_ANCHOR
+        if not (is_foot or (self.is_foot_shared and member == Member.UPHILL_ANCHOR)):
+            return 1.0  # what the load does at the head: study/sideways.py
         return compute_lateral_factor(self.lateral_share)
 
     def record(self, member: str, solved: Band) -> ActionRecord:
@@ -105,6 +109,7 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
         width=find_governing_width(spacing, edge),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
+        is_foot_shared=row.layout.uphill_anchor_distance == 0.0,
     )
 
 

@@ -181,6 +181,12 @@ class ActionRecord:
     end_factor: float  # f_R, 0 inside a row
     end_length_m: float
     lateral_factor: float
+    share: float = 1.0  # of the solved force, in this member or along the slope
+    added_kN: float = 0.0  # by the load along the row at the head
+    added_low_kN: float = 0.0
+    added_high_kN: float = 0.0
+    added_how: Text | None = None  # its formula with numbers
+    sum_how: Text | None = None  # the two parts of an anchor that carries two members
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -318,6 +324,23 @@ class AnchorRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PullRecord:
+    """Directions of the pulls on one anchor over all solved cases, and its axis.
+
+    Counted from the slope surface, in the direction along the slope in which the anchor
+    is pulled; 90 is straight out of the ground.
+    """
+
+    anchor: str
+    kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
+    least_deg: float
+    largest_deg: float
+    axis_deg: float
+    is_axis_given: bool  # else the middle of the pulls
+    angle_deg: float  # largest between pull and axis, with the part along the row
+
+
+@dataclass(frozen=True, kw_only=True)
 class HeadForce:
     """One force on the post head; those of a head sum up to zero."""
 
@@ -391,6 +414,7 @@ class RowStudy:
     monitoring: list[MonitoringRecord] = field(default_factory=list)
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
+    pulls: list[PullRecord] = field(default_factory=list)  # over all solved cases
     guideline: GuidelineRecord | None = None
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from netdesign.checks import (
+    Band,
     CheckResult,
     RowGeometry,
     Standard,
@@ -17,9 +18,14 @@ from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.site.model import BaseFriction, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.study.effects import RowEffects, check_ends, find_effects
+from netdesign.study.dependent import (
+    Circumstances,
+    is_post_loaded,
+    settle_resistance,
+)
+from netdesign.study.effects import check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
     Target,
@@ -28,9 +34,12 @@ from netdesign.study.flips import (
     find_height_change,
     find_spacing_change,
 )
+from netdesign.study.member_loads import RowLoads
 from netdesign.study.probe import Probe
+from netdesign.study.pulls import check_directions
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
+from netdesign.study.sideways import check_sideways
 from netdesign.study.stronger_types import find_type_change
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
@@ -56,17 +65,39 @@ class RowCheck:
     on_check: Callable[[], None] = lambda: None
 
 
-def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckRecord]:
+def check_row(
+    task: RowCheck, extremes: Mapping[str, Extreme], loads: RowLoads
+) -> list[CheckRecord]:
     """Every check of a row: each member in each mode, then the geometry.
 
-    ``extremes`` are those of its solved cases.
+    ``extremes`` and ``loads`` are those of its solved cases.
     """
-    effects = find_effects(task.row, task.standard)
     checks = []
-    for given in task.row.resistances:
-        checks.append(_check_one(task, given, extremes, effects))
+    for given in list_checked(task.row, task.standard):
+        checks.append(_check_one(task, given, extremes, loads))
         task.on_check()
-    return [*checks, *record_geometry(task.row, task.site.ranges, task.standard)]
+    return [
+        *checks,
+        *(record_result(one) for one in _check_directions(task, loads)),
+        *record_geometry(task.row, task.site.ranges, task.standard),
+    ]
+
+
+def list_checked(row: NetRow, standard: Standard) -> list[Resistance]:
+    """Resistances that a profile asks for: of a post under snow with such a load."""
+    loaded = is_post_loaded(standard)
+    return [
+        one for one in row.resistances if loaded or one.mode != "compression_bending"
+    ]
+
+
+def _check_directions(task: RowCheck, loads: RowLoads) -> list[CheckResult]:
+    """Checks of a support that compare no force: load along the row, directions."""
+    gap = task.solved.gap
+    return [
+        check_sideways(task.row, loads.sideways, gap),
+        *check_directions(loads.pulls, task.standard, gap),
+    ]
 
 
 def record_geometry(
@@ -95,27 +126,53 @@ def _check_one(
     task: RowCheck,
     given: Resistance,
     extremes: Mapping[str, Extreme],
-    effects: RowEffects,
+    loads: RowLoads,
 ) -> CheckRecord:
     extreme = extremes.get(given.member)
     gap = task.solved.gap
     if extreme is None:
         return record_result(check_member(None, given, task.standard, gap=gap), given)
-    factor = effects.factor(given.member)
-    action = extreme.widened.times(factor)
-    result = check_member(action, given, task.standard, gap=gap)
+    action = loads.act(given, extreme.widened)
+    given = _settle(task, given, extreme, loads)
+    result = judge_forces(action, given, task.standard, gap)
     before = task.probe.faults if task.probe else 0
-    spreads = _list_spreads(task, extreme, result)
-    changes = _list_changes(task, given, extreme, effects, result)
+    at_cases = loads.act(given, extreme.force)
+    spreads = _list_spreads(task, extreme, result, at_cases)
+    changes = _list_changes(task, given, extreme, loads, result)
     if task.probe and task.probe.faults > before and not gap:
-        result = check_member(action, given, task.standard, gap=_FAULT_BESIDE)
+        result = judge_forces(action, given, task.standard, _FAULT_BESIDE)
     return replace(
         record_result(result, given),
         case=record_point(extreme.governing.case),
-        action=effects.record(given.member, extreme.force),
+        action=loads.record(given, extreme),
         spreads=spreads,
         changes=changes,
     )
+
+
+def _settle(
+    task: RowCheck, given: Resistance, extreme: Extreme, loads: RowLoads
+) -> Resistance:
+    """The resistance with the value that follows from the demand, where it does."""
+    known = Circumstances(
+        row=task.row,
+        ranges=task.site.ranges,
+        standard=task.standard,
+        pull=loads.pulls.get(given.member),
+        pressing=loads.press(extreme.widened).value,
+    )
+    return settle_resistance(given, known)
+
+
+def judge_forces(
+    action: Band | None, given: Resistance, standard: Standard, gap: Message | None
+) -> CheckResult:
+    """Check of forces; it fails where a moment alone is too much for a post."""
+    result = check_member(action, given, standard, gap=gap)
+    lack = given.lack
+    if lack is None or lack.key != "post_bending.too_much":
+        return result
+    return replace(result, verdict=Verdict.FAIL, reason=lack)
 
 
 def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
@@ -160,31 +217,35 @@ def _describe_derivation(
 
 
 def _list_spreads(
-    task: RowCheck, extreme: Extreme, result: CheckResult
+    task: RowCheck, extreme: Extreme, result: CheckResult, at_cases: Band
 ) -> list[SpreadRecord]:
-    """Parts of the interval of a utilisation, the creep law's for comparison."""
+    """Parts of the interval of a utilisation, the creep law's for comparison.
+
+    ``at_cases`` is the action without what may hide between the cases.
+    """
     used = result.utilisation
-    if used is None or extreme.force.value == 0.0:
+    if used is None or at_cases.value == 0.0:
         return []
-    scale = used.value / extreme.force.value
+    scale = used.value / at_cases.value
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
     spreads = [
         SpreadRecord(
             source=say("spread.numerical_error"),
-            low=extreme.force.low * scale,
-            high=extreme.force.high * scale,
+            low=at_cases.low * scale,
+            high=at_cases.high * scale,
             in_verdict=True,
         ),
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
-            high=used.value + extreme.hidden * scale,
+            high=used.high - at_cases.high * scale + used.value,
             in_verdict=True,
             note=say("spread.unknown_along", axes=unknown) if unknown else None,
         ),
     ]
-    if task.probe is not None and used.value > 0.0:
-        spreads += _list_creep_laws(task.probe, task.row, extreme, scale)
+    if task.probe is not None and extreme.force.value > 0.0:
+        on_force = used.value / extreme.force.value
+        spreads += _list_creep_laws(task.probe, task.row, extreme, on_force)
     return spreads
 
 
@@ -210,7 +271,7 @@ def _list_changes(
     task: RowCheck,
     given: Resistance,
     extreme: Extreme,
-    effects: RowEffects,
+    loads: RowLoads,
     result: CheckResult,
 ) -> list[ChangeRecord]:
     """Changes that flip a failing, unproven or close check."""
@@ -221,18 +282,21 @@ def _list_changes(
     gap = task.solved.gap
     if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
         return []  # a case without result is not mended by any change
+    if isinstance(given.dimensions, BaseFriction):
+        return []  # in proportion to what presses the base
     changes = _list_resistance_changes(task, given, result)
     if used is None or result.design_resistance is None:
         return changes
-    changes.append(find_spacing_change(effects, used.high))
+    changes.append(find_spacing_change(loads.effects, used.high))
     if gap:
         note = say("change.as_far_as_solved")
         return [replace(change, note=note) for change in changes]
-    if task.probe is None:
-        return changes
+    if task.probe is None or given.dimensions or extreme.force.value == 0.0:
+        return changes  # what follows the snow is no fixed resistance
     at_cases = find_extreme(given.member, task.solved.results).force.high
     margin = extreme.widened.high / at_cases
-    on_force = effects.factor(given.member) * (result.action_factor or math.nan)
+    action = loads.act(given, extreme.widened).high / extreme.widened.high
+    on_force = action * (result.action_factor or math.nan)
     target = Target(
         row=task.row,
         ranges=task.site.ranges,

@@ -6,10 +6,15 @@ from collections import Counter
 from collections.abc import Iterator
 
 from netdesign.checks.check import judge
-from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    BAR_ANGLE,
+    LATERAL_SHARE,
+    ROPE_ANGLE,
+)
 from netdesign.outcome import Verdict
 from netdesign.site.model import MEMBER_MODES
-from netdesign.structure.members import BROUGHT_BY, PUSHED_MEMBERS, Member
+from netdesign.structure.members import BROUGHT_BY, Member
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
     SAME,
@@ -24,9 +29,10 @@ from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
+_WITHOUT_FORCE = ("direction", "lateral")
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
-    Verdict.FAIL: ("check.fails", "check.fails_besides"),
+    Verdict.FAIL: ("check.fails", "check.fails_besides", "post_bending.too_much"),
     Verdict.NOT_PROVEN: ("check.not_proven",),
 }
 
@@ -51,7 +57,9 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         if check.id != f"{check.member}.{check.mode}" and check.member != Member.NET:
             what = name_check(check.member, check.mode)
             yield say("audit.check_of_other", place=where, what=what)
-        if check.member != Member.NET:
+        if check.mode in _WITHOUT_FORCE:
+            yield from _audit_direction(where, check, row, factors)
+        elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, complete=is_complete(row))
@@ -92,20 +100,25 @@ def _audit_action(
         return
     is_part = check.member == Member.POST_BASE
     lateral = 1.0
-    if check.member not in PUSHED_MEMBERS:
+    if check.member == Member.FOOT_ANCHOR or _is_shared(check, row):
         lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
     on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
     on_force = on_row * (check.action_factor or 0.0)
     pairs: list[Pair] = [
         ("lateral_factor", record.lateral_factor, lateral),
-        ("action_kN", check.action_kN, record.solved_kN * on_row),
+        (
+            "action_kN",
+            check.action_kN,
+            (record.share * record.solved_kN + record.added_kN) * on_row,
+        ),
     ]
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         if check.action_factor is not None:
-            low = extreme.low_kN * on_force
+            low = (record.share * extreme.low_kN + record.added_low_kN) * on_force
             pairs.append(("demand_low_kN", check.demand_low_kN, low))
-            yield from _audit_high_end(place, check, extreme, on_force)
+            high = record.share * extreme.high_kN + record.added_high_kN
+            yield from _audit_high_end(place, check, extreme, high * on_force)
         if not same_point(check.case, extreme.case):
             yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
@@ -118,10 +131,10 @@ def _audit_action(
 
 
 def _audit_high_end(
-    place: Message, check: CheckRecord, extreme: ExtremeRecord, on_force: float
+    place: Message, check: CheckRecord, extreme: ExtremeRecord, least: float
 ) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
-    high, least = check.demand_high_kN, extreme.high_kN * on_force
+    high = check.demand_high_kN
     if extreme.upper_bound_kN is not None:
         yield from tell_unequal(place, [("demand_high_kN", high, least)])
     elif high is None or high < least * (1.0 - SAME):
@@ -130,13 +143,40 @@ def _audit_high_end(
 
 def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     extremes = {extreme.quantity: extreme for extreme in row.extremes}
-    drawing = row.drawing
-    is_shared = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
-    if check.member == Member.UPHILL_ANCHOR and is_shared:
+    if _is_shared(check, row):
         return extremes.get(Member.FOOT_ANCHOR)  # one anchor carries both, (S7)
     if check.member in extremes:
         return extremes[check.member]
     return extremes.get(BROUGHT_BY.get(check.member, Member.NET))  # its guy's or post's
+
+
+def _is_shared(check: CheckRecord, row: RowStudy) -> bool:
+    """Whether a check is of an uphill anchor that lies at the net's foot."""
+    drawing = row.drawing
+    is_at_foot = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
+    return check.member == Member.UPHILL_ANCHOR and is_at_foot
+
+
+def _audit_direction(
+    place: Message, check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> Iterator[Message]:
+    """Directions against the limits of the profile; where they pass, all is solved."""
+    if check.verdict is Verdict.PASS and not is_complete(row):
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    if check.mode != "direction":
+        return
+    pull = next((one for one in row.pulls if one.anchor == check.member), None)
+    if pull is None:
+        yield say("audit.action_or_force", place=place)
+        return
+    is_rope = pull.kind == "rope anchor"
+    most = factors.get(ROPE_ANGLE if is_rope else BAR_ANGLE)
+    beyond = Verdict.FAIL if is_rope and most is not None else Verdict.NOT_PROVEN
+    is_kept = most is not None and pull.angle_deg <= most * (1.0 + SAME)
+    if is_kept and check.verdict is Verdict.FAIL:
+        yield tell_verdict(place, check.verdict, Verdict.PASS)
+    if not is_kept and check.verdict is not beyond:
+        yield tell_verdict(place, check.verdict, beyond)
 
 
 def _audit_verdict(
@@ -154,6 +194,8 @@ def _audit_verdict(
             yield say("audit.slack_but_used", place=place, used=used)
     elif resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
+    if check.reason.key == "post_bending.too_much":
+        verdict = Verdict.FAIL
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
     if check.verdict is not verdict and not is_held_back(check):

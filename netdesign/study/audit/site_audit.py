@@ -2,23 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from netdesign.checks import Band, Standard, check_member
+from netdesign.checks import Band, Standard
+from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import Case, build_cases
+from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
 from netdesign.study.audit.check_audit import is_held_back
-from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
+from netdesign.study.audit.comparing import (
+    Pair,
+    is_of_steady_states,
+    is_same,
+    tell_unequal,
+    tell_value,
+)
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import find_effects, load_guideline
-from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
+from netdesign.study.notes import (
+    list_case_notes,
+    list_row_notes,
+    list_site_notes,
+    list_test_notes,
+)
+from netdesign.study.pulls import (
+    AnchorPull,
+    build_pull,
+    check_directions,
+    read_pulls,
+    record_pulls,
+)
 from netdesign.study.record_cases import is_calibrated, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import record_geometry, record_result
+from netdesign.study.row_checks import (
+    judge_forces,
+    list_checked,
+    record_geometry,
+    record_result,
+)
+from netdesign.study.sideways import GUYS, Sideways, check_sideways, find_lack
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
@@ -110,12 +138,24 @@ def _audit_judgement(
     row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
-    effects = find_effects(given, standard)
-    members = [
-        _judge_again(row, check, resistance, standard)
-        for check, resistance in zip(row.checks, given.resistances, strict=False)
+    effects, pulls = find_effects(given, standard), read_pulls(given, row.pulls)
+    members = []
+    for check, one in zip(row.checks, list_checked(given, standard), strict=False):
+        known = Circumstances(
+            row=given,
+            ranges=site.ranges,
+            standard=standard,
+            pull=pulls.get(one.member),
+            pressing=_find_pressing(check),
+        )
+        settled = settle_resistance(one, known)
+        members.append(_judge_again(row, check, settled, standard))
+    directions = _expect_directions(row, given, pulls, standard)
+    expected = [
+        *members,
+        *directions,
+        *record_geometry(given, site.ranges, standard),
     ]
-    expected = [*members, *record_geometry(given, site.ranges, standard)]
     stored, again = (
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
@@ -123,7 +163,12 @@ def _audit_judgement(
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.judged_otherwise", place=place, value=found.message)
-    notes = [*list_row_notes(given, effects), *list_case_notes(row.cases)]
+    notes = [
+        *list_row_notes(given, effects, pulls),
+        *list_test_notes(row.checks, standard),
+        *list_case_notes(row.cases),
+    ]
+    yield from _audit_pulls(row, given, effects.lateral_share)
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
@@ -131,10 +176,98 @@ def _audit_judgement(
     for check in row.checks:
         if check.action is not None:
             width = effects.record(check.member, _hold(check.action.solved_kN))
-            for found in compare_values(check.action, width):
+            plain = replace(
+                check.action,
+                share=width.share,
+                added_kN=width.added_kN,
+                added_low_kN=width.added_low_kN,
+                added_high_kN=width.added_high_kN,
+                added_how=width.added_how,
+                sum_how=width.sum_how,
+            )
+            yield from _audit_share(check, given, effects.lateral_share, place)
+            for found in compare_values(plain, width):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
+
+
+def _find_pressing(check: CheckRecord) -> float:
+    """Characteristic force across the base plate, from what slides it [N]."""
+    action = check.action
+    if check.mode != "sliding" or action is None or not action.share:
+        return 0.0
+    return newton_from_kilonewton((check.action_kN or 0.0) / action.share)
+
+
+def _expect_directions(
+    row: RowStudy,
+    given: NetRow,
+    pulls: Mapping[Member, AnchorPull],
+    standard: Standard,
+) -> list[CheckRecord]:
+    """Checks of the load along the row and of directions, from what is stored."""
+    gap = None if is_complete(row) else _UNKNOWN_GAP
+    stored = {check.id: check for check in row.checks}
+    lateral = stored.get(f"{Member.POST}.lateral")
+    value = standard.find(LATERAL_SHARE)
+    lack = find_lack(given) if value else say("check.no_case_solved")
+    is_solved = lack is None and lateral and lateral.verdict is Verdict.NOT_PROVEN
+    sideways = Sideways(
+        share=value.value if value else 0.0,
+        gap=_UNKNOWN_GAP if is_solved else lack,  # only a solve can tell the first
+    )
+    found = [
+        record_result(one)
+        for one in (
+            check_sideways(given, sideways, gap),
+            *check_directions(pulls, standard, gap),
+        )
+    ]
+    if value is None or is_solved or gap is not None:  # a gap in its own words is one
+        return [
+            replace(one, reason=stored[one.id].reason) if one.id in stored else one
+            for one in found
+        ]
+    return found
+
+
+def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message]:
+    """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
+    place = say("audit.row", row=row.id)
+    again = [
+        build_pull(given, member, pull.pulls, share)
+        for member, pull in read_pulls(given, row.pulls).items()
+    ]
+    expected = record_pulls({one.anchor: one for one in again})
+    for found in compare_values(row.pulls, expected)[:_MOST]:
+        yield say("audit.judged_otherwise", place=place, value=found.message)
+
+
+def _audit_share(
+    check: CheckRecord, given: NetRow, along_row: float, row: Message
+) -> Iterator[Message]:
+    """What the guys' splay makes of a force, from the formula that is stored."""
+    action, splay = check.action, given.guys.splay
+    if action is None or check.member == Member.POST_BASE:
+        return
+    place = say("audit.check", place=row, check=check.id)
+    is_guy = check.member in (*GUYS, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    if action.added_how is None:
+        pairs: list[Pair] = [
+            ("share", action.share, 1.0),
+            ("added_kN", action.added_kN, 0.0),
+        ]
+    else:
+        told = dict(action.added_how.arguments)
+        part, pull = float(told["part"]), float(told["pull"])
+        loaded, beta = along_row * pull, splay or math.nan
+        added = part * loaded / math.sin(beta)
+        if not is_guy:
+            added = part * (loaded / math.tan(beta) - float(told["tension"]))
+        share = 0.5 / math.cos(beta) if is_guy else 1.0
+        pairs = [("share", action.share, share), ("added_kN", action.added_kN, added)]
+    yield from tell_unequal(place, pairs)
 
 
 def _judge_again(
@@ -153,7 +286,7 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    again = record_result(check_member(action, given, standard, gap=gap), given)
+    again = record_result(judge_forces(action, given, standard, gap), given)
     # a gap in its own words is one
     return again if is_whole else replace(again, reason=check.reason)
 
