@@ -16,7 +16,6 @@ from netdesign.study.pulls import AnchorPull, list_pulls
 from netdesign.study.records import ActionRecord
 from netdesign.study.sideways import MemberLoad, Sideways, find_sideways, place_row
 from netdesign.units import kilonewton_from_newton
-from netdesign.words.message import Message, say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,14 +53,16 @@ class RowLoads:
         """The same for the worked calculation."""
         load = self._load(given)
         plain = self.effects.record(given.member, extreme.force)
+        parts = self._list_parts(given.member, extreme.governing)
         return replace(
             plain,
             share=load.share,
             added_kN=kilonewton_from_newton(load.added.value),
             added_low_kN=kilonewton_from_newton(load.added.low),
             added_high_kN=kilonewton_from_newton(load.added.high),
-            added_how=load.how,
-            sum_how=self._tell_sum(given.member, extreme.governing),
+            sideways=load.sideways,
+            foot_part_kN=parts[0],
+            guy_part_kN=parts[1],
         )
 
     def _load(self, given: Resistance) -> MemberLoad:
@@ -71,19 +72,20 @@ class RowLoads:
         return MemberLoad(
             share=self.tilt * load.share,
             added=load.added.times(self.tilt),
-            how=load.how,
+            sideways=load.sideways,
         )
 
-    def _tell_sum(self, member: str, governing: CaseResult) -> Message | None:
-        """The two parts of one anchor that carries net and uphill guy, (S7)."""
+    def _list_parts(
+        self, member: str, governing: CaseResult
+    ) -> tuple[float | None, float | None]:
+        """Both forces on one anchor that carries net and uphill guy, (S7) [kN]."""
         anchors = governing.anchors
         both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
         if anchors is None or not anchors.is_foot_shared or member not in both:
-            return None
-        return say(
-            "action.shared",
-            foot=kilonewton_from_newton(anchors.foot_anchor.size),
-            guy=kilonewton_from_newton(anchors.uphill_anchor.size),
+            return None, None
+        return (
+            kilonewton_from_newton(anchors.foot_anchor.size),
+            kilonewton_from_newton(anchors.uphill_anchor.size),
         )
 
 

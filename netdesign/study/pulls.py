@@ -140,7 +140,7 @@ def _find_lever(row: NetRow, anchor: Member) -> float | None:
 def build_pull(
     row: NetRow, anchor: Member, pulls: PullRange, share: float
 ) -> AnchorPull:
-    """Pull on an anchor from the range of its directions; ``share`` is that at the foot.
+    """Pull on an anchor from the range of its directions.
 
     Parameters
     ----------

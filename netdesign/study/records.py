@@ -171,6 +171,17 @@ class EnvelopeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SidewaysRecord:
+    """Load along the row at the head, as one member has it: (S17), (S18)."""
+
+    part: float  # c of a guy, w of the post [-]
+    share: float  # of the pull on the head, along the row [-]
+    pull_kN: float  # largest on a head, of a support inside a row
+    splay_deg: float
+    least_tension_kN: float | None  # of the guys at work; None in a guy
+
+
+@dataclass(frozen=True, kw_only=True)
 class ActionRecord:
     """How the characteristic force of a support follows from that of the solve."""
 
@@ -185,8 +196,9 @@ class ActionRecord:
     added_kN: float = 0.0  # by the load along the row at the head
     added_low_kN: float = 0.0
     added_high_kN: float = 0.0
-    added_how: Text | None = None  # its formula with numbers
-    sum_how: Text | None = None  # the two parts of an anchor that carries two members
+    sideways: SidewaysRecord | None = None  # what ``added_kN`` follows from
+    foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
+    guy_part_kN: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

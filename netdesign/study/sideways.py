@@ -22,7 +22,12 @@ from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import Member
 from netdesign.structure.splay import SplayWeights, compute_splayed_head, weigh_splay
-from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.study.records import SidewaysRecord
+from netdesign.units import (
+    degree_from_radian,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
 from netdesign.words.message import Message, say
 
 _SIDES: Mapping[str, str] = {
@@ -39,12 +44,12 @@ _NOTHING = Band(low=0.0, value=0.0, high=0.0)
 class MemberLoad:
     """How the force of one member follows from that of the section.
 
-    ``share`` of it [-], and a force ``added`` [N], of which ``how`` tells the formula.
+    ``share`` of it [-], and a force ``added`` [N], which follows from ``sideways``.
     """
 
     share: float = 1.0
     added: Band = _NOTHING
-    how: Message | None = None
+    sideways: SidewaysRecord | None = None
 
     def apply(self, force: Band) -> Band:
         """Force of the member, of a support inside the row [N]."""
@@ -100,13 +105,7 @@ class Sideways:
         return MemberLoad(
             share=0.5 / math.cos(self.splay),
             added=self.pull.times(across),
-            how=say(
-                "sideways.in_guy",
-                part=part,
-                share=self.share,
-                pull=kilonewton_from_newton(self.pull.value),
-                splay=degree_from_radian(self.splay),
-            ),
+            sideways=self._record(part, None),
         )
 
     def _load_post(self) -> MemberLoad:
@@ -119,14 +118,16 @@ class Sideways:
             return MemberLoad()
         return MemberLoad(
             added=Band(low=low, value=value, high=high),
-            how=say(
-                "sideways.in_post",
-                part=self.post,
-                share=self.share,
-                pull=kilonewton_from_newton(self.pull.value),
-                splay=degree_from_radian(self.splay),
-                tension=kilonewton_from_newton(self.least_tension),
-            ),
+            sideways=self._record(self.post, self.least_tension),
+        )
+
+    def _record(self, part: float, tension: float | None) -> SidewaysRecord:
+        return SidewaysRecord(
+            part=part,
+            share=self.share,
+            pull_kN=kilonewton_from_newton(self.pull.value),
+            splay_deg=degree_from_radian(self.splay),
+            least_tension_kN=kilonewton_if_known(tension),
         )
 
 

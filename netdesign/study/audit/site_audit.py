@@ -182,8 +182,9 @@ def _audit_judgement(
                 added_kN=width.added_kN,
                 added_low_kN=width.added_low_kN,
                 added_high_kN=width.added_high_kN,
-                added_how=width.added_how,
-                sum_how=width.sum_how,
+                sideways=None,
+                foot_part_kN=None,
+                guy_part_kN=None,
             )
             yield from _audit_share(check, given, effects.lateral_share, place)
             for found in compare_values(plain, width):
@@ -253,20 +254,21 @@ def _audit_share(
         return
     place = say("audit.check", place=row, check=check.id)
     is_guy = check.member in (*GUYS, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
-    if action.added_how is None:
-        pairs: list[Pair] = [
-            ("share", action.share, 1.0),
-            ("added_kN", action.added_kN, 0.0),
-        ]
-    else:
-        told = dict(action.added_how.arguments)
-        part, pull = float(told["part"]), float(told["pull"])
-        loaded, beta = along_row * pull, splay or math.nan
-        added = part * loaded / math.sin(beta)
-        if not is_guy:
-            added = part * (loaded / math.tan(beta) - float(told["tension"]))
-        share = 0.5 / math.cos(beta) if is_guy else 1.0
-        pairs = [("share", action.share, share), ("added_kN", action.added_kN, added)]
+    load, share, added = action.sideways, 1.0, 0.0
+    if load is not None and splay is not None:
+        loaded = load.part * along_row * load.pull_kN
+        if is_guy:
+            share, added = 0.5 / math.cos(splay), loaded / math.sin(splay)
+        else:
+            held = load.part * (load.least_tension_kN or 0.0)
+            added = loaded / math.tan(splay) - held
+    pairs: list[Pair] = [
+        ("share", action.share, share),
+        ("added_kN", action.added_kN, max(added, 0.0)),
+    ]
+    if action.foot_part_kN is not None and action.guy_part_kN is not None:
+        both = action.foot_part_kN + action.guy_part_kN
+        pairs.append(("solved_kN", action.solved_kN, both))
     yield from tell_unequal(place, pairs)
 
 
