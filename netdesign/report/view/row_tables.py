@@ -26,16 +26,19 @@ from netdesign.report.words import (
     show_with_unit,
 )
 from netdesign.study.records import (
+    ActionRecord,
     AnchorRecord,
     ChangeRecord,
     CheckRecord,
     GuidelineCase,
+    PullRecord,
     RowStudy,
     SpreadRecord,
 )
 from netdesign.words.names import name
 
 _FORCES = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN", "direction_deg")
+_PULLS = ("least_deg", "largest_deg", "axis_deg", "angle_deg")
 _GUIDELINE = (
     "height_vertical_m",
     "creep_factor",
@@ -75,6 +78,37 @@ def _name_bringer(anchor: AnchorRecord, words: Words) -> str:
     """Member that brings a force, and whether it is slack."""
     member = show_member(words, anchor.member)
     return member if anchor.size_kN else words("show.slack", member=member)
+
+
+def build_pulls(row: RowStudy, words: Words) -> Table:
+    """Directions of the pulls on each anchor over all solved cases, and its axis."""
+    return Table(
+        caption=words("caption.pulls"),
+        columns=(
+            text_column(words("heading.anchor")),
+            text_column(words("heading.kind_of_anchor")),
+            *(quantity_column(words, key) for key in _PULLS),
+            text_column(words("heading.axis_from")),
+        ),
+        rows=tuple(
+            (
+                text_cell(show_member(words, pull.anchor)),
+                text_cell(_name_kind(pull, words)),
+                *(number_cell(key, getattr(pull, key)) for key in _PULLS),
+                text_cell(
+                    words("show.axis_given" if pull.is_axis_given else "show.axis_mean")
+                ),
+            )
+            for pull in row.pulls
+        ),
+        empty=words("heading.no_case_converged"),
+    )
+
+
+def _name_kind(pull: PullRecord, words: Words) -> str:
+    if not pull.kind:
+        return MISSING
+    return words(f"choice.kind.{pull.kind.replace(' ', '')}")
 
 
 def build_head(row: RowStudy, words: Words) -> Table:
@@ -288,10 +322,18 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
                 show_with_unit("loaded_width_m", action.loaded_width_m),
             )
         )
+    steps += _describe_parts(action)
+    solved = show_with_unit("solved_kN", action.solved_kN)
+    symbols, numbers = "E_s", solved
+    if action.share != 1.0 or action.added_kN:
+        share, added = (
+            show_with_unit(key, getattr(action, key)) for key in ("share", "added_kN")
+        )
+        symbols, numbers = "(g · E_s + A)", f"({share} · {solved} + {added})"
     steps.append(
         (
-            "E_k = E_s · b_e / b · k_q",
-            f"{show_with_unit('solved_kN', action.solved_kN)} · "
+            f"E_k = {symbols} · b_e / b · k_q",
+            f"{numbers} · "
             f"{show_with_unit('loaded_width_m', action.loaded_width_m)} / "
             f"{show_with_unit('post_spacing_m', action.post_spacing_m)} · "
             f"{show_with_unit('lateral_factor', action.lateral_factor)}",
@@ -299,3 +341,30 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
         )
     )
     return tuple(steps)
+
+
+def _describe_parts(action: ActionRecord) -> list[tuple[str, str, str]]:
+    """Sum of two members on one anchor; what the load along the row adds."""
+    steps = []
+    if action.foot_part_kN is not None and action.guy_part_kN is not None:
+        parts = (
+            show_with_unit("solved_kN", one)
+            for one in (action.foot_part_kN, action.guy_part_kN)
+        )
+        solved = show_with_unit("solved_kN", action.solved_kN)
+        steps.append(("E_s = |F_foot| + |F_uphill|", " + ".join(parts), solved))
+    load = action.sideways
+    if load is None:
+        return steps
+    part, share, pull, splay, tension = (
+        show_with_unit(key, getattr(load, key))
+        for key in ("part", "share", "pull_kN", "splay_deg", "least_tension_kN")
+    )
+    added = show_with_unit("added_kN", action.added_kN)
+    if load.least_tension_kN is None:
+        symbols = "g = 1 / (2 cos β), A = c · k · P / sin β"
+        numbers = f"{part} · {share} · {pull} / sin {splay}"
+    else:
+        symbols = "A = w · (k · P / tan β − T_min)"
+        numbers = f"{part} · ({share} · {pull} / tan {splay} − {tension})"
+    return [*steps, (symbols, numbers, added)]

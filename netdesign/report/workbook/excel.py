@@ -128,6 +128,11 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
             _list_parts(view, "anchors"),
         ),
         (
+            "directions",
+            "heading.directions_of_pulls",
+            _list_parts(view, "pulls"),
+        ),
+        (
             "guideline",
             "heading.check_by_guideline",
             _list_parts(view, "guideline"),
