@@ -14,6 +14,7 @@ from netdesign.site.model import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
+from netdesign.structure.splay import Guys
 from netdesign.study.cases import CheckRun
 from netdesign.words.message import say
 from netdesign.words.names import as_given
@@ -60,6 +61,7 @@ def build_row(name, **changes):
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
+        "guys": Guys(count=2, splay=math.radians(30.0)),
         "resistances": resist(),
         "inputs": (
             InputEcho(

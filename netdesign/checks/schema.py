@@ -43,6 +43,8 @@ MODES = (
     *("tendon", "pull_out", "rope", "compression", "bearing"),
     *("bending", "compression_bending", "sliding"),
 )
+# Checks of a member that compare no force with a resistance.
+MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
 
 # Accepted values of each file, with the unit in which they stand there.

@@ -72,7 +72,8 @@ class RowLoads:
         return MemberLoad(
             share=self.tilt * load.share,
             added=load.added.times(self.tilt),
-            sideways=load.sideways,
+            sideways=load.sideways
+            and replace(load.sideways, part=self.tilt * load.sideways.part),
         )
 
     def _list_parts(

@@ -34,6 +34,8 @@ NETS = {
     "uphill guy": "G",
     "downhill guy": "G",
     "post": "P",
+    "guys on each side of the post": 2,
+    "splay of the guys [deg]": 30,
 }
 ROPE = {
     "id": "G",
@@ -52,6 +54,9 @@ POST = {
     "plate length [m]": 0.6,
     "plate width [m]": 0.5,
     "bearing stress [kPa]": 900,
+    "post width [mm]": 120,
+    "section modulus [cm3]": 144,
+    "friction of the base": 0.6,
 }
 
 

@@ -323,6 +323,9 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
             )
         )
     steps += _describe_parts(action)
+    if check.mode == "sliding":  # both parts of the post's force on the ground
+        tilt = show_with_unit("share", action.share)
+        steps.append(("g", "|F_x / F_y|", tilt))
     solved = show_with_unit("solved_kN", action.solved_kN)
     symbols, numbers = "E_s", solved
     if action.share != 1.0 or action.added_kN:

@@ -28,6 +28,7 @@ SHEETS = (
     "cases",
     "changes",
     "support",
+    "directions",
     "guideline",
     "quality",
     "assumptions",

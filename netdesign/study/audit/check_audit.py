@@ -10,6 +10,7 @@ from netdesign.checks.schema import (
     ACTION_FACTOR,
     BAR_ANGLE,
     LATERAL_SHARE,
+    MODES_WITHOUT_FORCE,
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
@@ -29,7 +30,6 @@ from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
 
-_WITHOUT_FORCE = ("direction", "lateral")
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: ("check.fails", "check.fails_besides", "post_bending.too_much"),
@@ -57,7 +57,7 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         if check.id != f"{check.member}.{check.mode}" and check.member != Member.NET:
             what = name_check(check.member, check.mode)
             yield say("audit.check_of_other", place=where, what=what)
-        if check.mode in _WITHOUT_FORCE:
+        if check.mode in MODES_WITHOUT_FORCE:
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
