@@ -10,11 +10,11 @@ from netdesign.words.message import Message, say
 
 
 class Told(Protocol):
-    """What has a message; ``site.cells.findings.Finding`` is one."""
+    """Anything with a message; ``site.cells.findings.Finding`` is one."""
 
     @property
     def message(self) -> Message:
-        """What the user is told."""
+        """Message to the user."""
 
 
 class NetDesignError(Exception):
@@ -39,7 +39,7 @@ class NetDesignError(Exception):
 
 
 class ContentError(ValueError):
-    """What is wrong inside of a file or value, before its place is known."""
+    """Fault inside a file or value, before its place is known."""
 
     def __init__(self, message: Message) -> None:
         super().__init__(message)

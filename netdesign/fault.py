@@ -75,7 +75,7 @@ def catch_fault(solve: Callable[[], Result], case: str) -> Result | Fault:
 
 
 def describe_fault(error: Exception, case: str = "") -> Fault:
-    """What is to be known of an exception, as texts that go from process to process."""
+    """Facts on an exception, as texts that go from process to process."""
     return Fault(
         kind=type(error).__name__,
         message=str(error)[:_LONGEST],

@@ -1,4 +1,4 @@
-"""How a solve ended, and what a check concluded."""
+"""Ends of solves and verdicts of checks."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Outcome(StrEnum):
 
     @property
     def message(self) -> Message:
-        """What the outcome means, for a report."""
+        """Meaning of the outcome, for a report."""
         return say(f"outcome.{self.value}")
 
     @property
@@ -34,7 +34,7 @@ class Outcome(StrEnum):
 
     @property
     def sentence(self) -> str:
-        """What the outcome means, in English."""
+        """Meaning of the outcome, in English."""
         return str(self.message)
 
 

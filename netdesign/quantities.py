@@ -11,7 +11,7 @@ from netdesign.words.message import Message, say
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantity:
-    """How one quantity is named and written in every output.
+    """Name and form of one quantity in every output.
 
     Attributes
     ----------

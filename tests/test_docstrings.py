@@ -158,7 +158,14 @@ NUMBER = re.compile(r"\b(float|Floats|Ints|Mask|Signs|NDArray|Point)\b")
 ARRAY = re.compile(r"\b(Floats|Ints|Mask|Signs|NDArray)\b")
 # A shape as "shape (2, n)" or "(n_dofs,)".
 SHAPE = re.compile(r"\bshape\b|\((?:\.\.|\w+)(?: [-+] \d)?,[^()]*\)")
-AROUND_THE_NOUN = re.compile(r"(?:What|How|Of|Where|Whether|And|That)\b")
+AROUND_THE_NOUN = re.compile(r"(?:What|Why|Which|How|Of|Where|Whether|And|That|As)\b")
+
+
+# Places that were not read yet for this.
+OPEN = (
+    *("study/audit/envelope_audit.py", "study/effects.py", "study/notes.py"),
+    *("envelope/rows.py", "site/model.py"),
+)
 
 
 def annotations(node: ast.ClassDef | ast.FunctionDef) -> dict[str, str]:
@@ -219,10 +226,8 @@ def test_numbers_of_the_numerical_rooms_state_unit_or_shape(module):
     assert found == []
 
 
-@pytest.mark.parametrize(
-    "module", [name for name in MODULES if name.startswith(NUMERICAL)]
-)
-def test_docstrings_of_the_numerical_rooms_begin_with_their_noun(module):
+@pytest.mark.parametrize("module", [name for name in MODULES if name not in OPEN])
+def test_docstrings_begin_with_their_noun(module):
     documented = ast.Module | ast.ClassDef | ast.FunctionDef
     found = [
         docstring.splitlines()[0]

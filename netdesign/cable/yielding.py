@@ -3,8 +3,8 @@
 The snow's nodes go where its own flow and the net's forces carry them, linearly in
 the forces; the net slides through the nodes as far as friction lets it. Each Newton
 step linearises all but the choice between sticking and sliding, which is made exactly
-for the linear problem. Made for nodes at rest instead, as in ``response``, that choice
-changes from one iteration to the next wherever the snow is softer than the net.
+for the linear problem. If it were made for nodes at rest, as in ``response``, it would
+change from one iteration to the next wherever the snow is softer than the net.
 Theory: cable/THEORY.md, eqs (C22) to (C26).
 """
 

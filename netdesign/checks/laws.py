@@ -17,7 +17,7 @@ LIMITS = {
 
 
 def is_law_met(name: str, value: float | None, limit: float | None) -> bool:
-    """Whether a law is met.
+    """A law is met.
 
     Parameters
     ----------

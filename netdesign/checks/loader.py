@@ -76,7 +76,7 @@ class StandardValue:
 
     @property
     def note(self) -> str:
-        """What a reader must still do about the value; "" if nothing."""
+        """Task left to the reader of the value; "" if none."""
         return CONFIRM if self.status == "assumed" else ""
 
 

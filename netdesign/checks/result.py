@@ -1,4 +1,4 @@
-"""What a check takes and what it gives."""
+"""Input and result of a check."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Band:
 
 
 class GivenResistance(Protocol):
-    """What a check reads of a resistance; ``site.model.Resistance`` is one."""
+    """Resistance as a check reads it; ``site.model.Resistance`` is one."""
 
     @property
     def member(self) -> str:
@@ -49,7 +49,7 @@ class GivenResistance(Protocol):
 
     @property
     def mode(self) -> str:
-        """What it fails by, as in "pull_out"."""
+        """Mode of failure, such as "pull_out"."""
 
     @property
     def value(self) -> float | None:
@@ -57,7 +57,7 @@ class GivenResistance(Protocol):
 
     @property
     def basis(self) -> str:
-        """How it was found: "tested", "computed", "declared", or ""."""
+        """Way in which it was found: "tested", "computed", "declared", or ""."""
 
     @property
     def type_id(self) -> str:

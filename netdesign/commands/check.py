@@ -106,13 +106,8 @@ def check(
     NETDESIGN_CHECK_JOBS.
     """
     from netdesign.coupling.scene import SolverSettings
-    from netdesign.edge.output import require_free, write_files
-    from netdesign.report.files import (
-        STUDY_FILE,
-        ReportStyle,
-        name_files,
-        render_files,
-    )
+    from netdesign.edge.output import write_files
+    from netdesign.report.files import ReportStyle, render_files
     from netdesign.study.cases import CheckRun
     from netdesign.study.check_site import check_site
 
@@ -128,20 +123,11 @@ def check(
         started=tell_time(),
     )
     if dry_run:
-        sys.exit(
-            announce(
-                site,
-                run,
-                as_json=as_json,
-                profiles=len(profiles),
-                language=language,
-            )
-        )
-    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
+        count = len(profiles)
+        sys.exit(announce(site, run, count, as_json=as_json, language=language))
     kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
-    names = name_files(folder, [p.id for p in profiles], [STUDY_FILE, *kinds])
-    require_free([path for group in names for path in group], overwrite=force)
-    style = ReportStyle(language=language, detail=detail)
+    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
+    names = _plan_files(folder, profiles, kinds, overwrite=force)
     with open_run(
         site,
         run,
@@ -153,6 +139,7 @@ def check(
     ) as (runner, progress):
         studies = check_site(site, profiles, run, runner, progress)
         progress.enter("reports")
+        style = ReportStyle(language=language, detail=detail)
         files = render_files(studies, names, style)
     failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=force)
@@ -195,6 +182,23 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
     if len({profile.id for profile in profiles}) < len(profiles):
         raise UsageRefusal(say("usage.same_profiles"))
     return profiles
+
+
+def _plan_files(
+    folder: Path | None,
+    profiles: Sequence[Standard],
+    kinds: list[str],
+    *,
+    overwrite: bool,
+) -> list[list[Path]]:
+    """Places of the outputs of each profile, refused where something is there."""
+    from netdesign.edge.output import require_free
+    from netdesign.report.files import STUDY_FILE, name_files
+
+    ids = [profile.id for profile in profiles]
+    names = name_files(folder, ids, [STUDY_FILE, *kinds])
+    require_free([path for group in names for path in group], overwrite=overwrite)
+    return names
 
 
 def _show(

@@ -1,4 +1,4 @@
-"""What changed between two studies."""
+"""``netdesign diff``: changes between two studies."""
 
 from __future__ import annotations
 

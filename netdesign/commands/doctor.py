@@ -1,4 +1,4 @@
-"""What the program runs on, and whether it works here.
+"""``netdesign doctor``: versions, threads and data, and a test of the program here.
 
 It speaks English only: it is for whoever develops or examines the program.
 """

@@ -1,4 +1,4 @@
-"""What a check would do, and how long it would take here; nothing is written."""
+"""``--dry-run``: cases and predicted time of a check; nothing is written."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _TIMED_ROWS = 5  # about; enough for a guess, few enough to be quick
 def announce(
     site: Site,
     run: CheckRun,
+    profiles: int = 1,
     *,
     as_json: bool,
-    profiles: int = 1,
     language: Language = "en",
 ) -> int:
     """Print net rows, solves of every phase and the predicted time; the exit code."""

@@ -23,7 +23,7 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.ranges import RANGE, GivenRange
-from netdesign.commands.solving import follow_runner, solving_options
+from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -101,12 +101,9 @@ def envelope(
     netdesign envelope scene.toml --inclination 25:35 --json
     netdesign envelope scene.toml --density 250:450:10 --friction 15:45:10
     """
-    from netdesign.edge.output import require_free, write_files
-    from netdesign.edge.progress import show_phases
+    from netdesign.edge.output import require_free
     from netdesign.envelope.ranges import require_valid
     from netdesign.files.scene import read_scene
-    from netdesign.solving.session import open_runner
-    from netdesign.solving.store import find_store
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
@@ -116,21 +113,16 @@ def envelope(
     paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
     require_free(paths, overwrite=force)
     start = time.perf_counter()
-    with (
-        open_runner(
-            executor=executor,
-            processes=jobs or os.cpu_count() or 1,
-            store=find_store() if cache else None,
-            tell=lambda message: tell(message, language, err=True),
-        ) as runner,
-        show_phases(
-            _list_phases(given, confirm), quiet=quiet, language=language
-        ) as progress,
-    ):
-        follow_runner(progress, runner)
-        task = _build_task(
-            scene, _read_confirming(scene_file, confirm), spans, accuracy
-        )
+    with open_phases(
+        _list_phases(given, confirm),
+        processes=jobs or os.cpu_count() or 1,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        language=language,
+    ) as (runner, progress):
+        confirming = _read_confirming(scene_file, confirm)
+        task = _build_task(scene, confirming, spans, accuracy)
         record: EnvelopeRecord | None = None
         if counted:
             counts = {name: one.count for name, one in given.items()}
@@ -139,10 +131,7 @@ def envelope(
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
     failed = tell_faults(runner.faults, language)
-    text = json.dumps(document, indent=1, allow_nan=False)
-    if out:
-        files = dict(zip(paths, _render(record, text), strict=True))
-        write_files(files, overwrite=force)
+    text = _write(document, record, paths, overwrite=force)
     if as_json:
         click.echo(text)
     else:
@@ -151,7 +140,7 @@ def envelope(
 
 
 def _require_usable(given: dict[str, GivenRange]) -> bool:
-    """Refuse what is no envelope; whether a grid is asked for."""
+    """Refuse ranges that make no envelope; True if they ask for a grid."""
     if not given:
         flags = tuple(flag for flag, _, _ in _OPTIONS)
         raise UsageRefusal(say("usage.no_range", flags=flags))
@@ -166,7 +155,7 @@ def _require_usable(given: dict[str, GivenRange]) -> bool:
 
 
 def _list_phases(given: dict[str, GivenRange], confirm: str) -> list[Phase]:
-    """What is done, with about so many cases; confirmations are part of a search."""
+    """Phases with about so many cases; confirmations are part of a search."""
     from netdesign.edge.progress import Phase
     from netdesign.study.cases import HISTORY
 
@@ -236,9 +225,11 @@ def _read_confirming(
 
     if confirm == "none":
         return None
-    return read_scene(scene_file, "transient" if confirm == "transient" else "steady")[
-        1
-    ]
+    method: Literal["steady", "transient"] = (
+        "transient" if confirm == "transient" else "steady"
+    )
+    _, settings = read_scene(scene_file, method)
+    return settings
 
 
 def _sample(
@@ -271,6 +262,23 @@ def _search(
     (found,) = search_rows([task], runner, progress.tell_wave)
     elapsed = time.perf_counter() - start
     return write_envelope_document(found, runner.counts, elapsed, language)
+
+
+def _write(
+    document: dict[str, Any],
+    record: EnvelopeRecord | None,
+    paths: list[Path],
+    *,
+    overwrite: bool,
+) -> str:
+    """Text of the document; it and the drawings are files where these have places."""
+    from netdesign.edge.output import write_files
+
+    text = json.dumps(document, indent=1, allow_nan=False)
+    if paths:
+        files = dict(zip(paths, _render(record, text), strict=True))
+        write_files(files, overwrite=overwrite)
+    return text
 
 
 def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:

@@ -1,4 +1,4 @@
-"""What every command shares once it runs: its own words, exit codes, places."""
+"""Parts that all running commands share: command line, time, exit codes, places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How commands read a site: its options, and the copy with the findings."""
+"""Reading of a site by commands: options, and the copy with the findings."""
 
 from __future__ import annotations
 

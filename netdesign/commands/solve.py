@@ -114,7 +114,7 @@ def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved
 def _bound_refused(
     scene: Scene, settings: Settings, solution: object
 ) -> PullBound | None:
-    """What a net without a steady state stays below; None if it has one."""
+    """Bound on the pulls of a net without a steady state; None if it has one."""
     from netdesign.coupling.scene import SolverSettings
     from netdesign.coupling.solution import FailedSolution
     from netdesign.coupling.steady.bound import bound_by_less_slack

@@ -1,9 +1,9 @@
-"""What commands share that solve many cases: options, workers, store."""
+"""Options, workers and store of the commands that solve many cases."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -13,7 +13,7 @@ from netdesign.commands.options import jobs_option
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
-    from netdesign.edge.progress import RunProgress
+    from netdesign.edge.progress import Phase, RunProgress
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
     from netdesign.solving.workers import Job
@@ -40,7 +40,6 @@ def solving_options(command: Any) -> Any:
     return command
 
 
-@contextmanager
 def open_run(
     site: Site,
     run: CheckRun,
@@ -50,30 +49,50 @@ def open_run(
     quiet: bool,
     profiles: int = 1,
     language: Language = "en",
-) -> Iterator[tuple[Runner, RunProgress]]:
+) -> AbstractContextManager[tuple[Runner, RunProgress]]:
     """Workers, store and progress for the check of a site, open while it lasts."""
+    from netdesign.study.cases import list_phases
+
+    return open_phases(
+        list_phases(site, run, profiles),
+        processes=run.jobs,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        language=language,
+    )
+
+
+@contextmanager
+def open_phases(
+    phases: Sequence[Phase],
+    *,
+    processes: int,
+    executor: str,
+    cache: bool,
+    quiet: bool,
+    language: Language,
+) -> Iterator[tuple[Runner, RunProgress]]:
+    """Workers, store and progress of some phases, open while they last."""
     from netdesign.edge.progress import show_phases
     from netdesign.solving.session import open_runner
     from netdesign.solving.store import find_store
-    from netdesign.study.cases import list_phases
 
     with (
         open_runner(
             executor=executor,
-            processes=run.jobs,
+            processes=processes,
             store=find_store() if cache else None,
             tell=lambda message: tell(message, language, err=True),
         ) as runner,
-        show_phases(
-            list_phases(site, run, profiles), quiet=quiet, language=language
-        ) as progress,
+        show_phases(phases, quiet=quiet, language=language) as progress,
     ):
         follow_runner(progress, runner)
         yield runner, progress
 
 
 def follow_runner(progress: RunProgress, runner: Runner) -> None:
-    """Count every case of a runner; that histories have begun is seen by them."""
+    """Count every case of a runner; the first history begins their phase."""
     from netdesign.solving.solve import method_of
 
     def ask(jobs: Sequence[Job]) -> None:

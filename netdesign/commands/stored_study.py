@@ -1,4 +1,4 @@
-"""What a stored study was made from: its command, its site file, its limit profile."""
+"""Origin of a stored study: its command, its site file, its limit profile."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
 
 
 def contradict_command(study: Study) -> Iterator[Message]:
-    """Sentences on where the command of a study is not one that could make it."""
+    """Contradictions between a study and the command that it says it was made by."""
     from netdesign.edge.given_files import make_printable
 
     made = study.provenance
@@ -119,7 +119,7 @@ def _is_number(text: str, setting: str | None) -> bool:
 
 
 def _may_be(standard: str, profile: str) -> bool:
-    """Whether a word names a profile; the id of a folder's stands inside it."""
+    """A word is the profile's id, or may be a folder, inside which the id stands."""
     from netdesign.checks import list_standards
 
     return standard == profile or standard not in list_standards()

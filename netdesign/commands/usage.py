@@ -79,7 +79,7 @@ def _describe_usage(context: click.Context) -> list[Message]:
 
 
 def explain_usage(error: click.ClickException) -> Message | str:
-    """Why click refuses a command line, in our words."""
+    """Reason why click refuses a command line, in our words."""
     if isinstance(error, UsageRefusal):
         return error.told
     if isinstance(error, click.MissingParameter):

@@ -145,7 +145,7 @@ def _verify_study(
 
 
 def _contradict_time(study: Study) -> Iterator[Message]:
-    """The time of the run lies in no future and has a zone; more nobody can know."""
+    """Contradictions of the run's time: it has no zone, or lies in the future."""
     started = study.provenance.started
     if not started:
         return
@@ -158,7 +158,7 @@ def _contradict_time(study: Study) -> Iterator[Message]:
 
 @dataclass(frozen=True, slots=True)
 class _Shown:
-    """What is printed of a verified study, in a language."""
+    """Printer of the results on a verified study, in a language."""
 
     language: Language
 
@@ -168,7 +168,7 @@ class _Shown:
         click.echo(make_printable(render(message, self.language)))
 
     def hash(self, what: Message, stored: str, now: str) -> bool:
-        """Whether two hashes are equal."""
+        """Tell two hashes; True if they are equal."""
         is_equal = stored == now
         key = "verify.hash_equal" if is_equal else "verify.hash_differs"
         self.tell(say(key, what=what))
@@ -176,7 +176,7 @@ class _Shown:
         return is_equal
 
     def digest(self, study: Study) -> bool:
-        """Whether the document is as it was written; one without a digest may be."""
+        """Tell the document's digest; True if it holds, or if there is none."""
         from netdesign.study.document import compute_digest
 
         if not study.digest:
@@ -184,7 +184,7 @@ class _Shown:
         return self.hash(say("verify.document"), study.digest, compute_digest(study))
 
     def contradictions(self, what: Message, found: Iterable[Message]) -> bool:
-        """Whether there are none; the first of them."""
+        """Tell the first contradictions; True if there are none."""
         told = list(found)
         for one in told[:_SHOWN]:
             self.tell(say("verify.differs", what=what, reason=one))
@@ -219,7 +219,7 @@ class _Shown:
     def unverified(
         self, study: Study, again: Study, ties: Sequence[Difference]
     ) -> bool:
-        """Tell what no new solve can show; whether any of it might have been shown."""
+        """Tell what a new solve cannot show; True if some of it is avoidable."""
         from netdesign.study.repeat import list_versions
 
         made = study.provenance

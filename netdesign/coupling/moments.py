@@ -200,8 +200,8 @@ def select_counted(
     is later, whatever the horizon: afterwards the snow is not what it was. The instants
     of the start, to 0.1 %, are left out: there the snow's upper corner and the friction
     along the net find their places. A net whose first shape is guessed pulls by that
-    guess for longer: its moments count from that on which proves the plateau. Without a
-    plateau all count.
+    guess for longer: its moments count once the plateau is proven. Without a plateau
+    all count.
 
     Parameters
     ----------

@@ -105,7 +105,7 @@ class ErrorModel(NamedTuple):
         ]
 
     def _remember(self, meshes: Sequence[Floats]) -> float:
-        """Difference of the last two, or what is left of those before."""
+        """Difference of the last two meshes, or the remembered part of earlier ones."""
         step = 0.0
         for coarse, fine in pairwise(meshes):
             step = np.maximum(np.hypot(*(fine - coarse)), self.memory * step)

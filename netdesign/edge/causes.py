@@ -40,7 +40,7 @@ _ALIKE = {
 
 
 def explain(error: BaseException) -> Message | str:
-    """Why something failed: a message of ours, or the words of whoever raised it."""
+    """Cause of a failure: a message of ours, or the words of whoever raised it."""
     if isinstance(error, NetDesignError | ContentError):
         return error.message
     if isinstance(error, OSError) and error.strerror:
@@ -49,27 +49,27 @@ def explain(error: BaseException) -> Message | str:
 
 
 def explain_system(error: OSError) -> Message | str:
-    """What the system says, without the file."""
+    """Words of the system, without the file."""
     name = _OS_ERRORS.get(error.errno or 0)
     return say(f"os_error.{name}") if name else str(error.strerror)
 
 
 def explain_with_file(error: OSError) -> Message | str:
-    """Why something failed, with the file that the system names."""
+    """Cause of a failure, with the file that the system names."""
     if error.filename is None:
         return explain(error)
     return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
 
 
 def _explain_literal(words: list[str]) -> Message:
-    """What a value may be: words that pydantic lists in quotes."""
+    """Accepted values: words that pydantic lists in quotes."""
     if len(words) == 1:
         return say("shape.literal_one", expected=words[0])
     return say("shape.literal_error", some=tuple(words[:-1]), last=words[-1])
 
 
 def explain_shape(fault: Mapping[str, Any]) -> Message | str:
-    """What is wrong with a value: one of the faults that pydantic lists."""
+    """Fault of a value: one of those that pydantic lists."""
     kind, context = fault["type"], fault.get("ctx", {})
     kind = _ALIKE.get(kind, kind)
     if kind in _LIMITS:

@@ -19,7 +19,7 @@ _MOST_FAULTS = 50
 
 
 def is_there(path: Path) -> bool:
-    """Whether a file or folder can be seen there; at a name that none can have, not."""
+    """A file or folder can be seen there; nothing can at an impossible name."""
     try:
         return path.exists()
     except OSError:

@@ -77,7 +77,7 @@ def _write_value(value: Any, margin: str) -> str:
 
 
 def _write_plain(value: str | float | None) -> str:
-    """As the encoder writes it, without the machinery that it starts for each value."""
+    """Text as the encoder writes it, without what it sets up for each value."""
     if type(value) is str:
         return encode_basestring(value)
     if type(value) is float and isfinite(value):

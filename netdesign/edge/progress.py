@@ -22,7 +22,7 @@ _SILENCE_S = 5.0  # longest that plain lines keep silent while cases end
 def show_progress(
     total: int, what: str, *, quiet: bool
 ) -> Iterator[Callable[[object], None] | None]:
-    """Give a function to call after each of ``total`` pieces; None when quiet."""
+    """Function to call after each of ``total`` pieces; None when quiet."""
     if quiet:
         yield None
         return
@@ -84,7 +84,7 @@ class Phase:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Standing:
-    """Where a run stands.
+    """Progress of a run at one moment.
 
     ``open`` counts the solves of this phase and all later ones, as far as they can be
     known: never 0 while there may be another. ``words`` are the phase and what else
@@ -120,7 +120,7 @@ class Standing:
 
     @property
     def bar(self) -> Message:
-        """What stands beside a bar: what matters least last, where it may be cut."""
+        """Words beside a bar, the least important last, where they may be cut."""
         return say("progress.bar", parts=(self.count, *self.left, *self.words))
 
     def __str__(self) -> str:
@@ -129,7 +129,7 @@ class Standing:
 
 
 class SearchWave(Protocol):
-    """Where a search stands; ``envelope.search.Wave`` is one."""
+    """Progress of a search; ``envelope.search.Wave`` is one."""
 
     @property
     def rows_open(self) -> int:
@@ -210,14 +210,14 @@ class RunProgress:
         return self._done - self._before
 
     def _measure_pace(self) -> float | None:
-        """As this phase has it; until it is known, as the first one had it."""
+        """Pace of this phase; until that is known, the first phase's."""
         if self._done_here < _ENOUGH:
             return self._pace
         elapsed = self._clock() - self._began
         return elapsed / self._done_here / self._phase.cost
 
     def _keep_pace(self) -> None:
-        """Of the first phase that tells: costs of later ones are known less well."""
+        """Keep the first phase's pace: costs of later phases are known less well."""
         if self._pace is None:
             self._pace = self._measure_pace()
 

@@ -46,7 +46,7 @@ class _Lasting(io.RawIOBase):
         return memoryview(data).nbytes  # type: ignore[arg-type]
 
     def writable(self) -> bool:
-        """As every output."""
+        """True, as for every output."""
         return True
 
     def fileno(self) -> int:
@@ -54,7 +54,7 @@ class _Lasting(io.RawIOBase):
         return self._raw.fileno()
 
     def isatty(self) -> bool:
-        """Whether somebody watches."""
+        """True where the stream below is a terminal."""
         return self._raw.isatty()
 
 
@@ -73,7 +73,7 @@ class Streams:
 
     @property
     def fault(self) -> OSError | None:
-        """Why standard output is not complete; a reader who stopped is no fault."""
+        """Reason why standard output is not complete; a reader who stopped is none."""
         return self.out.fault if self.out else None
 
 

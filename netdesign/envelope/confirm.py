@@ -17,7 +17,7 @@ from netdesign.envelope.run import CaseResult, CaseTask, Compared, run_cases
 from netdesign.solving.runner import Runner
 from netdesign.words.message import say
 
-# In which any snow comes to rest, or never does [s]: a thousand years.
+# A thousand years [s]: snow that has not come to rest by then never does.
 _LONGEST = 1e3 * 365.25 * 86400.0
 
 
@@ -88,7 +88,7 @@ def confirm_envelopes(
 
 
 def _confirm_again(before: Confirmation, results: Sequence[CaseResult]) -> Confirmation:
-    """By the history where that is the demand: it is what the steady state misses."""
+    """Confirmation by the history, where the history is the demand."""
     for one in results:
         compared = one.compared
         if compared is None or compared.steady is not before.screened:
@@ -111,7 +111,7 @@ def find_governing(results: Sequence[CaseResult]) -> list[int]:
 def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
     """The steady result, or the history's forces where these are surely larger.
 
-    Where one does, the drawn state is the history's too. A failed history fails the
+    Where one is, the drawn state is the history's too. A failed history fails the
     case.
     """
     if not history.is_converged:

@@ -1,4 +1,4 @@
-"""What may hide between the cases of the grid, from the curvature of the forces."""
+"""Gap between the cases of a grid, from the curvature of the forces."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
 
 
 def describe_gap(results: Sequence[CaseResult]) -> Message | None:
-    """Why the extremes do not cover every case; None if they do."""
+    """Reason why the extremes do not cover every case; None if they do."""
     failed = [result for result in results if not result.is_converged]
     if not results:
         return say("envelope.no_case")

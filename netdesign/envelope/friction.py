@@ -1,9 +1,9 @@
 """Cases that friction cannot change: known without a solve, after a test.
 
 Where the snow slips nowhere on the net, the friction limit is not reached and more
-friction leaves the solution as it is; where it slips by the very foot only, very
-nearly. That is used only after it was seen to hold: the first chances are solved all
-the same, and one that disagrees ends the skipping.
+friction leaves the solution as it is. Where the snow slips by the very foot only, that
+is very nearly so. It is used only after it was seen to hold: the first such cases are
+solved all the same, and one that disagrees ends the skipping.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from netdesign.search.surrogate import Point
 from netdesign.solving.state import CaseEnd, SolvedState
 
 _AXIS = "friction_angle"
-_TESTS = 2  # chances that are solved before any is taken
-_AGREEMENT = 0.2  # of the stated error, both end pulls: some more than iterations leave
+_TESTS = 2  # cases that are solved as tests before any is skipped
+_AGREEMENT = 0.2  # of the stated error of both end pulls: more than iterations leave
 
 
 class FrictionSkip:
-    """What one search knows about sticking snow."""
+    """Knowledge of one search about sticking snow."""
 
     def __init__(self, axes: Sequence[str]) -> None:
         """Take the names of the search's axes."""
@@ -31,7 +31,7 @@ class FrictionSkip:
         self.skipped = 0
 
     def list_lines(self, points: Sequence[Point]) -> list[list[Point]]:
-        """What to solve next of some points: lines of ascending friction.
+        """Lines of ascending friction to be solved next, out of some points.
 
         A line is solved up to the first point whose snow sticks; ask again with the
         points that are left. None are returned once the rest need no solve.
@@ -80,7 +80,7 @@ class FrictionSkip:
         return 0.0 if self._axis is None else point[self._axis]
 
     def _line(self, point: Point) -> Point:
-        """The other coordinates."""
+        """All coordinates but friction."""
         return tuple(c for axis, c in enumerate(point) if axis != self._axis)
 
 

@@ -72,7 +72,7 @@ class ResultReader:
         return {self.quantities.index(name): self._ask_for(name) for name in names}
 
     def _ask_for(self, name: str) -> Watched:
-        """Half the numerical error of the members behind which a quantity stands."""
+        """Half the numerical error of the members that a quantity stands for."""
         behind = [
             member
             for member in self.members

@@ -1,4 +1,4 @@
-"""One net row: what is asked of its envelope, and what an envelope says."""
+"""One net row: the task of its search, and the envelope that the search gives."""
 
 from __future__ import annotations
 
@@ -30,22 +30,22 @@ _TIGHTEST = 1e-4  # what ``SolverSettings`` accepts
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowTask:
-    """What is searched: a scene, the ranges around it, and how.
+    """Task of a search: a scene, the ranges around it, settings.
 
     Attributes
     ----------
     scene : Scene
-        Holds whatever the ranges leaves alone.
+        Has all values that the ranges leave alone.
     ranges : Ranges
-        Ranges.
+        Of the parameters that vary.
     layout : SupportLayout or None
         Support of the net; None follows the net's own tensions per metre.
     settings : SolverSettings
         Of every case.
     search : SearchSettings
-        When the search ends.
+        Of the end of the search.
     confirmed_by : Settings or None
-        How the governing cases are solved again; None leaves that out.
+        Of the second solve of governing cases; None leaves that out.
     build : callable or None
         Scene of a case, where the values of the ranges cannot be put into ``scene`` one
         by one.
@@ -133,14 +133,14 @@ class RowEnvelope:
 
     @property
     def gap(self) -> Message | None:
-        """Why the maxima do not cover every case; None if they do."""
+        """Reason why the maxima do not cover every case; None if they do."""
         failed = describe_gap(self.results) or self._describe_unconfirmed()
         if failed or self.maxima.is_closed:
             return failed
         return say("envelope.may_exceed", count=len(self.results))
 
     def _describe_unconfirmed(self) -> Message | None:
-        """Which governing case could not be solved again; None if all could."""
+        """Governing case that could not be solved again; None if all could."""
         for one in self.confirmations:
             if not one.confirmed.is_converged:
                 return say(

@@ -37,7 +37,7 @@ _WORTH_SHARING = 3  # cases alike but for friction; two take longer than one by 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wave:
-    """Where a search of several rows stands; ``gap`` is the largest left [-]."""
+    """Progress of a search of several rows; ``gap`` is the largest left [-]."""
 
     rows_open: int
     cases_waiting: int

@@ -86,7 +86,7 @@ def _write_bound(bound: PullBound) -> dict[str, float]:
 
 
 def _write_cost(cost: Cost, wall_s: float) -> dict[str, Any]:
-    """What the solve took, and what it did without."""
+    """Work of the solve, and the parts that it did without."""
     return {
         "wall_s": wall_s,
         "linear_solves": cost.linear_solves,
@@ -177,7 +177,7 @@ def _size(vector: Floats) -> float:
 
 
 def _write_velocity(solution: Solution | WallSolution) -> float | None:
-    """None where only the default fluidity is known, which is for another exponent."""
+    """Largest velocity; None where the only fluidity is that of another exponent."""
     scene = solution.scene
     is_default = scene.fluidity == PAPER_FLUIDITY
     if is_default and scene.creep_law.exponent != FLUIDITY_EXPONENT:
@@ -257,7 +257,7 @@ def _write_balance(balance: Balance) -> dict[str, float]:
 
 
 def _list_flags(solution: Solution | WallSolution) -> list[Message]:
-    """What a reader must know before using the numbers."""
+    """Remarks that a reader must know before using the numbers."""
     law = solution.scene.creep_law
     flags = _list_history_flags(getattr(solution, "history", None))
     if getattr(solution, "is_released", False):

@@ -1,4 +1,4 @@
-"""What changed between two studies: verdicts, checks, inputs, and all else."""
+"""Changes between two studies: verdicts, checks, inputs, and all else."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MET, _UNMET = "met", "not met"
 _PASSING = (str(Verdict.PASS), _MET)
 _RANKS = {str(Verdict.PASS): 0, _MET: 0, str(Verdict.NOT_PROVEN): 1, _UNMET: 1}
 _WORST = 2  # rank of a failure, and of what is no longer there
-# Values of a check that are told one by one; what follows from them is told in sum.
+# Values of a check that are told one by one; those that follow from them are counted.
 _OF_CHECK = (
     "utilisation",
     "demand_kN",
@@ -93,7 +93,7 @@ class Change:
 
 
 def compare_studies(old: Study, new: Study) -> list[Change]:
-    """Every change from one study to another, what was lost first.
+    """Every change from one study to another; lost passes come first.
 
     Only the time and the command of the two are left out.
     """
@@ -161,7 +161,7 @@ def _rank(change: Change) -> tuple[bool, bool]:
 def _compare_verdicts(
     name: str, old: RowStudy | None, new: RowStudy | None
 ) -> Iterator[Change]:
-    """Verdict of a row and of all in it; of a row that came or went, only its own."""
+    """Changed verdicts of a row and its checks; of a new or lost row its own only."""
     if old and new:
         yield from _compare("verdict", name, _list_verdicts(old), _list_verdicts(new))
         return
@@ -188,7 +188,7 @@ def _compare(area: str, row: str, old: Named, new: Named) -> Iterator[Change]:
 
 
 def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
-    """The first of the other values that differ in each part, and their number."""
+    """Other values that differ: the first of each part, and how many follow."""
 
     def name_part(one: Difference) -> str:
         return one.place.partition(".")[0]

@@ -1,4 +1,4 @@
-"""Which files a study becomes, and their contents."""
+"""Files of a study, and their contents."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ STUDY_FILE = "study.json"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportStyle:
-    """How the reports are written; the numbers do not depend on it."""
+    """Language and detail of the reports; the numbers do not depend on them."""
 
     language: Language = "en"
     detail: Literal["summary", "full"] = "full"
@@ -54,7 +54,7 @@ def render_files(
     paths: Sequence[Sequence[Path]],
     style: ReportStyle | None = None,
 ) -> dict[Path, bytes]:
-    """Contents of all files; what to render follows from their suffix."""
+    """Contents of all files; the suffix says what each of them is."""
     contents: dict[Path, bytes] = {}
     for study, of_study in zip(studies, paths, strict=True):
         wanted = {path.suffix for path in of_study}

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 _NARROW = 100  # consoles of fewer columns: no bands, cases below their checks
-_PIPE = 160  # columns where the output is no terminal: nobody has to fold it
+_PIPE = 160  # columns of an output that is no terminal, where no line is folded
 _STYLES = {"pass": "green", "fail": "bold red", "not-proven": "yellow"}
 
 
@@ -75,7 +75,7 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
 
 
 def print_changes(study: Study, console: Console, language: Language = "en") -> None:
-    """Print for every failing, unproven or close check what would flip it."""
+    """Print what would flip each failing, unproven or close check."""
     from rich.text import Text
 
     words = Words(language)

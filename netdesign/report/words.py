@@ -6,6 +6,7 @@ Nothing else in the package rounds a number or names a verdict.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -40,7 +41,7 @@ ENGLISH = Words()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerdictSigns:
-    """What a verdict has in every language; the symbol survives a photocopy."""
+    """Signs of a verdict in every language; the symbol survives a photocopy."""
 
     symbol: str
     style: str  # class of the style sheet
@@ -79,8 +80,11 @@ _UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "
 
 
 def show_text(text: str) -> str:
-    """Text on one line without control characters; "-" if nothing is left."""
-    return " ".join(make_printable(text).split()) or MISSING
+    """Text on one line without control characters; "-" if nothing is left.
+
+    No-break spaces stay: French sets them before some marks.
+    """
+    return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
 
 
 def show_number(key: str, value: float | None) -> str:
@@ -124,7 +128,7 @@ def show_unit(unit: str) -> str:
 
 
 def show_quantity(value: float | str, unit: str) -> str:
-    """What somebody chose, with its unit if it has one."""
+    """Value that somebody chose, with its unit if it has one."""
     text = value if isinstance(value, str) else show_given(value)
     shown = show_unit(unit)
     gap = "" if shown == "°" else " "
@@ -137,7 +141,7 @@ def show_share(value: float | None) -> str:
 
 
 def show_with_unit(key: str, value: float | None) -> str:
-    """Write number and unit; the sign of a missing number has no unit."""
+    """Number and unit; the sign of a missing number has no unit."""
     shown = show_number(key, value)
     unit = QUANTITIES[key].unit
     if shown == MISSING or not unit:
@@ -209,7 +213,7 @@ def _list_own_texts() -> dict[str, str]:
 
 
 def number_format(key: str) -> str:
-    """Give the number format of a workbook cell for the quantity ``key``."""
+    """Number format of a workbook cell for the quantity ``key``."""
     quantity = QUANTITIES[key]
     if quantity.decimals is None:
         return "General"

@@ -39,12 +39,18 @@ def load_catalogue() -> dict[str, Any]:
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def find_bond_stress(ground: str, grouting: str) -> Datum:
-    """Least ultimate bond stress of grout on a ground [kPa], by type A to D."""
+def find_bond_stress(
+    ground: str, grouting: str, *, ground_name: Message | str = ""
+) -> Datum:
+    """Least ultimate bond stress of grout on a ground [kPa], by type A to D.
+
+    A refusal calls the ground by its name where one is given, else by its key.
+    """
     bond = load_catalogue()["bond"]
     ranges = pick(say("catalogue.ground"), ground, bond["ground"])
     types = {name: value for name, value in ranges.items() if name != "text"}
-    least, _ = pick(say("catalogue.grouting_in", ground=ground), grouting, types)
+    what = say("catalogue.grouting_in", ground=ground_name or ground)
+    least, _ = pick(what, grouting, types)
     return Datum(
         value=float(least), status=bond["status"], source=say("resistance_source.bond")
     )

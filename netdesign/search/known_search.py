@@ -1,8 +1,8 @@
 """A finished search, kept beside its cases: a later run need not search again.
 
-It asks for the same cases in the same rounds. Only where every one of them answers as
-it did, to the last bit, and as much is asked of the bounds, do the bounds found then
-hold; anything else is searched anew.
+The later run asks for the same cases in the same rounds. The old bounds hold only if
+every case gives the same values, to the last bit, and the same is asked of the bounds.
+Anything else is searched anew.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from netdesign.search.surrogate import Point, fit_surrogate
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class KnownSearch:
-    """What a search came to, and what led it there.
+    """Result of a search, and the demands that led to it.
 
     Attributes
     ----------
     maxima : Maxima
         Its end; the cases and their answers are part of it.
     watched : mapping of int to Watched
-        What was asked of the bounds at last, by quantity.
+        Last demands on the bounds, by quantity.
     """
 
     maxima: Maxima
@@ -42,12 +42,12 @@ class Repetition:
     Attributes
     ----------
     known : KnownSearch
-        What is repeated.
+        The search that is repeated.
     gap : float
-        Infinite: no bound stands before the last value has answered as then.
+        Infinite: no bound stands before the last value has turned out the same.
     result : Maxima or None
-        That of then, at the end; None before, and if a value, or what is watched at
-        last, is another.
+        The old one, once everything has turned out the same; None before, and if a
+        value or the last demands differ.
 
     Verified by
     -----------

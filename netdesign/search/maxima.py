@@ -45,7 +45,7 @@ _MOST_INFLATION = 2.0  # more would widen what is dense with cases by now
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchSettings:
-    """How closely the maxima are bounded; pure numbers, printed in every result.
+    """Demands on the bounds of the maxima; pure numbers, printed in every result.
 
     Attributes
     ----------
@@ -338,9 +338,9 @@ class MaximaSearch:
 
     @property
     def _is_closed(self) -> bool:
-        """Whether the maxima count as bounded, at the end of the search.
+        """The maxima count as bounded, at the end of the search.
 
-        That also where no case is left that could test them, unless for lack of room.
+        They do so too where no case is left that could test them, unless cases ran out.
         """
         is_closed = self._bounds is not None and self._bounds.is_closed
         has_room = len(self.points) < self.settings.max_cases

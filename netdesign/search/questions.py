@@ -29,8 +29,8 @@ class Question(NamedTuple):
 def list_first_design(dimension: int) -> tuple[Point, ...]:
     """Cases of the first round: corners and centre, and what lies between.
 
-    Up to three parameters all of low, middle and high; beyond, the corners, the
-    centre and the centres of the faces. To both the centres of the 2^n parts.
+    Up to three parameters it has all of low, middle and high; beyond, the corners, the
+    centre and the centres of the faces. Both have the centres of the 2^n parts, too.
     """
     corners = set(product((0.0, 1.0), repeat=dimension))
     if dimension <= 3:
@@ -49,7 +49,7 @@ def list_first_design(dimension: int) -> tuple[Point, ...]:
 def choose_questions(
     bounds: Bounds, points: Sequence[Point], batch: int, room: int
 ) -> list[Question]:
-    """Next cases: where a quantity could exceed; once none can, tests of that.
+    """Next cases: where a quantity could exceed its maximum; then tests of the bounds.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def choose_questions(
     """
     most = min(batch, room)
     if not bounds.is_closed:
-        # all that could exceed may lie on known cases: then the like of them elsewhere
+        # the places that could exceed may all be known cases: then the best others
         return _pick(bounds, bounds.watched, points, most, 0.0, GRAIN) or _pick(
             bounds, bounds.open, points, most, -math.inf, _BESIDE
         )

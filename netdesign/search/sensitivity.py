@@ -25,7 +25,7 @@ _ALONG = 65  # points of a line along one parameter
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensitivity:
-    """How one force answers to one parameter.
+    """Answer of one force to one parameter.
 
     Attributes
     ----------

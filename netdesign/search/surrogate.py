@@ -28,7 +28,7 @@ _NUGGET = 1e-6  # rounding and mesh noise, as a share of the residual's variance
 
 
 class Prediction(NamedTuple):
-    """What the model says at some places."""
+    """Prediction of the model at some places."""
 
     mean: Floats  # shape (n, quantities)
     standard_error: Floats  # shape (n, quantities), never negative
@@ -65,7 +65,7 @@ class Surrogate:
     ) -> Prediction:
         """Mean and standard error at places of shape (n, dimension).
 
-        Of some quantities only, in the order given, or of all.
+        They are those of some quantities, in the order given, or of all.
         """
         chosen = slice(None) if quantities is None else list(quantities)
         distances = _measure_distances(at, self.places)

@@ -1,4 +1,4 @@
-"""The most that several quantities could reach anywhere, as far as a model knows.
+"""Upper bounds: the most that quantities could reach anywhere, judged by a model.
 
 The bound is the model's mean and some of its standard errors, wider around cases that
 exceeded it. It is looked at on a lattice and around the best cases, then followed
@@ -37,7 +37,7 @@ class Inflation:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Bounds:
-    """What the model allows, and where."""
+    """Values that the model allows, and their places."""
 
     best: Floats
     tolerance: Floats  # shape (quantities,)

@@ -1,1 +1,1 @@
-"""What the engineer gives: the site workbook and its model."""
+"""Input of the engineer: the site workbook and its model."""

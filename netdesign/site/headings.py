@@ -35,7 +35,7 @@ _MISSPELT = 0.8
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Column:
-    """Where a field stands and the unit of its numbers.
+    """Place of a field and the unit of its numbers.
 
     The unit is empty for words and ids, and None where a finding refused it.
     """
@@ -78,7 +78,7 @@ class _Title:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What it may say, with its group first: ``anchor | foot``, ``foot``."""
+        """Possible names, those with its group first: ``anchor | foot``, ``foot``."""
         own, _ = split_heading(str(self.cell.value))
         group, _ = split_heading(self.group)
         grouped = (group + own, own + group) if group else ()
@@ -223,7 +223,7 @@ def _find_units_row(
 
 
 def _is_unit(cell: Cell, field: Field) -> bool:
-    """Whether it is a unit; of a 1, where the field may have none."""
+    """A cell holds a unit; a 1 is one only where the field may have none."""
     unit, in_brackets = _read_unit(cell)
     is_known = unit in KNOWN_UNITS and (unit != "-" or unit in field.units)
     return in_brackets or is_known

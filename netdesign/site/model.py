@@ -167,7 +167,7 @@ class NetRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MonitoringSeries:
-    """What was measured at one member of one net row.
+    """Measurements at one member of one net row.
 
     Attributes
     ----------

@@ -194,7 +194,7 @@ def _build_net_row(
 
 
 def _fill_in_distances(row: Row) -> Row:
-    """Give anchor distances that were left empty their share of the net height."""
+    """Row whose empty anchor distances have their share of the net height."""
     height = row["net_height"].value
     if not isinstance(height, float):
         return row

@@ -105,7 +105,7 @@ def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
 
 
 def is_heading(text: str) -> bool:
-    """Whether a text is a heading of some sheet."""
+    """A text is a heading of some sheet."""
     return split_heading(text)[0] in _known_headings()
 
 

@@ -72,7 +72,7 @@ class Reading:
         return self.value if isinstance(self.value, str) else ""
 
     def echo(self) -> InputEcho:
-        """Give the input as the report shows it."""
+        """Input as the report shows it."""
         return InputEcho(
             label=self.field.name,
             unit=self.field.unit,
@@ -144,7 +144,7 @@ def refuse(
 ) -> None:
     """Add a finding about a reading.
 
-    A reading without a cell stands for a missing heading, which has its own.
+    A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
         finding = reading.cell.finding(
@@ -154,7 +154,7 @@ def refuse(
 
 
 def refuse_stored(cell: Cell) -> Refusal | None:
-    """Reason why what the file stores in a cell is of no use, if there is one."""
+    """Reason why the stored content of a cell is of no use; None if it is of use."""
     if cell.is_error:
         return Refusal(say("cell.error_value"), say("cell.value_or_formula"))
     if cell.formula and cell.value is None:
@@ -163,7 +163,7 @@ def refuse_stored(cell: Cell) -> Refusal | None:
 
 
 def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
-    """Read a cell whose column has no usable unit: only what no unit can mend."""
+    """Read a cell without a usable unit; refuse only what no unit could mend."""
     if cell.is_blank:
         refusal = _refuse_blank(field)
     else:
@@ -235,7 +235,7 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
 
 
 def _is_percentage(cell: Cell) -> bool:
-    """Whether a cell shows a number of hundredths, by its format or in its text."""
+    """A cell shows a number of hundredths, by its format or in its text."""
     return cell.is_percent or (
         isinstance(cell.value, str) and cell.value.strip().endswith("%")
     )
@@ -254,7 +254,7 @@ def _take_typed_percentage(cell: Cell, unit: str) -> float | Refusal:
 
 
 def _shift(number: float, digits: int) -> float:
-    """The decimal shift of what was typed: 0.285 is 28.5 %, not 28.499999999999996."""
+    """Number shifted by decimal digits: 0.285 is 28.5 %, not 28.499999999999996."""
     return float(Decimal(repr(number)).scaleb(digits))
 
 

@@ -137,7 +137,7 @@ def _find_sheet(
 
 
 def is_near(name: str, plan: SheetPlan) -> bool:
-    """Whether a name is a planned sheet's, misspelt."""
+    """A name is that of a planned sheet, perhaps misspelt."""
     known = [normalise(one) for one in (plan.name, *plan.aliases, *plan.names.values())]
     stem = name.removesuffix(".csv")  # of a file: "site - Nets.csv"
     words = {normalise(stem), normalise(re.split("[-_]", stem)[-1])}
@@ -147,7 +147,7 @@ def is_near(name: str, plan: SheetPlan) -> bool:
 
 
 def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
-    """Whether a workbook has no sheet that is a planned one, even by a near name."""
+    """A workbook has no sheet of the plan's name, nor of a name near to it."""
     return not any(plan.matches(sheet.name) for sheet in workbook.sheets) and not any(
         is_near(name, plan) for name in workbook.unread
     )
@@ -174,7 +174,7 @@ def _find_data_rows(
     sheet: Sheet, plan: SheetPlan, headings: Headings, findings: list[Finding]
 ) -> tuple[int, ...]:
     first_row = headings.first_data_row
-    # of a line of items nothing may be taken for prose: its value would be lost
+    # no line of a table of items may be taken for a note: its value would be lost
     width = 0 if plan.items else len(headings.columns)
     filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
     while filled and _is_note(sheet.row(filled[-1]), width):
@@ -189,7 +189,7 @@ def _find_data_rows(
 
 
 def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
-    """Whether a row holds a single text that can be no line begun: many words.
+    """A row holds a note: a single text of so many words that it begins no line.
 
     A text that another delimiter would cut into a line of the table of ``width``
     columns is that line; without a width only a text marked as a note is one.

@@ -155,7 +155,8 @@ def _bar(row: Row) -> tuple[float, Message]:
 
 def _bond(row: Row) -> tuple[float, Message]:
     ground, grouting = row["ground"].word, _word(row, "grouting", _DEFAULT_GROUTING)
-    bond = find_bond_stress(ground, grouting)
+    ground_name = row["ground"].field.name_word(ground)
+    bond = find_bond_stress(ground, grouting, ground_name=ground_name)
     diameter, length = row["drill_diameter"], row["bond_length"]
     value = compute_pull_out_from_bond(
         drill_diameter=diameter.si,
@@ -167,7 +168,7 @@ def _bond(row: Row) -> tuple[float, Message]:
         diameter=diameter.number,
         length=length.number,
         stress=bond.value,
-        ground=row["ground"].field.name_word(ground),
+        ground=ground_name,
         grouting=grouting,
         origin=_tell_origin(bond),
     )

@@ -120,8 +120,8 @@ class Ordering:
     def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
         """Sum of the parts in LAPACK's banded storage.
 
-        All parts in one
-        sum: storage is larger than what they hold, each pass over it costs.
+        All parts go in one sum: the storage is larger than what they hold, and each
+        pass over it costs.
 
         Parameters
         ----------

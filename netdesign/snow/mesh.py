@@ -29,8 +29,8 @@ from netdesign.words.message import say
 _RING_POWER, _RING_DEPTH = 4.0, 1.8
 # Largest radius, and the share of the distance between layers' sides that it may take.
 _RING_RADIUS, _RING_GAP = 0.45, 0.4
-# Both over the sectors: size of triangles over their distance from an end, and what a
-# column is wider than its neighbour.
+# Both are divided by the sectors: the size of triangles over their distance from an
+# end, and the share by which a column is wider than its neighbour.
 _RING_SHARE, _GROWTH = 1.8, 1.6
 _CLEARANCE = 1.3  # other points keep this many ring radii away
 _BESIDE = _CLEARANCE * _RING_RADIUS

@@ -89,9 +89,13 @@ class Snowpack:
             self._require_layers_add_up()
 
     def _require_layers_add_up(self) -> None:
-        for name, total, given in (
-            ("layer thicknesses", _sum_thickness(self.layers), self.thickness),
-            ("mean layer density", compute_mean_density(self.layers), self.density),
+        thickness, density = (
+            _sum_thickness(self.layers),
+            compute_mean_density(self.layers),
+        )
+        for name, total, given, unit in (
+            ("layer thicknesses", thickness, self.thickness, "m"),
+            ("mean layer density", density, self.density, "kg/m3"),
         ):
             if not abs(total - given) <= _LAYER_SUM_TOLERANCE * given:
                 raise ModelError(
@@ -100,6 +104,7 @@ class Snowpack:
                         name=name_quantity(name),
                         total=total,
                         given=given,
+                        unit=unit,
                     )
                 )
         thinnest = min(layer.thickness for layer in self.layers)

@@ -17,7 +17,7 @@ from netdesign.words.message import Message, say
 
 @dataclass(slots=True, kw_only=True)
 class Counts:
-    """What a run did; the only thing about it that a second run may change."""
+    """Counts of a run: the only part of its result that a second run may change."""
 
     solved: int = 0
     reused: int = 0
@@ -43,8 +43,8 @@ class Runner:
     counts : Counts
         Of all calls so far.
     faults : dict of Fault to set of str
-        What failed in the program so far, and the net rows that it befell as far as
-        somebody told; whoever has any ends with ``fault.EXIT_CODE``.
+        Faults of the program so far, and the net rows that they befell as far as these
+        are known. A run with any of them ends with ``fault.EXIT_CODE``.
     """
 
     workers: Workers = field(default_factory=OwnProcess)
@@ -83,7 +83,8 @@ class Runner:
                     known[name] = end
                     self._note(name, end)
             if any(batch.keys().isdisjoint(known) for batch in missing):
-                raise KeyError("workers lost a batch")  # to be asked for for ever
+                # else it would be asked for for ever
+                raise KeyError("workers lost a batch")
         found = [_follow(batch, known) for batch in named]
         self.counts.reused += sum(map(len, found)) - (self.counts.solved - solved)
         return found
@@ -101,7 +102,7 @@ class Runner:
             self.faults.setdefault(fault, set()).update([row_id] if row_id else [])
 
     def find_search(self, task: object) -> KnownSearch | None:
-        """What is known of the search of a task."""
+        """Known search of a task; None if there is none."""
         if self.store is None:
             return None
         try:
@@ -141,7 +142,7 @@ class Runner:
             self._give_up(error)
 
     def _give_up(self, error: sqlite3.Error) -> None:
-        """A store that fails under way costs its use, not the run."""
+        """Go on without a store that has failed."""
         self.tell(say("store.failed", cause=str(error)))
         self.store = None
 
@@ -162,9 +163,9 @@ def _follow(batch: _Named, known: dict[str, CaseEnd]) -> Ends:
 def _list_missing(
     batches: Sequence[_Named], known: dict[str, CaseEnd]
 ) -> list[dict[str, Job]]:
-    """Unknown cases of each batch that has any; one that is in two is in the first.
+    """Unknown cases of each batch that has any; a shared one goes with the first.
 
-    The second waits for it, and may need no more then.
+    The second batch waits for that case, and may then need no more.
     """
     found: list[dict[str, Job]] = []
     claimed: set[str] = set()

@@ -1,4 +1,4 @@
-"""What is kept of a solved case: end pulls, balances, shape; and how it is stored."""
+"""Kept part of a solved case: end pulls, balances, shape; and its stored form."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class SolvedState:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CaseEnd:
-    """How one solve ended.
+    """End of one solve.
 
     ``state`` exists only if it converged, ``fault`` only if the program failed.
     """

@@ -33,6 +33,7 @@ _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
 _SOLVER_PARTS = ("numerics", "snow", "cable", "coupling", "solving")
+_PACKAGE = Path(__file__).resolve().parent.parent
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
 _FORGOTTEN = (Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT)
@@ -56,23 +57,22 @@ def find_store() -> Path:
 
 def identify_solver() -> str:
     """Version of the solver: its text, and the libraries that decide last digits."""
-    return _identify(_SOLVER_PARTS)
+    return _identify(_SOLVER_PARTS, _PACKAGE)
 
 
-def identify_program() -> str:
+def identify_program(package: Path = _PACKAGE) -> str:
     """Version of the whole program, as ``identify_solver``."""
-    return _identify(_WHOLE_PROGRAM)
+    return _identify(_WHOLE_PROGRAM, package)
 
 
 @lru_cache
-def _identify(parts: tuple[str, ...]) -> str:
+def _identify(parts: tuple[str, ...], package: Path) -> str:
     import numpy
     import scipy
 
     digest = hashlib.sha256()
-    root = Path(__file__).resolve().parent.parent
     for part in parts:
-        for path in sorted((root / part).rglob("*")):
+        for path in sorted((package / part).rglob("*")):
             if path.suffix in (".py", ".toml"):
                 digest.update(path.name.encode())
                 digest.update(path.read_bytes())
@@ -88,7 +88,7 @@ def name_case(scene: object, settings: Hashable) -> str:
 
 @lru_cache(maxsize=32)
 def _write_settings(settings: Hashable) -> str:
-    """The same for all cases of a search, and as long as a scene."""
+    """Text of settings, kept: all cases of a search have the same, and it is long."""
     return _write_parts(settings)
 
 

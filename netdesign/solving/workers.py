@@ -1,4 +1,4 @@
-"""Where cases are solved: in this process, in a pool, or on a Dask cluster.
+"""Workers that solve cases: this process, a pool, or a Dask cluster.
 
 Each gives the same ends for the same batches; only the order of arrival differs. A
 worker that dies costs the one case that kills it, by name.
@@ -65,7 +65,7 @@ Arrival = tuple[int, Ends]  # place among the batches, and its ends
 
 
 class Workers(Protocol):
-    """What solves batches; ends arrive in any order, each with their place."""
+    """Solver of batches; ends arrive in any order, each with its batch's place."""
 
     def solve(self, batches: Sequence[Batch]) -> Iterator[Arrival]:
         """Solve all batches."""
@@ -138,7 +138,7 @@ class OwnProcess:
 
 
 class ProcessPool:
-    """Solves batches in several processes; small waves before the first large one here.
+    """Solves batches in several processes; small first waves in this one.
 
     Processes are started by the first wave that is worth it. They ignore Ctrl-C,
     which is the parent's to handle, and are stopped by ``close`` at once.
@@ -247,7 +247,7 @@ class DaskCluster:
         }
         suspects: list[int] = []
         arriving = as_completed(list(places), loop=self._client.loop)
-        for future in self._arrivals(arriving):
+        for future in follow_futures(self._client, arriving):
             try:
                 yield places[future], future.result()
             except KilledWorker:
@@ -261,35 +261,38 @@ class DaskCluster:
         future = self._client.submit(solve_job, job, pure=False)
         arriving = as_completed([future], loop=self._client.loop)
         try:
-            end: CaseEnd = next(self._arrivals(arriving)).result()
+            end: CaseEnd = next(follow_futures(self._client, arriving)).result()
         except KilledWorker:
             return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
         return end
 
-    def _arrivals(self, arriving: Any) -> Iterator[Any]:
-        """Futures as they finish, as long as the cluster has workers.
-
-        Raises
-        ------
-        ClusterError
-            If it has had none for a while: nothing would ever arrive.
-        """
-        last_seen = time.monotonic()
-        while not arriving.is_empty():
-            finished = arriving.next_batch(block=False)
-            yield from finished
-            if finished:
-                last_seen = time.monotonic()
-                continue
-            time.sleep(_POLL_S)
-            if time.monotonic() - last_seen > _DESERTED_S:
-                if not self._client.scheduler_info()["workers"]:
-                    raise ClusterError(say("cluster.deserted", seconds=_DESERTED_S))
-                last_seen = time.monotonic()
-
     def close(self) -> None:
         """Disconnect; what still runs for this client is cancelled."""
         self._client.close()
+
+
+def follow_futures(
+    client: Any, arriving: Any, patience: float = _DESERTED_S
+) -> Iterator[Any]:
+    """Futures of a cluster as they finish, as long as it has workers.
+
+    Raises
+    ------
+    ClusterError
+        If it has had no worker for ``patience`` [s]: nothing would ever arrive.
+    """
+    last_seen = time.monotonic()
+    while not arriving.is_empty():
+        finished = arriving.next_batch(block=False)
+        yield from finished
+        if finished:
+            last_seen = time.monotonic()
+            continue
+        time.sleep(_POLL_S)
+        if time.monotonic() - last_seen > patience:
+            if not client.scheduler_info()["workers"]:
+                raise ClusterError(say("cluster.deserted", seconds=patience))
+            last_seen = time.monotonic()
 
 
 def build_workers(executor: str, processes: int) -> Workers:
@@ -326,7 +329,7 @@ def _require_answer(address: str) -> None:
 
 @contextmanager
 def _naming_loss(address: str) -> Iterator[None]:
-    """Say in our words that the scheduler is gone: Dask cancels what it was asked."""
+    """Raise a ClusterError where the scheduler is gone: Dask just cancels its tasks."""
     from distributed import CancelledError
     from distributed.comm import CommClosedError
 
@@ -395,7 +398,7 @@ def _begin(*collection: int) -> None:
 
 
 def _end_with_parent() -> None:
-    """A parent that is killed says nothing, and its workers would wait for ever."""
+    """Wait for the parent's end and follow: a killed parent tells workers nothing."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

@@ -182,7 +182,7 @@ def _cross(a: Point, b: Point) -> float:
 
 
 def _direction(start: Point, end: Point) -> Point:
-    """Point from ``start`` to ``end`` with length 1; (0, 0) where they coincide."""
+    """Unit vector from ``start`` to ``end``; (0, 0) where they coincide."""
     x, y = end[0] - start[0], end[1] - start[1]
     length = math.hypot(x, y)
     return (x / length, y / length) if length > 0.0 else (0.0, 0.0)

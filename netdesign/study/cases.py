@@ -57,7 +57,7 @@ def read_method(name: str) -> Method:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckRun:
-    """How a site is to be solved."""
+    """Settings of the solves of a site."""
 
     settings: SolverSettings
     method: Method = "steady"
@@ -75,7 +75,7 @@ def count_cases(site: Site) -> int:
 
 
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
-    """What a check of a site does, in its order, with about so many solves."""
+    """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
     ids = {row.id for row in site.rows}
     measured = sum(one.row_id in ids for one in site.monitoring)

@@ -1,4 +1,4 @@
-"""What would make a check pass, or fail: solved, never guessed.
+"""Changes that would make a check pass, or fail: solved, never guessed.
 
 Proportions (resistance, post spacing) are exact. Density, snow height and friction
 angle are roots of the coupled solve: found for the case that governs, then confirmed

@@ -22,7 +22,7 @@ from netdesign.words.names import name, name_check, name_member
 
 
 def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
-    """What the reader noted, and what the model does with the site's snow."""
+    """Notes of the importer, and on what the model does with the site's snow."""
     return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
 
 
@@ -122,7 +122,7 @@ def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[M
 
 
 def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
-    """What was done otherwise than asked in some cases."""
+    """Notes on what was done otherwise than asked in some cases."""
     released = sum(case.reason == RELEASED for case in cases)
     if not released:
         return []
@@ -130,7 +130,7 @@ def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:
 
 
 def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
-    """Which of steady state and history is the demand, and why, by member."""
+    """Notes by member: steady state or history is the demand, and why."""
     notes = []
     for member in REPORTED_MEMBERS:
         compared = extremes[member].governing.compared if member in extremes else None

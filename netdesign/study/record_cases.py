@@ -60,7 +60,7 @@ def record_case(result: CaseResult, law: CreepLaw, row: NetRow) -> CaseRecord:
 
 
 def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
-    """Whether a law is given for the density of a case [kg/m3], and of each layer."""
+    """The law is given for the density of a case [kg/m3], and of each layer."""
     layers = tuple(layer.density for layer in row.layers_at(density))
     return all(law.is_calibrated(one / ICE_DENSITY) for one in layers or (density,))
 

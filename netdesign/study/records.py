@@ -66,7 +66,7 @@ class AxisRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class DriverRecord:
-    """How one force answers to one quantity that ranges."""
+    """Answer of one force to one quantity that ranges."""
 
     key: str
     at_low_kN: float  # the others as in the governing case
@@ -154,7 +154,7 @@ class AdditionRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class EnvelopeRecord:
-    """How the largest forces of a net row were found, and what may hide."""
+    """Search for the largest forces of a net row, and what may hide."""
 
     axes: list[AxisRecord]
     is_per_metre: bool
@@ -183,7 +183,7 @@ class SidewaysRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class ActionRecord:
-    """How the characteristic force of a support follows from that of the solve."""
+    """Steps from the solved force of a support to its characteristic force."""
 
     solved_kN: float  # of a support inside a row, over the envelope
     post_spacing_m: float
@@ -305,7 +305,7 @@ class Drawing:
 
 @dataclass(frozen=True, kw_only=True)
 class MonitoringRecord:
-    """What was measured at one member, and the model's history beside it.
+    """Measurements at one member, and the model's history beside them.
 
     Missing readings are None; without a history its lists are empty and
     ``model_reason`` says why.
@@ -461,7 +461,7 @@ class ProfileRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class Provenance:
-    """How this study was made; enough to repeat it."""
+    """Origin of this study; enough to repeat it."""
 
     version: str
     command: str

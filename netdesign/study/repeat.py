@@ -73,7 +73,7 @@ def list_differences(stored: Study, again: Study) -> tuple[int, list[Difference]
 
 
 def is_of_ties(difference: Difference) -> bool:
-    """Whether it says only why a search solved a case, where several reasons tie.
+    """It says only why a search solved a case, where several reasons tie.
 
     Rounding decides between them, and so do the kernels of a processor. The cases and
     all that is found from them are compared on their own.

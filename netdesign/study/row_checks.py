@@ -110,7 +110,7 @@ def record_geometry(
 
 
 def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
-    """What a row's checks of geometry need."""
+    """Input of a row's checks of geometry."""
     return RowGeometry(
         inclination_low=ranges["inclination"].low,
         inclination_high=ranges["inclination"].high,

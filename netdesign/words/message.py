@@ -12,7 +12,7 @@ Argument: TypeAlias = "str | int | float | Message | tuple[str | Message, ...]"
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """What is to be said, in no language yet.
+    """Text to be told, in no language yet.
 
     Attributes
     ----------

@@ -15,7 +15,7 @@ class _HasText:
     """A message with a text of this key whose gaps its arguments fill."""
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
-        """What pydantic asks for: read a message as usual, then render it."""
+        """Schema that pydantic asks for: read a message as usual, then render it."""
         from pydantic_core.core_schema import no_info_after_validator_function
 
         return no_info_after_validator_function(_require_text, handler(source))

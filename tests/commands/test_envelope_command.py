@@ -10,21 +10,8 @@ import time
 
 import pytest
 
-SCENE = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-[ground]
-law = "no-slip"
-[net]
-inclination_deg = 30
-stiffness_kN_per_m = 8000
-slack = 0.05
-friction_deg = 30
-"""
+from tests.small_scene import SMALL_SCENE
+
 RANGES = ("--density", "250:450", "--friction", "15:45")
 PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 
@@ -32,7 +19,7 @@ PROGRAM = (sys.executable, "-c", "from netdesign.cli import main; main()")
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory):
     path = tmp_path_factory.mktemp("scene") / "scene.toml"
-    path.write_text(SCENE)
+    path.write_text(SMALL_SCENE)
     return path
 
 
@@ -218,7 +205,7 @@ def test_an_unreachable_cluster_is_named_and_ends_with_2(scene, tmp_path):
 
 def test_a_rigid_wall_is_refused(tmp_path, store):
     walled = tmp_path / "wall.toml"
-    rigid = SCENE.replace(
+    rigid = SMALL_SCENE.replace(
         "stiffness_kN_per_m = 8000\nslack = 0.05\n", 'kind = "rigid"\n'
     )
     walled.write_text(rigid)

@@ -10,6 +10,7 @@ import pytest
 from netdesign.checks import list_standards
 from netdesign.site.columns.all_tables import FINDINGS_SHEETS, SHEETS
 from tests.short_example import write_short_example
+from tests.small_scene import SMALL_SCENE
 from tests.words.english import find_words
 
 LANGUAGES = ["fr", "de"]
@@ -184,20 +185,7 @@ def test_an_unknown_language_is_refused_in_english(call):
     assert "Invalid value for '--language'" in ended.err
 
 
-SCENE = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-[ground]
-law = "no-slip"
-[net]
-inclination_deg = 30
-stiffness_kN_per_m = 8000
-slack = 0.05
-friction_deg = 30
+SCENE = f"""{SMALL_SCENE}
 [solve]
 accuracy = 0.05
 horizon_days = 3

@@ -26,6 +26,23 @@ GROUNDS = ("no-slip", "free", "sliding")
 MOST_WORK = 1.5e5
 
 
+def layered_scene(layers, *, slope_deg, upslope, ground, height=None, **net):
+    """Scene of thicknesses and densities [m, kg/m3]; the net ends with the snow."""
+    pack = build_layered_snowpack(
+        tuple(Layer(thickness=float(high), density=float(rho)) for high, rho in layers),
+        slope_angle=math.radians(slope_deg),
+        upslope_length=upslope,
+    )
+    net = Net(
+        height_normal=height or pack.thickness,
+        inclination=math.radians(net["inclination_deg"]),
+        stiffness_per_m=net["stiffness"],
+        slack=net["slack"],
+        friction_angle=math.radians(net["friction_deg"]),
+    )
+    return Scene(snowpack=pack, ground=ground, net=net)
+
+
 def draw_scene(seed, number, *, is_denser_below):
     """2 to 4 layers on one of three grounds, all figures untidy."""
     rng = np.random.default_rng([seed, number])
@@ -37,22 +54,16 @@ def draw_scene(seed, number, *, is_denser_below):
         density = np.sort(density)[::-1]
     kind = GROUNDS[number % 3]
     slip = float(rng.uniform(0.3, 6.0)) if kind == "sliding" else 0.0
-    pack = build_layered_snowpack(
-        tuple(
-            Layer(thickness=float(high), density=float(rho))
-            for high, rho in zip(thickness, density, strict=True)
-        ),
-        slope_angle=math.radians(rng.uniform(28.0, 55.0)),
-        upslope_length=float(rng.uniform(5.0, 40.0)),
-    )
-    net = Net(
-        height_normal=pack.thickness,
-        inclination=math.radians(rng.uniform(15.0, 35.0)),
-        stiffness_per_m=float(np.exp(rng.uniform(np.log(2e6), np.log(1e8)))),
+    return layered_scene(
+        zip(thickness, density, strict=True),
+        slope_deg=rng.uniform(28.0, 55.0),
+        upslope=float(rng.uniform(5.0, 40.0)),
+        inclination_deg=rng.uniform(15.0, 35.0),
+        stiffness=float(np.exp(rng.uniform(np.log(2e6), np.log(1e8)))),
         slack=float(rng.uniform(0.0, 0.1)),
-        friction_angle=math.radians(rng.uniform(15.0, 45.0)),
+        friction_deg=rng.uniform(15.0, 45.0),
+        ground=GroundLaw(kind=kind, slip_length=slip),
     )
-    return Scene(snowpack=pack, ground=GroundLaw(kind=kind, slip_length=slip), net=net)
 
 
 @pytest.fixture
@@ -85,20 +96,16 @@ WEAK = ((0.81, 190.4), (0.30, 256.1), (0.57, 172.3), (0.47, 435.2))
 
 
 def weak_scene(friction_deg):
-    pack = build_layered_snowpack(
-        tuple(Layer(thickness=high, density=rho) for high, rho in WEAK),
-        slope_angle=math.radians(42.0),
-        upslope_length=17.3,
-    )
-    net = Net(
-        height_normal=pack.thickness,
-        inclination=math.radians(18.0),
-        stiffness_per_m=2.3e7,
+    return layered_scene(
+        WEAK,
+        slope_deg=42.0,
+        upslope=17.3,
+        ground=GroundLaw(kind="sliding", slip_length=2.3),
+        inclination_deg=18.0,
+        stiffness=2.3e7,
         slack=0.097,
-        friction_angle=math.radians(friction_deg),
+        friction_deg=friction_deg,
     )
-    ground = GroundLaw(kind="sliding", slip_length=2.3)
-    return Scene(snowpack=pack, ground=ground, net=net)
 
 
 @pytest.mark.parametrize("friction_deg", [9.7, 14.2, 31.3])
@@ -110,23 +117,22 @@ def test_what_is_not_found_is_given_up_soon(work, friction_deg):
     assert sum(work) <= MOST_WORK
 
 
+# A hard layer between softer ones.
+HARD_MIDDLE = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
+
+
 def test_rounds_end_when_pulls_are_found():
     """The net moved by 1e-4 of the thickness, the foot's pull by 1 %."""
-    layers = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
-    pack = build_layered_snowpack(
-        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
-        slope_angle=math.radians(42.0),
-        upslope_length=20.0,
-    )
-    net = Net(
-        height_normal=pack.thickness,
-        inclination=math.radians(35.0),
-        stiffness_per_m=2e7,
+    scene = layered_scene(
+        HARD_MIDDLE,
+        slope_deg=42.0,
+        upslope=20.0,
+        ground=GroundLaw(kind="sliding", slip_length=1.3),
+        inclination_deg=35.0,
+        stiffness=2e7,
         slack=0.03,
-        friction_angle=math.radians(15.0),
+        friction_deg=15.0,
     )
-    ground = GroundLaw(kind="sliding", slip_length=1.3)
-    scene = Scene(snowpack=pack, ground=ground, net=net)
     levels = MESH_LEVELS[:3]
     rough, tight = (
         solve_steady(
@@ -140,19 +146,16 @@ def test_rounds_end_when_pulls_are_found():
 
 
 def stiff_over_soft():
-    pack = build_layered_snowpack(
-        (Layer(thickness=1.56, density=252.0), Layer(thickness=2.19, density=428.0)),
-        slope_angle=math.radians(32.0),
-        upslope_length=14.0,
-    )
-    net = Net(
-        height_normal=pack.thickness,
-        inclination=math.radians(17.0),
-        stiffness_per_m=2e7,
+    return layered_scene(
+        ((1.56, 252.0), (2.19, 428.0)),
+        slope_deg=32.0,
+        upslope=14.0,
+        ground=GroundLaw(kind="no-slip"),
+        inclination_deg=17.0,
+        stiffness=2e7,
         slack=0.008,
-        friction_angle=math.radians(41.0),
+        friction_deg=41.0,
     )
-    return Scene(snowpack=pack, ground=GroundLaw(kind="no-slip"), net=net)
 
 
 def test_a_net_lets_go_of_snow_that_would_pull_on_it():
@@ -205,18 +208,29 @@ def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
     assert "would pull on the net" in str(refused.reason)
 
 
+@pytest.fixture
+def fail_after(monkeypatch):
+    """Fails on the mesh after so many; gives the problems that were solved before."""
+
+    def prepare(meshes, failure):
+        couple, solved = steady._couple, []
+
+        def couple_some(problem, *given, **named):
+            if len(solved) == meshes:
+                raise failure
+            solved.append(problem)
+            return couple(problem, *given, **named)
+
+        monkeypatch.setattr(steady, "_couple", couple_some)
+        return solved
+
+    return prepare
+
+
 @pytest.mark.parametrize("meshes", [1, 2, 3])
-def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes):
+def test_meshes_before_one_that_fails_are_a_result(a_scene, fail_after, meshes):
     """If they are two: their difference is the error, whatever was asked for."""
-    couple, solved = steady._couple, []
-
-    def couple_some(problem, *given, **named):
-        if len(solved) == meshes:
-            raise SolveError(Outcome.MAX_ITERATIONS, "too fine")
-        solved.append(problem)
-        return couple(problem, *given, **named)
-
-    monkeypatch.setattr(steady, "_couple", couple_some)
+    solved = fail_after(meshes, SolveError(Outcome.MAX_ITERATIONS, "too fine"))
     settings = SolverSettings(accuracy=1e-4)
     result = solve_steady(a_scene(ground="no-slip", inclination_deg=30.0), settings)
     if meshes == 1:
@@ -231,18 +245,11 @@ def test_meshes_before_one_that_fails_are_a_result(a_scene, monkeypatch, meshes)
 
 @pytest.mark.parametrize("meshes", [2, 3])
 def test_what_a_finer_mesh_finds_outside_of_the_model_is_refused(
-    a_scene, monkeypatch, meshes
+    a_scene, fail_after, meshes
 ):
     """A net that touches the ground there is not proven by meshes too coarse for it."""
-    couple, solved = steady._couple, []
-
-    def couple_some(problem, *given, **named):
-        if len(solved) == meshes:
-            raise SolveError(Outcome.OUT_OF_VALIDITY, "the net would touch the ground")
-        solved.append(problem)
-        return couple(problem, *given, **named)
-
-    monkeypatch.setattr(steady, "_couple", couple_some)
+    failure = SolveError(Outcome.OUT_OF_VALIDITY, "the net would touch the ground")
+    fail_after(meshes, failure)
     scene = a_scene(ground="no-slip", inclination_deg=31.3)
     refused = solve_steady(scene, SolverSettings(accuracy=1e-4))
     assert isinstance(refused, FailedSolution)
@@ -251,40 +258,31 @@ def test_what_a_finer_mesh_finds_outside_of_the_model_is_refused(
 
 def stiff_scene():
     """A hard middle layer on ground that slips: rounds alone gain little."""
-    layers = ((0.91, 257.0), (0.77, 419.0), (1.3, 213.0))
-    pack = build_layered_snowpack(
-        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
-        slope_angle=math.radians(42.0),
-        upslope_length=20.0,
-    )
-    net = Net(
-        height_normal=3.2,
-        inclination=math.radians(27.5),
-        stiffness_per_m=9e6,
+    return layered_scene(
+        HARD_MIDDLE,
+        slope_deg=42.0,
+        upslope=20.0,
+        ground=GroundLaw(kind="sliding", slip_length=1.3),
+        height=3.2,
+        inclination_deg=27.5,
+        stiffness=9e6,
         slack=0.03,
-        friction_angle=math.radians(15.0),
-    )
-    return Scene(
-        snowpack=pack, ground=GroundLaw(kind="sliding", slip_length=1.3), net=net
+        friction_deg=15.0,
     )
 
 
 def loose_scene():
     """Its pulls were a third of the stated error away from where rounds lead."""
-    layers = ((1.354, 252.5), (1.259, 485.9), (0.613, 473.0))
-    pack = build_layered_snowpack(
-        tuple(Layer(thickness=high, density=rho) for high, rho in layers),
-        slope_angle=math.radians(54.17),
-        upslope_length=25.66,
-    )
-    net = Net(
-        height_normal=pack.thickness,
-        inclination=math.radians(16.44),
-        stiffness_per_m=2.11e7,
+    return layered_scene(
+        ((1.354, 252.5), (1.259, 485.9), (0.613, 473.0)),
+        slope_deg=54.17,
+        upslope=25.66,
+        ground=GroundLaw(kind="free"),
+        inclination_deg=16.44,
+        stiffness=2.11e7,
         slack=0.0336,
-        friction_angle=math.radians(39.33),
+        friction_deg=39.33,
     )
-    return Scene(snowpack=pack, ground=GroundLaw(kind="free"), net=net)
 
 
 @pytest.mark.parametrize("build", [stiff_scene, loose_scene])

@@ -1,6 +1,5 @@
 import pytest
 
-from netdesign.edge import resources
 from netdesign.edge.resources import find_resource
 from netdesign.errors import NetDesignError
 
@@ -18,27 +17,27 @@ def test_folders_of_this_installation_are_found(folder, file):
 
 
 @pytest.fixture
-def package(tmp_path, monkeypatch):
+def package(tmp_path):
     """An empty package in a folder of its own."""
     place = tmp_path / "lib" / "netdesign"
     place.mkdir(parents=True)
-    monkeypatch.setattr(resources, "_PACKAGE", place)
     return place
 
 
 def test_a_checkout_has_them_beside_the_package(package):
     (package.parent / "standards").mkdir()
-    assert find_resource("standards") == package.parent / "standards"
+    assert find_resource("standards", package) == package.parent / "standards"
 
 
 def test_a_wheel_has_them_inside_and_inside_wins(package):
     """Beside an installed package lies site-packages, where anything may lie."""
     (package.parent / "standards").mkdir()
     (package / "_data" / "standards").mkdir(parents=True)
-    assert find_resource("standards") == package / "_data" / "standards"
+    inside = package / "_data" / "standards"
+    assert find_resource("standards", package) == inside
 
 
 def test_an_incomplete_installation_says_so(package):
     (package.parent / "standards").write_text("a file, no folder")
     with pytest.raises(NetDesignError, match="lacks its folder 'standards': install"):
-        find_resource("standards")
+        find_resource("standards", package)

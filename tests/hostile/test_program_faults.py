@@ -27,6 +27,7 @@ from netdesign.study import record_monitoring as monitoring
 from netdesign.study.probe import build_scene
 from tests import small_site
 from tests.short_example import write_short_example
+from tests.small_scene import SMALL_SCENE
 
 QUICK = ("--accuracy", "0.1", "--jobs", "1", "--quiet")
 KINDS = (ValueError, TypeError, IndexError, AssertionError, FloatingPointError)
@@ -279,24 +280,10 @@ def test_a_fault_beside_a_measured_series_is_its_reason(monkeypatch):
     assert "Monitoring!A2" in fault.case
 
 
-SCENE = """
-[slope]
-angle_deg = 38
-[snow]
-thickness_m = 2.5
-upslope_length_m = 6
-density_kg_m3 = 300
-[net]
-inclination_deg = 30
-stiffness_kN_per_m = 8000
-friction_deg = 30
-"""
-
-
 @pytest.fixture
 def scene(tmp_path):
     path = tmp_path / "scene.toml"
-    path.write_text(SCENE)
+    path.write_text(SMALL_SCENE)
     return path
 
 

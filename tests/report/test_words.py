@@ -46,6 +46,12 @@ def test_text_loses_control_characters_and_line_breaks():
     assert words.show_text(" \n ") == "-"
 
 
+def test_a_no_break_space_stays_between_words():
+    told = words.Words(language="fr")("show.label", label="R1", text="non")
+    assert words.show_text(f" {told}\n\t{told} \u00a0") == f"{told} {told}"
+    assert "\u00a0" in told
+
+
 @pytest.mark.parametrize("key", QUANTITIES)
 def test_number_format_writes_as_many_decimals_as_the_text(key):
     quantity, code = QUANTITIES[key], words.number_format(key)

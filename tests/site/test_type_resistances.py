@@ -5,7 +5,7 @@ import math
 import pytest
 
 from netdesign.site.reader import read_site
-from netdesign.words.catalogue import render
+from netdesign.words.catalogue import LANGUAGES, render
 
 
 def add_columns(sheets, name, **columns):
@@ -168,6 +168,17 @@ def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused)
     add_columns(sheets, "Anchors", **(BOND | {"ground": "granite", "grouting": "B"}))
     (finding,) = refused(save(sheets))
     assert "grouting in granite = 'B': must be one of A" in str(finding)
+
+
+def test_a_refused_grouting_names_its_ground_in_the_language(sheets, save, refused):
+    sheets["Anchors"][1][2:] = [None, None]
+    ground = {"ground": "schiste tendre", "grouting": "C"}
+    add_columns(sheets, "Anchors", **(BOND | ground))
+    (finding,) = refused(save(sheets))
+    told = {language: render(finding.accepted, language) for language in LANGUAGES}
+    assert "grouting in shale-soft = 'C'" in told["en"]
+    assert "injection dans schiste tendre = 'C'" in told["fr"]
+    assert "Verpressung in Tonschiefer weich = 'C'" in told["de"]
 
 
 def test_type_that_no_sheet_defines_names_cell_and_near_matches(sheets, save, refused):

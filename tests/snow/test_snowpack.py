@@ -1,6 +1,7 @@
 """Snowpack: thickness against height, direction of gravity, guards."""
 
 import math
+import re
 
 import pytest
 
@@ -15,6 +16,7 @@ from netdesign.snow.snowpack import (
     compute_mean_density,
     compute_thickness,
 )
+from netdesign.words.catalogue import LANGUAGES, render
 
 SOUND = {
     "slope_angle": math.radians(30.0),
@@ -132,17 +134,21 @@ def test_no_layers():
 
 
 @pytest.mark.parametrize(
-    ("changes", "name"),
+    ("changes", "both"),
     [
-        ({"thickness": 2.0 * (1 + 2e-6)}, "layer thicknesses: add up to 2"),
-        ({"thickness": 2.0 * (1 - 2e-6)}, "layer thicknesses: add up to 2"),
-        ({"density": 300.0 * (1 + 2e-6)}, "mean layer density: add up to 300"),
-        ({"density": 300.0 * (1 - 2e-6)}, "mean layer density: add up to 300"),
+        ({"thickness": 2.0 * (1 + 2e-6)}, ("2 m", "2.000004 m")),
+        ({"thickness": 2.0 * (1 - 2e-6)}, ("2 m", "1.999996 m")),
+        ({"density": 300.0 * (1 + 2e-6)}, ("300 kg/m3", "300.0006 kg/m3")),
+        ({"density": 300.0 * (1 - 2e-6)}, ("300 kg/m3", "299.9994 kg/m3")),
     ],
 )
-def test_layers_that_are_not_the_snowpack(changes, name):
-    with pytest.raises(ModelError, match=name):
+def test_layers_that_are_not_the_snowpack(changes, both):
+    """Both figures are told with their unit, and never as the same figure."""
+    with pytest.raises(ModelError) as refused:
         a_pack(layers=LAYERS, **changes)
+    for language in LANGUAGES:
+        told = render(refused.value.message, language)
+        assert tuple(re.findall(r"[\d.]+ (?:m|kg/m3)\b", told)) == both
 
 
 @pytest.mark.parametrize("share", [1 - 0.9e-6, 1.0, 1 + 0.9e-6])

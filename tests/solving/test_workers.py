@@ -14,7 +14,6 @@ from netdesign.coupling.scene import Scene
 from netdesign.envelope.ranges import Case
 from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
-from netdesign.solving import workers as workers_module
 from netdesign.solving.state import CaseEnd, encode_end
 from netdesign.solving.workers import (
     DIED,
@@ -24,6 +23,7 @@ from netdesign.solving.workers import (
     OwnProcess,
     ProcessPool,
     build_workers,
+    follow_futures,
     solve_job,
 )
 from tests.solving.small_scene import COARSE, build_scene
@@ -310,7 +310,7 @@ def test_a_scheduler_that_is_killed_is_named_with_its_address(alone, capfd):
     assert "Traceback" not in capfd.readouterr().err
 
 
-def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
+def test_a_cluster_that_lost_all_its_workers_is_named():
     class Deserted:
         def scheduler_info(self):
             return {"workers": {}}
@@ -322,11 +322,8 @@ def test_a_cluster_that_lost_all_its_workers_is_named(monkeypatch):
         def next_batch(self, block):  # noqa: ARG002
             return []
 
-    monkeypatch.setattr(workers_module, "_DESERTED_S", 0.0)
-    cluster = DaskCluster.__new__(DaskCluster)
-    cluster._client = Deserted()
     with pytest.raises(ClusterError, match="no worker for"):
-        next(cluster._arrivals(Never()))
+        next(follow_futures(Deserted(), Never(), patience=0.0))
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -1,4 +1,4 @@
-"""What an envelope costs and how well it bounds: the figures of its README.
+"""Cost of envelopes and closeness of their bounds: the figures of its README.
 
 Sizes are arguments, so that the same functions serve a quick look and the full table.
 """
@@ -43,8 +43,8 @@ ACCURACY = 0.005
 _AXES = ("density", "friction_angle", "inclination")
 _MEGABYTE = 2**20
 _PROCESSES = 2
-# Points of a grid that are solved: near a maximum of the model, every so manyth of
-# the others; of a small grid all.
+# Points of a grid that are solved: all near a maximum of the model, and one in so many
+# of the others; of a small grid all.
 _NEAR, _EVERY, _WHOLE = 0.95, 40, 200
 _WIDTHS = (0.6, 0.4, 0.3, 0.2)  # of made-up peaks; the last may be missed
 _ROUNDING = 1e-9
@@ -54,9 +54,9 @@ OnRow = Callable[[dict[str, Any]], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BenchSize:
-    """How much is measured; the defaults are those of the table of figures to reach.
+    """Amount of measurement; the defaults are those of the table of figures to reach.
 
-    But for the random scenes: 200 of them take most of an hour.
+    Only the random scenes are fewer: 200 of them take most of an hour.
     """
 
     grid: int = 10  # samples of each range

@@ -11,7 +11,7 @@ from __future__ import annotations
 import copy
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
@@ -63,7 +63,7 @@ _TRUE_START = MeshSize(
 
 
 def _set_thickness(tables: Tables, value: float) -> None:
-    """The snow's height, its layers' in proportion; a net as high stays so."""
+    """Set the thickness, layers in proportion; the net stays at least as high."""
     snow, net = tables["snow"], tables["net"]
     ratio = value / snow["thickness_m"]
     for layer in snow.get("layers", []):
@@ -76,13 +76,13 @@ def _set_thickness(tables: Tables, value: float) -> None:
 
 
 def _set_density(tables: Tables, value: float) -> None:
-    """Density of uniform snow, or of the bottom layer."""
+    """Set the density of uniform snow, or of the bottom layer."""
     snow = tables["snow"]
     (snow["layers"][0] if "layers" in snow else snow)["density_kg_m3"] = value
 
 
 def _set_slip(tables: Tables, value: float) -> None:
-    """Slip length over the thickness; the ground becomes one that slides."""
+    """Set the slip length over the thickness; the ground becomes a sliding one."""
     length = value * tables["snow"]["thickness_m"]
     tables["ground"] |= {"law": "sliding", "slip_length_m": length}
 
@@ -142,7 +142,7 @@ class Point:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """What became of a line.
+    """Result of a line.
 
     Attributes
     ----------
@@ -203,11 +203,42 @@ def follow_line(number: int, *, seed: int, accuracy: float, points: int) -> Line
     base = _draw_base(number, seed, parameter)
     values = parameter.list_values(points)
     settings = SolverSettings(accuracy=accuracy)
-    checked = set(_choose_truths(seed, number, points))
+    scenes = _list_scenes(base, parameter, values)
+    checked = _choose_truths(seed, number, points)
+    solved, missing, reasons = _solve_points(scenes, checked, settings)
+    steps = find_jumps(solved)
+    seeming = [one for one in steps if one["over_stated"] > 1.0]
+
+    def solve(value: float) -> Point:
+        solution = _solve(_build(base, parameter, value), settings)
+        return _record(0, solution, None)
+
+    jumps = [close_in(one, values[one["place"] :][:2], solve) for one in seeming]
+    small = [one for one in steps if one not in seeming]
+    return Line(
+        number=number,
+        parameter=parameter.name,
+        solved=len(solved),
+        refused=points - len(solved),
+        jumps=[one for one in jumps if one["over_stated"] > 1.0],
+        bends=sum(one["over_stated"] <= 1.0 for one in jumps),
+        largest_jump=max((one["over_stated"] for one in small + jumps), default=0.0),
+        ratios=[p.true_over_stated for p in solved if p.true_over_stated is not None],
+        missing=missing,
+        reasons=reasons,
+    )
+
+
+def _solve_points(
+    scenes: Sequence[Scene | ModelError],
+    checked: Container[int],
+    settings: SolverSettings,
+) -> tuple[list[Point], list[str], list[str]]:
+    """Solved points, reasons why a truth is missing, reasons of refusals, each once."""
     solved: list[Point] = []
     missing: list[str] = []
     reasons: dict[str, None] = {}
-    for place, scene in enumerate(_list_scenes(base, parameter, values)):
+    for place, scene in enumerate(scenes):
         try:
             solution = _solve(scene, settings)
         except (ModelError, SolveError) as error:
@@ -221,25 +252,7 @@ def follow_line(number: int, *, seed: int, accuracy: float, points: int) -> Line
             except SolveError as error:
                 missing.append(str(error))
         solved.append(_record(place, solution, ratio))
-    steps = find_jumps(solved)
-    seeming = [one for one in steps if one["over_stated"] > 1.0]
-    jumps = [
-        _close_in(one, base, parameter, values[one["place"] :][:2], settings)
-        for one in seeming
-    ]
-    small = [one for one in steps if one not in seeming]
-    return Line(
-        number=number,
-        parameter=parameter.name,
-        solved=len(solved),
-        refused=points - len(solved),
-        jumps=[one for one in jumps if one["over_stated"] > 1.0],
-        bends=sum(one["over_stated"] <= 1.0 for one in jumps),
-        largest_jump=max((one["over_stated"] for one in small + jumps), default=0.0),
-        ratios=[p.true_over_stated for p in solved if p.true_over_stated is not None],
-        missing=missing,
-        reasons=list(reasons),
-    )
+    return solved, missing, list(reasons)
 
 
 def find_jumps(points: Sequence[Point]) -> list[dict[str, Any]]:
@@ -269,22 +282,13 @@ def find_jumps(points: Sequence[Point]) -> list[dict[str, Any]]:
     return found
 
 
-def _close_in(
-    jump: dict[str, Any],
-    base: Tables,
-    parameter: Parameter,
-    gap: Floats,
-    settings: SolverSettings,
+def close_in(
+    jump: dict[str, Any], gap: Floats, solve: Callable[[float], Point]
 ) -> dict[str, Any]:
-    """The jump as it is where its gap, two values, is bisected to the larger step.
+    """Jump after its gap, two values, was bisected towards the larger step.
 
-    Scenes without a result between two that have one leave it as it was.
+    Where a scene within the gap gives no result, the jump stays as it was.
     """
-
-    def solve(value: float) -> Point:
-        solution = _solve(_build(base, parameter, value), settings)
-        return _record(jump["place"], solution, None)
-
     end = ENDS.index(jump["end"])
     try:
         ends = [(value, solve(value)) for value in map(float, gap)]

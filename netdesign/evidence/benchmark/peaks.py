@@ -22,7 +22,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PeakEnd:
-    """What a search made of one response.
+    """Result of the search of one response.
 
     ``excess`` is the true maximum over the upper bound, less 1: negative where the
     bound holds.

@@ -56,7 +56,7 @@ _TIGHT, _OFFERED = 1e-4, 5e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effort:
-    """How much is measured: place of the finest level, repeats of each timing."""
+    """Amount of measurement: place of the finest level, repeats of each timing."""
 
     finest: int = 3
     repeats: int = 5

@@ -1,4 +1,4 @@
-"""The flow's Newton step in plain scikit-fem: what the fast kernel is measured against.
+"""The flow's Newton step in plain scikit-fem: a measure for the fast kernel.
 
 Same equations, points and contacts as ``snow/flow.py``, written as one would with
 the library's forms: a basis per placement of the mesh, matrices assembled and

@@ -25,8 +25,8 @@ def spread(
 ) -> list[Result]:
     """Results in the order of the items, whatever the processes did.
 
-    Unlike ``envelope.run`` this is no place to go on after a process has died:
-    what is measured here is that none does, so its end is raised.
+    Unlike ``envelope.run`` it does not go on after a process has died, but raises:
+    a benchmark is to show that none dies.
     """
     results = []
     for result in _work_through(work, items, jobs):

@@ -23,6 +23,6 @@ def fit_order(sizes: Sequence[float], values: Sequence[float]) -> float:
 
 
 def share(holds: Iterable[bool]) -> float | None:
-    """Share of what holds; None of nothing."""
+    """Share of the entries that hold; None without any."""
     found = list(holds)
     return sum(found) / len(found) if found else None

@@ -1,4 +1,4 @@
-"""What the rows of a benchmark say together."""
+"""Figures that sum up the rows of a benchmark."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a solution is compared with: the same scene on a mesh four times finer."""
+"""Truth for a solution: the same scene on a mesh four times finer."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Truth:
     def compare_pulls(
         self, foot: NDArray[np.float64], head: NDArray[np.float64]
     ) -> tuple[float, float]:
-        """The same of vectors, shape (2,) each [N/m]."""
+        """Relative errors of two pulls, vectors of shape (2,) [N/m]."""
         return _relative(foot, self.foot), _relative(head, self.head)
 
 

@@ -1,4 +1,4 @@
-"""Which runs the source paper's study is made of."""
+"""Runs of the source paper's study."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class PaperCase:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PaperSettings:
-    """How the runs are computed; a thinned study takes less of each.
+    """Settings of the runs; a thinned study takes less of each.
 
     Attributes
     ----------

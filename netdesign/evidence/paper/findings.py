@@ -1,4 +1,4 @@
-"""What the runs say of the paper's statements; every decision by computed numbers."""
+"""The paper's statements, each decided by numbers that the runs computed."""
 
 from __future__ import annotations
 
@@ -379,7 +379,7 @@ def _decide_swelling(study: PaperStudy) -> Finding:
 
 
 def _decide_seconds(study: PaperStudy) -> Finding:
-    """Whether the plateau begins within the 8 s that the paper computed."""
+    """The plateau has to begin within the 8 s that the paper computed."""
     run = study[find_history(NORMAL_NET_DEG, MIDDLE_FRICTION_DEG)]
     begin = _plateau_time(run)
     if run.track is None or run.foot is None or not np.isfinite(begin):

@@ -31,7 +31,7 @@ _ACCURACY = 0.1  # never refines: the settings say which meshes are taken
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Track:
-    """What a history recorded, in its own times.
+    """Records of a history, at its own times.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Shape:
 
     @property
     def mean_density(self) -> float:
-        """Of the snow's area [kg/m3]."""
+        """Mean density over the snow's area [kg/m3]."""
         first, second, third = self.nodes[:, self.triangles].transpose(1, 0, 2)
         one, other = second - first, third - first
         areas = np.abs(one[0] * other[1] - one[1] * other[0])

@@ -112,7 +112,7 @@ def list_layered() -> list[VerificationCase]:
 
 
 def list_invariants() -> list[VerificationCase]:
-    """What must hold whatever the numbers are."""
+    """Invariants: they hold whatever the numbers are."""
     base = build_scene()
     reference = _solve(base)
     balance = max(

@@ -31,7 +31,7 @@ def draw_monitoring(
 def describe_monitoring(
     records: Sequence[MonitoringRecord], words: Words = ENGLISH
 ) -> str:
-    """What the drawing must not be taken for."""
+    """Note below the drawing, with the reasons for missing histories."""
     starts = sorted({record.model_start for record in records})
     named = tuple(name("start", start) for start in starts)
     note = words("drawing.monitoring_note", starts=named)

@@ -227,7 +227,7 @@ def draw_meshes(
 
 
 def _find_ends(picture: MeshPicture) -> tuple[float, float]:
-    """Densities that all but a little of the snow's area lies between."""
+    """Low and high density; nearly all of the snow's area lies between them."""
     first, second, third = picture.nodes[:, picture.triangles].transpose(1, 0, 2)
     one, other = second - first, third - first
     areas = np.abs(one[0] * other[1] - one[1] * other[0])

@@ -32,12 +32,12 @@ class Frame:
 
     @property
     def top_end(self) -> float:
-        """Where the snow is cut off uphill [m along the slope]."""
+        """Place at which the snow is cut off uphill [m along the slope]."""
         return min(self.drawing.uphill_anchor_m[0], 0.0) - 0.45 * self.unit
 
     @property
     def low_end(self) -> float:
-        """Where the ground ends downhill [m along the slope]."""
+        """Place at which the ground ends downhill [m along the slope]."""
         drawing = self.drawing
         lowest = max(drawing.downhill_anchor_m[0], drawing.head_m[0], 0.0)
         return lowest + 0.45 * self.unit

@@ -1,4 +1,4 @@
-"""What every page is made with: templates that escape, styles inside the page."""
+"""Tools of every page: templates that escape, styles inside the page."""
 
 from __future__ import annotations
 

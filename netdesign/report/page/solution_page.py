@@ -217,7 +217,7 @@ def _render_page(
 
 
 def _describe_criterion(words: Words) -> str:
-    """What counts as a plateau."""
+    """Criterion of a plateau, in words."""
     return words(
         "solved.criterion",
         strain=LEAST_STRAIN,

@@ -1,1 +1,1 @@
-"""What a report shows, independent of its medium."""
+"""Contents of a report, independent of its medium."""

@@ -1,4 +1,4 @@
-"""What a study rests on: scope, assumptions with their origin, reviewer's checklist."""
+"""Basis of a study: scope, assumptions with their origin, reviewer's checklist."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _MODEL = (
 
 
 def list_scope(words: Words) -> tuple[str, ...]:
-    """What is treated, what is not, and who decides."""
+    """Scope: what is treated, what is not, and who decides."""
     return tuple(words(key) for key in _SCOPE)
 
 

@@ -1,8 +1,8 @@
 """Formulas of the sheet of checks: text of cells in, text of a formula out.
 
-A number counts only where it is one and has its sign: a cell that is blank, text, an
-error or TRUE never becomes a factor, and what lacks a number is never a pass. Each
-formula says so itself; nothing relies on another cell having been left alone.
+A cell counts only if it holds a number of the right sign. A blank, a text, an error or
+TRUE never becomes a factor, and a check that lacks a number never passes. Each formula
+tests its own cells; none relies on another cell having been left alone.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from netdesign.outcome import Verdict
 from netdesign.report.words import MISSING
 
-ROUNDING = 1e-12  # a product of stored numbers may lie so far above the study's
+ROUNDING = 1e-12  # by which a product of stored numbers may exceed the study's
 _ORDER = "(1+1E-9)"  # ends that were divided and multiplied again keep their order
 _RANKS = {Verdict.FAIL: 2e6, Verdict.NOT_PROVEN: 1e6, Verdict.PASS: 0.0}
 _ROW_RANK = 1e8
@@ -104,7 +104,7 @@ def write_rank(number: str, verdict: str, ratio: str, words: dict[Verdict, str])
 
 
 def compute_rank(number: int, verdict: Verdict, ratio: float | None) -> float:
-    """What `write_rank` gives."""
+    """Number that the formula of `write_rank` gives."""
     return (
         number * _ROW_RANK
         + _RANKS[verdict]
@@ -129,12 +129,12 @@ _VERDICTS = (Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN)
 
 
 def _is_number(cell: str, condition: str) -> str:
-    """Whether a cell holds a number for which ``condition`` holds, such as ``>0``."""
+    """Condition: the cell holds a number that meets ``condition``, such as ``>0``."""
     return f"IF(ISNUMBER({cell}),{cell}{condition},FALSE)"
 
 
 def _is_given(cell: str, condition: str) -> str:
-    """The same for a cell that somebody types into: TRUE and FALSE are no numbers.
+    """Condition for a cell that somebody types into: TRUE and FALSE are no numbers.
 
     LibreOffice reads them from a file as formulas that give 1 and 0.
     """

@@ -144,9 +144,6 @@ def _build_bar(
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check that has a demand and a resistance."""
-    low, high = check.utilisation_band
-    demand = show_with_unit("demand_kN", check.demand_kN)
-    resistance = show_with_unit("resistance_kN", check.resistance_kN)
     needed = show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
         title=words(
@@ -155,37 +152,11 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
             case=name_case(check.case),
         ),
         steps=(
-            *(
-                Step(symbols=symbols, numbers=numbers, result=result)
-                for symbols, numbers, result in describe_widths(check)
-            ),
+            *_derive_action(check),
             *_derive_resistance(check, words),
-            Step(
-                symbols="E_d = γ_E · E_k",
-                numbers=f"{show_number('action_factor', check.action_factor)} · "
-                f"{show_with_unit('action_kN', check.action_kN)}",
-                result=demand,
-            ),
-            Step(
-                symbols="R_d = R_k / γ_R",
-                numbers=_divide(
-                    show_with_unit(
-                        "resistance_characteristic_kN",
-                        check.resistance_characteristic_kN,
-                    ),
-                    show_number("resistance_factor", check.resistance_factor),
-                ),
-                result=resistance,
-            ),
-            Step(
-                symbols="μ = E_d / R_d",
-                numbers=_divide(demand, resistance),
-                result=words(
-                    "show.with_band",
-                    value=show_number("utilisation", check.utilisation),
-                    band=show_band(words, "utilisation", low, high),
-                ),
-            ),
+            _factor_action(check),
+            _reduce_resistance(check),
+            _compare_both(check, words),
         ),
         needed=words(
             "show.needed", verdict=words(f"verdict.{check.verdict}"), force=needed
@@ -193,8 +164,16 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
     )
 
 
+def _derive_action(check: CheckRecord) -> tuple[Step, ...]:
+    """Characteristic action from the solved force and the widths that a support has."""
+    return tuple(
+        Step(symbols=symbols, numbers=numbers, result=result)
+        for symbols, numbers, result in describe_widths(check)
+    )
+
+
 def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
-    """How the characteristic resistance follows from dimensions or tests."""
+    """Characteristic resistance from dimensions or tests."""
     if not check.resistance_derivation:
         return ()
     given = check.resistance_characteristic_kN
@@ -203,6 +182,43 @@ def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
             symbols="R_k",
             numbers=words.show(check.resistance_derivation),
             result=show_with_unit("resistance_characteristic_kN", given),
+        ),
+    )
+
+
+def _factor_action(check: CheckRecord) -> Step:
+    factor = show_number("action_factor", check.action_factor)
+    return Step(
+        symbols="E_d = γ_E · E_k",
+        numbers=f"{factor} · {show_with_unit('action_kN', check.action_kN)}",
+        result=show_with_unit("demand_kN", check.demand_kN),
+    )
+
+
+def _reduce_resistance(check: CheckRecord) -> Step:
+    given = check.resistance_characteristic_kN
+    return Step(
+        symbols="R_d = R_k / γ_R",
+        numbers=_divide(
+            show_with_unit("resistance_characteristic_kN", given),
+            show_number("resistance_factor", check.resistance_factor),
+        ),
+        result=show_with_unit("resistance_kN", check.resistance_kN),
+    )
+
+
+def _compare_both(check: CheckRecord, words: Words) -> Step:
+    low, high = check.utilisation_band
+    return Step(
+        symbols="μ = E_d / R_d",
+        numbers=_divide(
+            show_with_unit("demand_kN", check.demand_kN),
+            show_with_unit("resistance_kN", check.resistance_kN),
+        ),
+        result=words(
+            "show.with_band",
+            value=show_number("utilisation", check.utilisation),
+            band=show_band(words, "utilisation", low, high),
         ),
     )
 

@@ -25,7 +25,7 @@ from netdesign.words.names import name
 
 
 def describe_search(row: RowStudy, words: Words) -> str:
-    """How the largest forces were found, what their bound rests on; "" of a grid."""
+    """Way to the largest forces, and basis of their bound; "" of a grid."""
     record = row.envelope
     if record is None:
         return ""
@@ -100,7 +100,7 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
 
 
 def build_drivers(row: RowStudy, words: Words) -> Table:
-    """What drives each force: tornado about the governing case, Sobol indices."""
+    """Drivers of each force: tornado about the governing case, Sobol indices."""
     keys = ("first_order", "total", "unexplained")
     numbers = [words(f"heading.{key}") for key in keys]
     low, high = words("heading.at_low_end"), words("heading.at_high_end")

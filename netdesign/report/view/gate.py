@@ -99,7 +99,7 @@ def _require_sizes(place: Message, check: CheckRecord) -> None:
 
 
 def _require_parts(place: Message, check: CheckRecord) -> None:
-    """Refuse factors that are none, and a resistance that follows from nothing."""
+    """Refuse factors not above zero, and a design resistance without its parts."""
     divisors = (check.action_factor, check.resistance_factor, check.resistance_kN)
     if not all(one is None or one > 0.0 for one in divisors):
         raise NetDesignError(say("audit.not_above_zero", place=place))

@@ -249,7 +249,7 @@ def build_independent(row: RowStudy, words: Words) -> Table:
 
 
 def build_changes(row: RowStudy, words: Words) -> Table:
-    """What would make failing or unproven checks pass, and close ones fail."""
+    """Changes that would make failing or unproven checks pass, and close ones fail."""
     keys = ("check", "verdict", "passes_with", "now", "solves", "remark")
     headings = [words(f"heading.{key}") for key in keys]
     return Table(
@@ -302,7 +302,7 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
 
 
 def _show(value: float | None, unit: str) -> str:
-    """Bounds are rounded to the side that passes when they are found."""
+    """Value with its unit; the search has rounded bounds to the side that passes."""
     return MISSING if value is None else show_quantity(value, unit)
 
 

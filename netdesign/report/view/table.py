@@ -1,4 +1,4 @@
-"""What a table of the report is made of: cells under headings."""
+"""Parts of a table of the report: cells under headings."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from netdesign.report.words import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """What a reader sees, and the number behind it if it is one."""
+    """Text that a reader sees, and the number behind it if it is one."""
 
     text: str
     number: float | None = None
@@ -81,7 +81,7 @@ def share_cell(value: float | None) -> Cell:
 
 
 def given_cell(value: float | str) -> Cell:
-    """What somebody chose or counted: no decimals are added."""
+    """Number that somebody chose or counted: no decimals are added."""
     if isinstance(value, str):
         return text_cell(value)
     return Cell(text=show_given(value), number=value)

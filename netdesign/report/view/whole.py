@@ -87,7 +87,7 @@ class ReportView:
     date: str
     running_title: str
     verdict: VerdictWords
-    verification: tuple[tuple[str, str], ...]  # how a reader finds whether it is true
+    verification: tuple[tuple[str, str], ...]  # how a reader can verify the report
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
     assumed: Table

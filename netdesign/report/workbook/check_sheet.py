@@ -41,7 +41,7 @@ from netdesign.study.records import CheckRecord, Study
 
 HEAD_ROW = 3  # zero-based; the first check is one below
 _NOTES = ("caption.check_formulas", "caption.check_verdicts")
-# Stands in the place of a sentence of the study that no longer holds.
+# Text in the place of a sentence of the study that no longer holds.
 CHANGED = "caption.changed"
 _WANTED = {True: "caption.above_zero", False: "caption.at_least_zero"}
 
@@ -50,9 +50,9 @@ _WANTED = {True: "caption.above_zero", False: "caption.at_least_zero"}
 class _Field:
     """Column of the sheet: letter, key of its quantity, key of its heading, width.
 
-    A quantity stands under its symbol, ``end`` tells its band's ends apart; without a
-    key of a heading, a quantity of a case under its name. What the study has stands
-    hidden, and says so.
+    Without a key of a heading, a quantity of a case stands under its name, any other
+    under its symbol; ``end`` tells the ends of its band apart. Columns with values of
+    the stored study are hidden, and their headings say "study".
     """
 
     letter: str
@@ -70,7 +70,7 @@ class _Field:
 
     @property
     def is_number(self) -> bool:
-        """Whether its cells are numbers."""
+        """True if its cells are numbers."""
         return bool(self.quantity) or self.heading == "heading.no"
 
     def name(self, words: Words) -> Column:
@@ -293,7 +293,7 @@ class _CheckLine:
         self._sheet.write_formula(self._at(_RANK), rank, None, value)
 
     def _write_study(self, check: CheckRecord, view: CheckView) -> None:
-        """What the study has, and whether the live cells still show it."""
+        """Write the study's own values, and whether the live cells still show them."""
         at = self._at
         for field, text in zip(
             (*_STUDY_TEXTS, _STUDY_VERDICT),
@@ -312,7 +312,7 @@ class _CheckLine:
         self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
 
     def _write_sentences(self, texts: tuple[str, str]) -> None:
-        """Sentences of the study, as long as they hold."""
+        """Write sentences of the study, shown as long as they hold."""
         form, changed = self._book.text(text_wrap=True), self._book.words(CHANGED)
         for field, stored, text in zip(_TAIL, _STUDY_TEXTS, texts, strict=True):
             formula = f'=IF({self._at(_UNCHANGED)}=1,{self._at(stored)},"{changed}")'
@@ -329,7 +329,7 @@ class _CheckLine:
     def _put_number(
         self, field: _Field, value: float | None, formula: str = ""
     ) -> None:
-        """Write a number; with ``formula``, live and giving "-" without its parts."""
+        """Write a number; with ``formula`` it is live, and "-" without its parts."""
         if not formula:
             self._put(
                 field, Cell(text=show_number(field.quantity, value), number=value)
@@ -353,7 +353,7 @@ def decide_by_ratio(low: float | None, high: float | None) -> Verdict:
 
 
 def _is_of_forces(check: CheckRecord) -> bool:
-    """Whether the verdict follows from a ratio; one that passes without does not."""
+    """The verdict follows from a ratio; that of a pass without one does not."""
     return check.verdict is not Verdict.PASS or check.utilisation is not None
 
 

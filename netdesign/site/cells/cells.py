@@ -1,4 +1,4 @@
-"""What a workbook holds: cells that know where they are, sheets, the file."""
+"""Contents of a workbook: cells that know their place, sheets, the file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from netdesign.words.message import Message
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextFormat:
-    """What is declared of a file's text; empty: found out, or judged cell by cell.
+    """Declared form of a file's text; what is empty is found out or judged by cell.
 
     Attributes
     ----------
@@ -61,14 +61,14 @@ class Cell:
 
     @property
     def text(self) -> str:
-        """What was typed: the formula, or the value as text."""
+        """Text as typed: the formula, or the value as text."""
         if self.formula:
             return self.formula
         return "" if self.value is None else str(self.value)
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing but spaces was typed."""
+        """Nothing but spaces was typed."""
         return not self.text.strip()
 
     def finding(
@@ -108,7 +108,7 @@ class MergedRange:
         return rows * (self.last_column - self.column + 1)
 
     def covers(self, row: int, column: int) -> bool:
-        """Whether a cell belongs to the range."""
+        """A cell belongs to the range."""
         return (
             self.row <= row <= self.last_row
             and self.column <= column <= self.last_column

@@ -1,4 +1,4 @@
-"""What is wrong in a site workbook, and where: collected, never thrown one by one."""
+"""Faults of a site workbook with their places: collected, never thrown singly."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LONGEST_QUOTE = 60
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why something was not taken, before its place is known.
+    """Reason against a value, before its place is known.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How large a site workbook may be: far above any real one, far below a bomb."""
+"""Limits of a site workbook's size: far above any real one, far below a bomb."""
 
 from __future__ import annotations
 

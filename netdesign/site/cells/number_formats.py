@@ -1,4 +1,4 @@
-"""What a number format shows beside a number: a unit, a share of a hundred."""
+"""Signs that a number format shows beside a number: a unit, a per cent sign."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _UNIT_SIGNS = "%°'′″"
 
 
 def show_percent(number_format: str) -> bool:
-    """Whether a format multiplies by 100; a percent sign in quotes does not."""
+    """A format multiplies by 100; a percent sign in quotes does not."""
     return "%" in _keep_signs(number_format)
 
 
 def show_thousands(number_format: str) -> bool:
-    """Whether a format divides by 1000, which a comma behind the digits does."""
+    """A format divides by 1000, as a comma behind the digits does."""
     return bool(_THOUSANDS.search(_keep_signs(number_format)))
 
 

@@ -171,7 +171,7 @@ def _show_formula(value: Any) -> str:
 
 
 def _read_format(cell: Any) -> dict[str, Any]:
-    """What the format of a number shows beside it, for the fields of a `Cell`."""
+    """Fields of a `Cell` that say what the format shows beside its number."""
     if cell.data_type != "n" or not isinstance(cell.value, int | float):
         return {}
     text = str(cell.number_format)

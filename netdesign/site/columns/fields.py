@@ -1,4 +1,4 @@
-"""What a column of the workbook is: its headings, units, bounds and words."""
+"""Columns of the workbook: their headings, units, bounds and words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LONGEST_HEADING = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wording:
-    """How one language calls a field: its heading, other headings, its note."""
+    """Words of one language for a field: its heading, other headings, its note."""
 
     label: str
     aliases: tuple[str, ...] = ()
@@ -57,7 +57,7 @@ class Field:
     refers_to : str
         Sheet that defines the id, for ids of another sheet.
     note : str
-        What the engineer should know; shown on the heading of the template.
+        Advice to the engineer; shown on the heading of the template.
     wordings : mapping of str to Wording
         Label, aliases, note and words in the other languages.
     table : str
@@ -83,7 +83,7 @@ class Field:
 
     @property
     def name(self) -> Message:
-        """What it is called, in the language of whoever reads it."""
+        """Name, in the language of whoever reads it."""
         return self.named or say(f"column.{self.table}.{self.key}")
 
     @property
@@ -128,7 +128,7 @@ class Field:
 
     @property
     def accepted(self) -> Message:
-        """What a cell may hold, as a phrase."""
+        """Accepted content of a cell, as a phrase."""
         if self.kind in ("number", "count"):
             low, high = self.bounds
             key = "accepted.whole_range" if self.kind == "count" else "accepted.range"
@@ -165,7 +165,7 @@ class SheetPlan:
     items: tuple[Field, ...] = ()  # what the lines of a table of items may name
 
     def matches(self, sheet_name: str) -> bool:
-        """Whether a workbook's sheet of this name is the planned one."""
+        """A workbook's sheet of this name is the planned one."""
         names = (self.name, *self.aliases, *self.names.values())
         return normalise(sheet_name) in map(normalise, names)
 

@@ -33,7 +33,7 @@ def load_text(language: Language) -> Mapping[str, str]:
 
 
 def word_field(field: Field, table: str) -> Field:
-    """Give a field its texts in the other languages; ``table`` names its sheet."""
+    """Field with its texts in the other languages; ``table`` names its sheet."""
     own = replace(field, table=table)
     found: dict[str, Wording] = {
         language: _read_wording(load_words(language)[table][field.key], own, language)
@@ -44,7 +44,7 @@ def word_field(field: Field, table: str) -> Field:
 
 
 def word_plan(plan: SheetPlan) -> SheetPlan:
-    """Give a sheet and its fields their texts in the other languages."""
+    """Sheet and its fields with their texts in the other languages."""
     names: dict[str, str] = {
         language: render(plan.title, language) for language in _TRANSLATED
     }

@@ -42,7 +42,7 @@ DENSITIES = ("kg/m3", "g/cm3", "t/m3")
 TEMPERATURES = ("degC",)
 TIMES = ("d", "h")
 
-# What looks like one unit and is used for two: never guessed.
+# Spellings that are used for two units: never guessed.
 UNCLEAR_UNITS = {
     "grad": say("unclear_unit.grad"),  # German degrees, French and Swiss gons
     "t": say("unclear_unit.t"),  # tonnes of mass

@@ -1,7 +1,7 @@
 """Gives a site workbook back with its findings: cells coloured, commented, listed.
 
-What the program that wrote the workbook keeps beside its cells (text boxes, macros)
-is not in the copy, and formulas are calculated again when it is opened.
+Text boxes, macros and whatever else stands beside the cells are not in the copy.
+Formulas are calculated again when it is opened.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ def write_notes(workbook: Workbook, language: Language) -> None:
 
 
 def describe_accepted(field: Field, language: Language) -> str:
-    """What a cell may hold, as a phrase: bounds with their unit, or words."""
+    """Accepted content of a cell, as a phrase: bounds with their unit, or words."""
     words = field.wording(language).words
     if field.words:
         return ", ".join(

@@ -124,7 +124,7 @@ def load_example() -> dict[str, _Lines]:
 
 
 def _starting_lines() -> dict[str, _Lines]:
-    """Give the lines of which only the numbers are the engineer's."""
+    """Lines of which only the numbers are left to the engineer."""
     return {
         PROJECT.name: [{"item": field.label} for field in PROJECT_ITEMS],
         RANGES.name: [

@@ -1,4 +1,4 @@
-"""Whether a stored study agrees with itself, its site and its profile; unsolved."""
+"""Agreement of a stored study with itself, its site and its profile; unsolved."""
 
 from netdesign.study.audit.study_audit import audit_study
 

@@ -206,7 +206,7 @@ def _audit_verdict(
 
 
 def is_held_back(check: CheckRecord) -> bool:
-    """Whether a check that would pass is not proven for a reason beside its numbers.
+    """A check that would pass is not proven for a reason beside its numbers.
 
     Such as a fault of the program in a solve that the check does not rest on.
     """

@@ -1,4 +1,4 @@
-"""How the audit compares two numbers that must be one."""
+"""Comparison of two numbers that must be one."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ Pair = tuple[str, float | None, float | None]
 
 
 def is_same(one: float | None, other: float | None) -> bool:
-    """Whether both are the same number, or both are missing."""
+    """Both are the same number, or both are missing."""
     if one is None or other is None:
         return one is other
     return math.isclose(one, other, rel_tol=SAME, abs_tol=_ZERO)
 
 
 def is_of_steady_states(study: Study) -> bool:
-    """Whether no history had a part in its forces."""
+    """No history had a part in its forces."""
     return study.provenance.settings.get("method") == _STEADY
 
 

@@ -226,7 +226,7 @@ def is_complete(row: RowStudy) -> bool:
 
 
 def same_point(one: CasePoint | None, other: CasePoint | None) -> bool:
-    """Whether two cases are one, or both are missing."""
+    """Two cases are one, or both are missing."""
     if one is None or other is None:
         return one is other
     return all(is_same(getattr(one, key), getattr(other, key)) for key in _AXES)

@@ -232,7 +232,7 @@ def _audit_laws(
 def _list_law_pairs(
     law: IndependentRecord, row: RowStudy, drawn: CaseRecord
 ) -> list[Pair]:
-    """What is known of a law's numbers without the solved case."""
+    """Pairs that a law's numbers must form, known without the solved case."""
     if law.name == "end_direction":
         errors = DIRECTION_ERRORS * (drawn.error_percent or 0.0) / 100.0
         return [("limit", law.limit, max(DIRECTION, errors))]

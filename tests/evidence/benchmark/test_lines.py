@@ -15,6 +15,7 @@ from netdesign.evidence.benchmark.lines import (
     PARAMETERS,
     Line,
     Point,
+    close_in,
     find_jumps,
     follow_line,
     write_lines,
@@ -60,19 +61,15 @@ def test_a_jump_is_told_with_its_place_and_size():
     ],
     ids=["jump", "bend"],
 )
-def test_a_jump_stays_where_it_is_closed_in_on(pull, stays, monkeypatch):
+def test_a_jump_stays_where_it_is_closed_in_on(pull, stays):
     error = 5.0
-    monkeypatch.setattr(lines, "_build", lambda _base, _parameter, value: value)
-    monkeypatch.setattr(lines, "_solve", lambda value, _: value)
-    monkeypatch.setattr(
-        lines,
-        "_record",
-        lambda place, value, _: Point(
-            place=place, pulls=(1.0, pull(value)), errors=(error, error), elements=7
-        ),
-    )
+
+    def solve(value):
+        pulls, errors = (1.0, pull(value)), (error, error)
+        return Point(place=0, pulls=pulls, errors=errors, elements=7)
+
     jump = {"place": 3, "end": "head", "over_stated": 4.2, "relative": 0.1}
-    found = lines._close_in(jump, {}, PARAMETERS[0], np.array([0.0, 1.0]), ACCURACY)
+    found = close_in(jump, np.array([0.0, 1.0]), solve)
     assert found["place"] == 3
     if stays:
         assert found["over_stated"] == pytest.approx(90.0 / (2 * error), rel=1e-12)
@@ -80,15 +77,12 @@ def test_a_jump_stays_where_it_is_closed_in_on(pull, stays, monkeypatch):
         assert found["over_stated"] == pytest.approx(90.0 / 32 / (2 * error), rel=1e-12)
 
 
-def test_a_gap_without_results_leaves_the_jump(monkeypatch):
+def test_a_gap_without_results_leaves_the_jump():
     def refuse(*_):
         raise SolveError(Outcome.DIVERGED, "nowhere")
 
-    monkeypatch.setattr(lines, "_build", lambda _base, _parameter, value: value)
-    monkeypatch.setattr(lines, "_solve", refuse)
     jump = {"place": 3, "end": "head", "over_stated": 4.2, "relative": 0.1}
-    gap = np.array([0.0, 1.0])
-    assert lines._close_in(jump, {}, PARAMETERS[0], gap, ACCURACY) is jump
+    assert close_in(jump, np.array([0.0, 1.0]), refuse) is jump
 
 
 def test_points_beside_a_refused_one_say_nothing():
