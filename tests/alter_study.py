@@ -13,6 +13,7 @@ OBJECTS = (
     "reason",
     "model_reason",
     "resistance_derivation",
+    "sideways",
 )
 WORDS = ([*Verdict], [*Outcome])
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from netdesign.checks import Band, CheckResult, Standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import LATERAL_SHARE
-from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
@@ -163,7 +163,8 @@ def find_sideways(
         if one.is_converged and one.anchors is not None
     ]
     if not heads:
-        return Sideways(share=value.value, gap=say("check.no_case_solved"))
+        lack = describe_gap(results) or say("check.no_case_solved")
+        return Sideways(share=value.value, gap=lack)
     for head in heads:
         failed = head.fail(value.value, splay)
         if failed is not None:

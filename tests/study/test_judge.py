@@ -79,6 +79,7 @@ def test_study_is_complete(results, standard):
     for row in study.rows:
         assert [check.id for check in row.checks] == [
             *expected,
+            "post.lateral",
             "geometry.inclination",
             "geometry.slope",
             "geometry.height",

@@ -31,8 +31,18 @@ def forces(study):
 def scale_demand(check, factor):
     for key in ("demand_kN", "demand_low_kN", "demand_high_kN", "action_kN"):
         check[key] *= factor
-    check["action"]["solved_kN"] *= factor
-    scale_ratio(check, factor)
+    action = check["action"]
+    scale_all(
+        action, ("solved_kN", "added_kN", "added_low_kN", "added_high_kN"), factor
+    )
+    if action["sideways"]:
+        scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
+    if check["mode"] == "sliding":  # its friction follows what presses the base
+        for key in ("resistance_kN", "resistance_characteristic_kN"):
+            check[key] *= factor
+        check["resistance_derivation"]["arguments"]["pressing"] *= factor
+    else:
+        scale_ratio(check, factor)
 
 
 def scale_ratio(check, factor):
