@@ -66,13 +66,13 @@ def judge_row(tmp_path: Path, profile, **changes):
     return {check.id: check for check in row.checks}
 
 
-def study_row(tmp_path: Path, profile, *, anchor, foot, head, **nets):
+def study_row(tmp_path: Path, profile, *, anchor, foot, head, post=POST, **nets):
     """Study of the row under a profile, given by its id or its folder."""
     sheets = {
         "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
         "Anchors": {"id": "A"} | anchor,
         "Ropes": ROPE,
-        "Posts": POST,
+        "Posts": post,
     }
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)

@@ -108,7 +108,7 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         utilisation=0.8253,
         verdict=Verdict.PASS,
     )
-    # Sliding: 106.1 tan 15 = 28.43 kN along the slope; 0.6 * 1.5 * 106.1 = 95.51 kN; 1.1.
+    # Sliding: 106.1 tan 15 = 28.43 kN; 0.6 * 1.5 * 106.1 = 95.51 kN; 1.1.
     expect(
         checks["post_base.sliding"],
         demand=1.5 * 28.43,

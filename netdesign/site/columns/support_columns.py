@@ -15,11 +15,16 @@ from netdesign.structure.splay import LEAST_SPLAY, MOST_SPLAY
 from netdesign.units import degree_from_radian
 
 
+def _in_degrees(least: float, most: float) -> tuple[float, float]:
+    """Bounds in degrees, without what rounding leaves of whole ones."""
+    return round(degree_from_radian(least), 9), round(degree_from_radian(most), 9)
+
+
 def _axis(key: str, way: str) -> Field:
     return Field(
         key=key,
         units=ANGLES,
-        bounds=(degree_from_radian(LEAST_AXIS), degree_from_radian(MOST_AXIS)),
+        bounds=_in_degrees(LEAST_AXIS, MOST_AXIS),
         note=f"against the slope surface, 0 {way} along the slope, 90 straight out of "
         "the ground; left empty, it is taken along the mean pull, an assumption",
     )
@@ -36,7 +41,7 @@ GUYS_AND_AXES = (
     Field(
         key="guy_splay",
         units=ANGLES,
-        bounds=(degree_from_radian(LEAST_SPLAY), degree_from_radian(MOST_SPLAY)),
+        bounds=_in_degrees(LEAST_SPLAY, MOST_SPLAY),
         note="between each of two guys and the section across the row",
     ),
     _axis("foot_axis", "downslope"),
