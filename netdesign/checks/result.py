@@ -73,7 +73,7 @@ class GivenResistance(Protocol):
 
     @property
     def lack(self) -> Message | None:
-        """Why there is no value, where "none is given" does not say it."""
+        """Reason for a missing value, where "none is given" does not say it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""What anchors, guys and posts are made of, where a resistance follows the demand.
+"""Dimensions of anchors, guys and posts, where a resistance follows the demand.
 
 How an anchor bends depends on where the pull points, how much compression a post bears
 on the snow against it, how its base slides on what presses it: what is read here is
@@ -32,7 +32,7 @@ _BENT_POST = ("post_width", "section_modulus", *_SECTION)
 
 
 def read_guys(row: Row) -> Guys:
-    """How many guys hold a post on each side, and how they are splayed."""
+    """Number of guys on each side of a post, and their splay."""
     count, splay = row["guy_count"], row["guy_splay"]
     return Guys(
         count=int(count.number) if count.state == "given" else 1,

@@ -39,7 +39,7 @@ _LARGEST_ANGLE = math.radians(89.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Circumstances:
-    """What a resistance may depend on.
+    """Surroundings that a resistance may depend on.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
 
 
 def is_post_loaded(standard: Standard) -> bool:
-    """Whether the profile has a load of the snow on the post itself."""
+    """True if the profile has a load of the snow on the post itself."""
     return standard.find(POST_EFFICIENCY) is not None
 
 

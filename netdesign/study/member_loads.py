@@ -20,7 +20,7 @@ from netdesign.units import kilonewton_from_newton
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowLoads:
-    """What turns a solved force of the section into the action of a check.
+    """Effects that turn a solved force of the section into the action of a check.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ def find_loads(
     extremes: Mapping[str, Extreme],
     standard: Standard,
 ) -> RowLoads:
-    """What acts on a row beside its section, over its solved cases."""
+    """Loads on a row beside its section, over its solved cases."""
     effects = find_effects(row, standard)
     return RowLoads(
         effects=effects,

@@ -42,7 +42,7 @@ _NOTHING = Band(low=0.0, value=0.0, high=0.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MemberLoad:
-    """How the force of one member follows from that of the section.
+    """Way from the force of the section to that of one member.
 
     ``share`` of it [-], and a force ``added`` [N], which follows from ``sideways``.
     """
@@ -92,7 +92,7 @@ class Sideways:
     gap: Message | None = None
 
     def load(self, member: str) -> MemberLoad:
-        """What the load along the row makes of a member's force."""
+        """Member's force under the load along the row."""
         if self.gap is not None or member == Member.FOOT_ANCHOR:
             return MemberLoad()
         if member in _SIDES:
@@ -188,7 +188,7 @@ def find_sideways(
 
 
 def check_sideways(row: NetRow, sideways: Sideways, gap: Message | None) -> CheckResult:
-    """Whether the load along the row is held; ``gap`` is that of the cases."""
+    """Check of the load along the row; ``gap`` is that of the cases."""
     lack = sideways.gap or gap
     verdict = Verdict.NOT_PROVEN if lack else Verdict.PASS
     held = say(
@@ -221,7 +221,7 @@ class _Head:
         return math.hypot(*self.pull)
 
     def fail(self, share: float, splay: float) -> Message | None:
-        """Why the load along the row is not held in this case."""
+        """Reason why the load along the row is not held in this case."""
         found = compute_splayed_head(
             self.pull, self.points, sideways=share * self.size, splay=splay
         )
@@ -266,7 +266,7 @@ def _widen(heads: Sequence[_Head], hidden: float) -> Band:
 
 
 def find_lack(row: NetRow) -> Message | None:
-    """What the workbook lacks for guys that hold a load along the row."""
+    """Lack of the workbook, of guys that hold a load along the row."""
     if row.guys.count < 2:
         return say("sideways.one_guy")
     if row.guys.splay is None:

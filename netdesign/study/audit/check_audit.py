@@ -151,7 +151,7 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
 
 
 def _is_shared(check: CheckRecord, row: RowStudy) -> bool:
-    """Whether a check is of an uphill anchor that lies at the net's foot."""
+    """True of a check of an uphill anchor that lies at the net's foot."""
     drawing = row.drawing
     is_at_foot = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
     return check.member == Member.UPHILL_ANCHOR and is_at_foot

@@ -248,7 +248,7 @@ def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message
 def _audit_share(
     check: CheckRecord, given: NetRow, along_row: float, row: Message
 ) -> Iterator[Message]:
-    """What the guys' splay makes of a force, from the formula that is stored."""
+    """Share and addition of a force by the splay of the guys, from what is stored."""
     action, splay = check.action, given.guys.splay
     if action is None or check.member == Member.POST_BASE:
         return
