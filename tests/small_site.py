@@ -5,6 +5,7 @@ import math
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.model import (
+    DEPENDENT_MODES,
     MEMBER_MODES,
     InputEcho,
     NetRow,
@@ -43,7 +44,7 @@ def resist(value=STRONG, **special):
             type_id="T1",
             source="Anchors!B2",
         )
-        for member, mode in MEMBER_MODES
+        for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)
     )
 
 

@@ -71,11 +71,6 @@ def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
             return given
 
 
-def is_post_loaded(standard: Standard) -> bool:
-    """True if the profile has a load of the snow on the post itself."""
-    return standard.find(POST_EFFICIENCY) is not None
-
-
 def _settle_bending(
     given: Resistance, anchor: AnchorType, pull: AnchorPull | None
 ) -> Resistance:
@@ -124,7 +119,10 @@ def _settle_post(
     efficiency = known.standard.find(POST_EFFICIENCY)
     on_action = known.standard.find(ACTION_FACTOR)
     on_post = known.standard.find_resistance_factor(given.mode, given.basis)
-    if efficiency is None or on_action is None or on_post is None:
+    if efficiency is None:
+        lack = say("check.no_factor", factor=POST_EFFICIENCY)
+        return replace(given, lack=lack)
+    if on_action is None or on_post is None:
         return given
     try:
         pressure = find_snow_pressure(known.row, known.ranges)

@@ -22,7 +22,6 @@ from netdesign.site.model import BaseFriction, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.study.dependent import (
     Circumstances,
-    is_post_loaded,
     settle_resistance,
 )
 from netdesign.study.effects import check_ends, find_effects
@@ -73,21 +72,13 @@ def check_row(
     ``extremes`` and ``loads`` are those of its solved cases.
     """
     checks = []
-    for given in list_checked(task.row, task.standard):
+    for given in task.row.resistances:
         checks.append(_check_one(task, given, extremes, loads))
         task.on_check()
     return [
         *checks,
         *(record_result(one) for one in _check_directions(task, loads)),
         *record_geometry(task.row, task.site.ranges, task.standard),
-    ]
-
-
-def list_checked(row: NetRow, standard: Standard) -> list[Resistance]:
-    """Resistances that a profile asks for: of a post under snow with such a load."""
-    loaded = is_post_loaded(standard)
-    return [
-        one for one in row.resistances if loaded or one.mode != "compression_bending"
     ]
 
 

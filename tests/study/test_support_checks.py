@@ -204,9 +204,11 @@ def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
     assert found.resistance_basis == "declared"
 
 
-def test_profile_without_snow_on_posts_does_not_check_it(tmp_path, folder_without):
+def test_profile_without_snow_on_posts_proves_none_of_them(tmp_path, folder_without):
     mine = folder_without("model.toml", "post.efficiency")
-    assert "post.compression_bending" not in judge(tmp_path, mine)
+    verdict, text = told(judge(tmp_path, mine)["post.compression_bending"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no factor post.efficiency" in text
 
 
 def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):

@@ -14,7 +14,7 @@ from netdesign.checks.schema import (
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.structure.members import BROUGHT_BY, Member
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
@@ -46,7 +46,8 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         for name, count in counts.items()
         if count > 1
     )
-    wanted = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    modes = (*MEMBER_MODES, *DEPENDENT_MODES, (Member.POST, "lateral"))
+    wanted = [f"{member}.{mode}" for member, mode in modes]
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))

@@ -42,7 +42,6 @@ from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import (
     judge_forces,
-    list_checked,
     record_geometry,
     record_result,
 )
@@ -140,7 +139,7 @@ def _audit_judgement(
     """Judge every check again from its action, as if that had just been solved."""
     effects, pulls = find_effects(given, standard), read_pulls(given, row.pulls)
     members = []
-    for check, one in zip(row.checks, list_checked(given, standard), strict=False):
+    for check, one in zip(row.checks, given.resistances, strict=False):
         known = Circumstances(
             row=given,
             ranges=site.ranges,
