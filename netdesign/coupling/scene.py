@@ -267,6 +267,8 @@ class SolverSettings:
         Force that may be missing, over the weight of the snow.
     max_rounds, max_iterations : int
         Rounds between snow and net; Newton steps in one of them.
+    patience : float
+        How many times the usual linear solves the rounds on one mesh may take [-].
     levels : tuple of MeshSize
         Meshes from coarse to fine, at least two.
     step : callable, optional
@@ -282,6 +284,7 @@ class SolverSettings:
     balance_tolerance: float = 1e-8
     max_rounds: int = 80
     max_iterations: int = 60
+    patience: float = 1.0
     levels: tuple[MeshSize, ...] = field(default=MESH_LEVELS)
     step: Step | None = None
     shares_start: bool = False
@@ -294,5 +297,6 @@ class SolverSettings:
         require_within("balance tolerance", self.balance_tolerance, 1e-14, 1e-6)
         require_count("rounds", self.max_rounds)
         require_count("iterations", self.max_iterations)
+        require_positive("patience", self.patience)
         if len(self.levels) < 2:
             raise ModelError(say("scene.two_levels"))

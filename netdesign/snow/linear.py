@@ -97,6 +97,40 @@ class Blocks(NamedTuple):
         return np.asarray(sums)
 
 
+class Pattern(NamedTuple):
+    """Places of a sparse matrix that may not be 0, column by column.
+
+    Attributes
+    ----------
+    slots : ndarray of int, shape (n,)
+        Place of each entry of the blocks among the stored ones.
+    rows, starts : ndarray of int
+        Row of each stored entry; first one of each column, and the end.
+    diagonal : ndarray of int, shape (n_dofs,)
+        Stored entries on the diagonal.
+    """
+
+    slots: Ints
+    rows: Ints
+    starts: Ints
+    diagonal: Ints
+
+
+def _build_pattern(groups: Sequence[Ints], size: int) -> Pattern:
+    """Pattern of blocks of these unknowns."""
+    keys = np.concatenate(
+        [(dofs[:, None] * size + dofs[..., None]).ravel() for dofs in groups]
+    )
+    stored, slots = np.unique(keys, return_inverse=True)
+    each = np.arange(size + 1)
+    return Pattern(
+        slots=slots,
+        rows=(stored % size).astype(np.int32),
+        starts=np.searchsorted(stored, each * size).astype(np.int32),
+        diagonal=np.searchsorted(stored, each[:-1] * (size + 1)),
+    )
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ordering:
     """Order of the unknowns of a template.
@@ -107,15 +141,41 @@ class Ordering:
         Row of each unknown.
     band : int
         Half bandwidth.
+    is_layered : bool
+        Of a template with layers.
     known : dict
         Places found before, shape (n,), by the arrays of unknowns they are of.
+    patterns : dict
+        Sparse patterns found before, in the same way.
     """
 
     place: Ints
     band: int
+    is_layered: bool
     known: dict[tuple[int | bool, ...], tuple[list[Ints], Ints]] = field(
         default_factory=dict
     )
+
+    patterns: dict[tuple[int, ...], tuple[list[Ints], Pattern]] = field(
+        default_factory=dict
+    )
+
+    def find_pattern(self, parts: Sequence[Blocks]) -> Pattern:
+        """Pattern of the sum of the parts.
+
+        Parameters
+        ----------
+        parts : sequence of Blocks
+            Of the matrix.
+        """
+        groups = [part.dofs for part in parts]
+        key = tuple(id(dofs) for dofs in groups)  # as in _find
+        if key in self.patterns:
+            return self.patterns[key][1]
+        pattern = _build_pattern(groups, self.place.size)
+        if not any(dofs.flags.writeable for dofs in groups):
+            self.patterns[key] = groups, pattern
+        return pattern
 
     def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
         """Sum of the parts in LAPACK's banded storage.
@@ -237,7 +297,7 @@ def solve_blocks(
     masked = [_mask(part, free) for part in parts]
     if ordering.band <= _WIDEST_LU:
         return _solve_lu(ordering, masked, load, held)
-    return _solve_sparse(masked, load, held)
+    return _solve_sparse(ordering, masked, load, held)
 
 
 @lru_cache(maxsize=256)
@@ -268,7 +328,11 @@ def _build_ordering(
     place[1 : 2 * n_nodes : 2] = start + 1
     if has_pressures:
         place[2 * n_nodes :] = start[: template.n_vertices] + 2
-    return Ordering(place=place, band=bandwidth + int(size.max()) - 1)
+    return Ordering(
+        place=place,
+        band=bandwidth + int(size.max()) - 1,
+        is_layered=bool(template.interfaces),
+    )
 
 
 def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]:
@@ -425,9 +489,50 @@ def _solve_lu(
     return np.asarray(solution[ordering.place])
 
 
-def _solve_sparse(parts: Sequence[Blocks], load: Floats, held: Mask) -> Floats:
-    import scipy.sparse as sparse
+def _solve_sparse(
+    ordering: Ordering, parts: Sequence[Blocks], load: Floats, held: Mask
+) -> Floats:
     from scipy.sparse.linalg import splu
+
+    sum_up = _sum_by_pattern if ordering.is_layered else _sum_anew
+    matrix = sum_up(ordering, parts, held)
+    try:
+        factors = splu(
+            matrix,
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.01,
+            options={"SymmetricMode": True},
+        )
+    except RuntimeError as error:  # how SuperLU tells of a singular matrix
+        raise SingularError(str(error)) from None
+    if load.ndim == 1:
+        return _solve_refined(factors, matrix, load)
+    pieces = np.split(load, range(_COLUMNS, load.shape[1], _COLUMNS), axis=1)
+    if ordering.is_layered:  # only a derivative has several: it needs few digits
+        return np.hstack([factors.solve(piece) for piece in pieces])
+    return np.hstack([_solve_refined(factors, matrix, piece) for piece in pieces])
+
+
+def _sum_by_pattern(
+    ordering: Ordering, parts: Sequence[Blocks], held: Mask
+) -> sparse.csc_matrix:
+    """Sum of the parts where it was stored before."""
+    import scipy.sparse as sparse
+
+    pattern = ordering.find_pattern(parts)
+    values = np.concatenate([part.values.ravel() for part in parts])
+    stored = np.bincount(pattern.slots, values, minlength=pattern.rows.size)
+    stored[pattern.diagonal[held]] = _scale_of(values)
+    matrix = sparse.csc_matrix(
+        (stored, pattern.rows, pattern.starts), shape=(held.size, held.size)
+    )
+    matrix.has_canonical_format = True  # else it is looked through each time
+    return matrix
+
+
+def _sum_anew(_: Ordering, parts: Sequence[Blocks], held: Mask) -> sparse.csc_matrix:
+    """The same in scipy's order, on which last digits of uniform snow hang."""
+    import scipy.sparse as sparse
 
     rows, columns, values = [], [], []
     for part in parts:
@@ -441,20 +546,7 @@ def _solve_sparse(parts: Sequence[Blocks], load: Floats, held: Mask) -> Floats:
         np.concatenate([*values, diagonal]),
         (np.concatenate([*rows, fixed]), np.concatenate([*columns, fixed])),
     )
-    matrix = sparse.csc_matrix(entries, shape=(len(load), len(load)))
-    try:
-        factors = splu(
-            matrix,
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.01,
-            options={"SymmetricMode": True},
-        )
-    except RuntimeError as error:  # how SuperLU tells of a singular matrix
-        raise SingularError(str(error)) from None
-    if load.ndim == 1:
-        return _solve_refined(factors, matrix, load)
-    pieces = np.split(load, range(_COLUMNS, load.shape[1], _COLUMNS), axis=1)
-    return np.hstack([_solve_refined(factors, matrix, piece) for piece in pieces])
+    return sparse.csc_matrix(entries, shape=(held.size, held.size))
 
 
 def _solve_refined(factors: SuperLU, matrix: sparse.csc_matrix, load: Floats) -> Floats:

@@ -1,5 +1,7 @@
 """Every way to solve the linear problem of a mesh, against a dense solution."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -51,15 +53,23 @@ WAYS = {
 }
 
 
+@pytest.fixture(params=[False, True], ids=["uniform", "layered"])
+def is_layered(request):
+    return request.param
+
+
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
 @pytest.mark.parametrize("slips", [True, False], ids=["slips", "sticks"])
 @pytest.mark.parametrize("columns", [1, 3])
-def test_all_ways_give_the_dense_solution(monkeypatch, problem, way, slips, columns):
+def test_all_ways_give_the_dense_solution(
+    monkeypatch, problem, way, slips, columns, is_layered
+):
     for name, value in way.items():
         monkeypatch.setattr(linear, name, value)
     mesh, blocks, force, (free, friction) = problem
     forces = np.stack([force * (k + 1.0) for k in range(columns)], axis=1)
     ordering = build_ordering(mesh.template, has_pressures=False, couples_net=False)
+    ordering = replace(ordering, is_layered=is_layered)
     found = solve_blocks(
         ordering,
         blocks,
@@ -71,6 +81,30 @@ def test_all_ways_give_the_dense_solution(monkeypatch, problem, way, slips, colu
     truth = solve_dense(mesh, blocks, force, free, friction if slips else 0 * friction)
     wanted = truth if columns == 1 else np.stack([truth * k for k in (1, 2, 3)], axis=1)
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(truth).max())
+
+
+def test_pattern_is_kept_and_sums_alike(problem):
+    mesh, blocks, _, (free, _) = problem
+    ordering = build_ordering(mesh.template, has_pressures=False, couples_net=False)
+    ordering = replace(ordering, patterns={})
+    for share in (1.0, 0.31):
+        parts = [
+            linear._mask(b._replace(values=share * b.values), free) for b in blocks
+        ]
+        summed, anew = (
+            way(ordering, parts, ~free)
+            for way in (linear._sum_by_pattern, linear._sum_anew)
+        )
+        np.testing.assert_allclose(summed.toarray(), anew.toarray(), rtol=1e-13)
+        assert summed.has_sorted_indices
+    assert len(ordering.patterns) == 1
+
+
+@pytest.mark.parametrize("tops", [(), (0.37,)])
+def test_layers_of_the_template_are_known(tops):
+    template = build_template(4.31, MESH_LEVELS[0], tops)
+    ordering = build_ordering(template, has_pressures=False, couples_net=False)
+    assert ordering.is_layered is bool(tops)
 
 
 def test_what_nothing_holds_is_singular(problem):

@@ -48,6 +48,11 @@ class SteadyProblem:
     stiffness: float
 
     @property
+    def is_layered(self) -> bool:
+        """The snow has layers."""
+        return len(self.snow.layers) > 1
+
+    @property
     def has_freeboard(self) -> bool:
         """The head stands above the snow: the net's top segment hangs free."""
         return bool(self.head[1] > 1.0 + 1e-9)

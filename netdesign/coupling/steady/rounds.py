@@ -354,7 +354,7 @@ def _couple(
     hanging = guess.hanging if guess is not None else start_hanging(problem)
     curve = _start_curve(problem, hanging, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
-    allowed = _allow_solves(problem)
+    allowed = settings.patience * _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
     was_slow = guess is not None and guess.tangent is not None
@@ -406,8 +406,8 @@ def _couple(
 
 
 def _allow_solves(problem: SteadyProblem) -> float:
-    """Linear solves that rounds on one mesh may take."""
-    least = _LEAST_WORK_LAYERED if len(problem.snow.layers) > 1 else _LEAST_WORK
+    """Linear solves that rounds on one mesh usually may take."""
+    least = _LEAST_WORK_LAYERED if problem.is_layered else _LEAST_WORK
     return float(max(least, _MOST_WORK / problem.template.triangles.shape[1]))
 
 
@@ -422,7 +422,7 @@ def _has_settled(
     The first round on a finer mesh has none before it: how pulls follow the net is
     known from the coarser mesh.
     """
-    if len(problem.snow.layers) < 2:
+    if not problem.is_layered:
         return True
     if len(played) > 1:
         return _change_pulls(*played[-2:]) <= allowed
@@ -443,7 +443,7 @@ def _measure_gain(
     problem: SteadyProblem, played: Sequence[Round], guess: _Coupled | None
 ) -> float:
     """Largest relative change of pulls over that of the net, on the meshes so far."""
-    if len(problem.snow.layers) < 2:
+    if not problem.is_layered:
         return math.inf  # is not asked for
     gains = [
         _change_pulls(before, now) / float(np.abs(now.curve - before.curve).max())

@@ -404,6 +404,31 @@ def test_pressures_are_skipped_far_from_ice(solved):
     assert solution.cost.skipped.pressure_unknowns > 0.1 * unknowns
 
 
+def test_patience_gives_rounds_more_work(a_scene):
+    """Snow that lifts off the net beside its foot: 99 linear solves on one mesh."""
+    scene = replace(
+        a_scene(
+            slope_deg=39.116,
+            thickness_m=1.4514,
+            length_m=29.858,
+            relative_density=0.33326,
+            ground="sliding",
+            slip_length_m=8.4473,
+            inclination_deg=36.496,
+            height_m=3.4553,
+            stiffness_kN_per_m=40065.0,
+            slack=0.12275,
+            friction_deg=9.2427,
+        ),
+        net_contact="one-sided",
+    )
+    hasty = SolverSettings(levels=MESH_LEVELS[1:3], patience=0.3)
+    with pytest.raises(SolveError, match="the net still moves"):
+        solve_steady(scene, hasty, on_failure="raise")
+    found = solve_steady(scene, replace(hasty, patience=1.0), on_failure="raise")
+    assert found.cost.linear_solves > 0.6 * steady._LEAST_WORK
+
+
 def test_failure_names_what_leaves_no_steady_state(a_scene):
     """One-sided ground under snow that slips: too few rounds are not its only cause."""
     scene = replace(

@@ -1,11 +1,14 @@
 """Errors against a finer mesh."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
+from netdesign.coupling.steady.rounds import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (
@@ -82,8 +85,35 @@ def test_suction_just_beyond_the_limit_keeps_a_truth(a_scene, solved, monkeypatc
         raise refusal
 
     monkeypatch.setattr(truths, "solve_steady", refuse)
-    found = solve_fine(a_scene(), SolverSettings())
+    found = solve_fine(a_scene(), SolverSettings(levels=MESH_LEVELS[1:3]))
     assert found.compare(held) == 0.0
     held = None  # left before the finest mesh: no figure to compare with
     with pytest.raises(SuctionError):
         solve_fine(a_scene(), SolverSettings())
+
+
+def test_coarse_mesh_leads_to_a_truth_that_is_not_found_at_once(a_scene, monkeypatch):
+    """No mesh is left out, though two in turn agree well enough for a result."""
+    scene = a_scene(ground="no-slip", friction_deg=21.7)
+    settings = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[1:3])
+    at_once = solve_fine(scene, settings)
+
+    def solve(scene, settings, **ways):
+        if len(settings.levels) == 2:
+            raise SolveError(Outcome.MAX_ITERATIONS)
+        return solve_steady(scene, settings, **ways)
+
+    monkeypatch.setattr(truths, "solve_steady", solve)
+    found = solve_fine(scene, settings)
+    np.testing.assert_allclose(found.foot, at_once.foot, rtol=5e-3)
+    assert not np.array_equal(found.foot, at_once.foot)
+
+
+def test_result_of_a_coarser_mesh_is_no_truth(a_scene, solved, monkeypatch):
+    coarse = solved(first_level=0)
+    monkeypatch.setattr(truths, "solve_steady", lambda *_, **__: coarse)
+    levels = MESH_LEVELS[1:3]
+    settings = SolverSettings(levels=levels)
+    assert solve_fine(a_scene(), settings).compare(coarse) == 0.0
+    with pytest.raises(SolveError):
+        solve_fine(a_scene(), replace(settings, levels=MESH_LEVELS[2:4]))
