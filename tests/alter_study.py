@@ -7,6 +7,7 @@ OBJECTS = (
     "case",
     "drawing",
     "guideline",
+    "floor",
     "envelope",
     "confirmation",
     "note",

@@ -18,6 +18,7 @@ from netdesign.checks.schema import (
     FactorEntry,
     FactorsFile,
     FileT,
+    Floor,
     LimitsFile,
     ModelFile,
     TableEntry,
@@ -132,6 +133,8 @@ class Standard:
     """A limit profile: its identity, its values, and the hash of its files.
 
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
+    ``floor`` is what no demand lies below: the guideline's load, unless the profile
+    says "none".
     """
 
     id: str
@@ -144,6 +147,7 @@ class Standard:
     what_it_is: str
     what_it_is_not: str
     choice: str = ""
+    floor: Floor = "guideline"
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -237,7 +241,8 @@ def _load_folder(folder: Path) -> Standard:
     if choice is not None:
         tables = _take_from_choice(tables, choice.table)
     return Standard(
-        **document.model_dump(),
+        **document.model_dump(exclude={"load"}),
+        floor=document.load.floor,
         values=tuple(StandardValue(**entry.model_dump()) for entry in entries),
         tables=tuple(
             StandardTable(

@@ -46,6 +46,8 @@ MODES = (
 # Checks of a member that compare no force with a resistance.
 MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
+# What no demand lies below: the guideline's load, or nothing.
+Floor = Literal["guideline", "none"]
 
 # Accepted values of each file, with the unit in which they stand there.
 LIMIT_UNITS = {
@@ -139,6 +141,12 @@ class _Table(BaseModel):
 Text = Annotated[str, Field(min_length=1)]
 
 
+class LoadTable(_Table):
+    """``load``: which load governs; "none" takes the floor away and is written."""
+
+    floor: Floor = "guideline"
+
+
 class DocumentFile(_Table):
     """``document.toml``: which document this is, and what it is not."""
 
@@ -152,6 +160,7 @@ class DocumentFile(_Table):
     what_it_is: Text
     what_it_is_not: Text
     choice: str = ""  # one of those in choices.toml
+    load: LoadTable = LoadTable()
 
 
 class Entry(_Table):
@@ -409,6 +418,8 @@ def _list_keys(shape: type[BaseModel], detail: ErrorDetails) -> tuple[str, ...]:
     """Keys accepted at the level of an unknown one."""
     depth = sum(isinstance(part, int) for part in detail["loc"])
     fields = shape.model_fields
+    if detail["loc"][0] == "load" and len(detail["loc"]) > 1:
+        fields = LoadTable.model_fields
     if depth:
         (element,) = get_args(next(iter(fields.values())).annotation)
         fields = element.model_fields

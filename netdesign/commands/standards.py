@@ -57,6 +57,8 @@ def show_profile(name: str, *, language: Language) -> None:
     tell(told, language)
     if profile.choice:
         tell(say("standard.choice", choice=profile.choice), language)
+    floor = f"floor.profile_{profile.floor}"
+    tell(say(floor), language)
     click.echo(f"\n{show_own(words, profile.what_it_is)}")
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:

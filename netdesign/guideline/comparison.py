@@ -50,6 +50,25 @@ class NetGeometry:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LoadCase:
+    """Snow of one load case.
+
+    Attributes
+    ----------
+    name : str
+        "same_snow", "load_case_1" or "load_case_2".
+    density : float
+        Mean [kg/m3].
+    height_vertical : float
+        H [m].
+    """
+
+    name: str
+    density: float
+    height_vertical: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GuidelineResult:
     """One load case of the guideline.
 
@@ -139,36 +158,73 @@ def compare_with_guideline(
         Of each load case, in this order.
     """
     height = net.snow_thickness / math.cos(net.slope_angle)
+    same = LoadCase(name="same_snow", density=density, height_vertical=height)
+    cases = (same, *list_load_cases(model, net, altitude))
+    return tuple(solve_load_case(model, net, case, glide_factor) for case in cases)
+
+
+def list_load_cases(
+    model: LoadModel, net: NetGeometry, altitude: float | None
+) -> tuple[LoadCase, LoadCase]:
+    """Load cases 1 and 2 of the guideline on a net row.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Whose snow it is.
+    altitude : float or None
+        Of the row [m]; None is taken as below the base altitude.
+    """
+    height = net.snow_thickness / math.cos(net.slope_angle)
     factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
-    share = model.case_2_height
-    cases = (
-        ("same_snow", density, height),
-        ("load_case_1", factor * model.density, height),
-        ("load_case_2", model.case_2_density, share * height),
+    return (
+        LoadCase(
+            name="load_case_1", density=factor * model.density, height_vertical=height
+        ),
+        LoadCase(
+            name="load_case_2",
+            density=model.case_2_density,
+            height_vertical=model.case_2_height * height,
+        ),
     )
-    results = []
-    for name, rho, h in cases:
-        try:
-            result = _solve_case(model, net, name, rho, h, glide_factor)
-        except ModelError as error:  # outside the closed forms
-            result = GuidelineResult(
-                name=name, density=rho, height_vertical=h, reason=error.message
-            )
-        results.append(result)
-    return tuple(results)
+
+
+def solve_load_case(
+    model: LoadModel, net: NetGeometry, case: LoadCase, glide_factor: float
+) -> GuidelineResult:
+    """Forces of one load case; a reason where the closed forms do not hold.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Of the net row.
+    case : LoadCase
+        Its snow.
+    glide_factor : float
+        N [-].
+    """
+    try:
+        return _solve_case(model, net, case, glide_factor)
+    except ModelError as error:
+        return GuidelineResult(
+            name=case.name,
+            density=case.density,
+            height_vertical=case.height_vertical,
+            reason=error.message,
+        )
 
 
 def _solve_case(
-    model: LoadModel,
-    net: NetGeometry,
-    name: str,
-    density: float,
-    height: float,
-    glide_factor: float,
+    model: LoadModel, net: NetGeometry, case: LoadCase, glide_factor: float
 ) -> GuidelineResult:
+    height = case.height_vertical
     load = compute_snow_load(
         model,
-        density=density,
+        density=case.density,
         height_vertical=height,
         slope_angle=net.slope_angle,
         glide_factor=glide_factor,
@@ -196,8 +252,8 @@ def _solve_case(
     else:
         reason, found = None, anchors
     return GuidelineResult(
-        name=name,
-        density=density,
+        name=case.name,
+        density=case.density,
         height_vertical=height,
         load=load,
         pull=pull,

@@ -288,6 +288,7 @@ def _list_profile(study: Study) -> Named:
         say("diff.edition"): profile.edition,
         say("diff.version"): profile.version,
         say("diff.choice"): profile.choice,
+        say("diff.floor"): profile.floor,
         **values,
     }
 

@@ -134,6 +134,11 @@ def _list_lines(view: ReportView, words: Words) -> list[str]:
 
     lines = [name(row.id, reason) for row in view.rows for reason in row.reasons]
     lines = lines or [words("show.reasons_none")]
+    lines += [
+        name(words("show.label", label=row.id, text=row.governing.title), load)
+        for row in view.rows
+        if row.governing and (load := row.governing.load)
+    ]
     lines += [name(label, text) for label, text in view.counts]
     assumed = view.assumed_line or words("show.none")
     notes = [words("show.note", note=note) for note in view.notes]

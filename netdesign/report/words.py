@@ -182,7 +182,7 @@ def show_member(words: Words, member: str) -> str:
 
 def show_check(words: Words, check: CheckRecord) -> str:
     """Member and mode of a check: ``Foot anchor, pull-out``."""
-    return words.show(name_check(check.member, check.mode))
+    return words.show(name_check(check.member, check.mode, check.position))
 
 
 def name_heading(words: Words, key: str) -> str:

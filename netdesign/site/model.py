@@ -16,6 +16,7 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, compute_mean_density
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
@@ -121,6 +122,9 @@ class NetRow:
     guys: Guys = field(default_factory=Guys)
     axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
     anchors: tuple[tuple[Member, AnchorType], ...] = ()  # those that have a type
+    # of the first and last support; None: those of all others
+    end_resistances: tuple[Resistance, ...] | None = None
+    end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -137,9 +141,23 @@ class NetRow:
         """Given inclination of an anchor's axis [rad]."""
         return dict(self.axes).get(anchor)
 
-    def find_anchor_type(self, anchor: Member) -> AnchorType | None:
+    def find_anchor_type(
+        self, anchor: Member, position: Position = "intermediate"
+    ) -> AnchorType | None:
         """What an anchor is; None where its type is not given."""
-        return dict(self.anchors).get(anchor)
+        at_end = position == "edge" and self.end_anchors is not None
+        return dict(self.end_anchors or () if at_end else self.anchors).get(anchor)
+
+    @property
+    def has_end(self) -> bool:
+        """End of the row: there is none where the next work goes on without a gap."""
+        return self.gap > 0.0
+
+    def resistances_at(self, position: Position) -> tuple[Resistance, ...]:
+        """Resistances of a support inside the row, or of its first and last one."""
+        if position == "edge" and self.end_resistances is not None:
+            return self.end_resistances
+        return self.resistances
 
     @property
     def mean_density(self) -> float:

@@ -5,12 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from netdesign.errors import ModelError
 from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
+from netdesign.site.end_supports import (
+    EndsByRow,
+    echo_ends,
+    refuse_unknown_ends,
+    replace_types,
+)
 from netdesign.site.model import (
     MEMBER_MODES,
     OPTIONAL_MODES,
+    AnchorType,
     InputEcho,
     NetRow,
     Resistance,
@@ -59,6 +67,7 @@ def build_net_rows(
     snow: LayersByRow,
     findings: list[Finding],
     absent: Iterable[str] = (),
+    ends: EndsByRow = MappingProxyType({}),
 ) -> tuple[NetRow, ...]:
     """Build every net row without a fault; the faults go to ``findings``.
 
@@ -74,6 +83,8 @@ def build_net_rows(
         Appended to.
     absent : iterable of str
         Type sheets that the workbook does not have, under whatever name.
+    ends : mapping of str to Row
+        Lines of sheet Ends by net row.
 
     Returns
     -------
@@ -86,11 +97,18 @@ def build_net_rows(
         findings.append(table.sheet.finding(refusal))
     by_id = index_by_id(rows, findings)
     refuse_unknown_rows(snow, by_id, findings)
+    refuse_unknown_ends(ends, by_id, findings)
     built = [
-        _build_net_row(row, type_sheets, snow.get(row["id"].word, ()), findings)
+        _build_net_row(
+            row,
+            type_sheets,
+            snow.get(row["id"].word, ()),
+            ends.get(row["id"].word),
+            findings,
+        )
         for row in rows
     ]
-    _refuse_missing_sheets(table, rows, absent, findings)
+    _refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -157,16 +175,23 @@ def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
 
 
 def _build_net_row(
-    row: Row, type_sheets: TypeSheets, lines: tuple[Row, ...], findings: list[Finding]
+    row: Row,
+    type_sheets: TypeSheets,
+    lines: tuple[Row, ...],
+    end: Row | None,
+    findings: list[Finding],
 ) -> NetRow | None:
     count_before = len(findings)
     row = _fill_in_distances(row)
     layers = build_layers(lines, row["slope_angle"], findings)
     thickness = _understand_thickness(row, lines, layers, findings)
     ground = _understand_ground(row, thickness, findings)
-    _check_types(row, type_sheets, findings)
-    is_faulty = any(reading.state == "faulty" for reading in row.values()) or any(
-        _list_references([row], name)
+    named = [row, end] if end else [row]
+    for one in named:
+        _check_types(one, type_sheets, findings)
+    readings = [reading for one in named for reading in one.values()]
+    is_faulty = any(reading.state == "faulty" for reading in readings) or any(
+        _list_references(named, name)
         for name, types in type_sheets.items()
         if types is None
     )
@@ -184,12 +209,22 @@ def _build_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        inputs=(*_echo_inputs(row, thickness, ground), *echo_layers(lines)),
+        end_resistances=_find_resistances(replace_types(row, end), type_sheets)
+        if end
+        else None,
+        end_anchors=_find_anchors(replace_types(row, end), type_sheets)
+        if end
+        else None,
+        inputs=(
+            *_echo_inputs(row, thickness, ground),
+            *echo_layers(lines),
+            *echo_ends(end),
+        ),
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
         guys=read_guys(row),
         axes=tuple(read_axes(row).items()),
-        anchors=tuple(read_anchor_types(row, type_sheets["Anchors"] or {}).items()),
+        anchors=_find_anchors(row, type_sheets),
     )
 
 
@@ -298,6 +333,12 @@ def _build_layout(row: Row) -> SupportLayout:
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=base.si if base.state == "given" else None,
     )
+
+
+def _find_anchors(
+    row: Row, type_sheets: TypeSheets
+) -> tuple[tuple[Member, AnchorType], ...]:
+    return tuple(read_anchor_types(row, type_sheets["Anchors"] or {}).items())
 
 
 def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:

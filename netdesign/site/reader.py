@@ -11,6 +11,7 @@ from netdesign.site.cells.findings import Finding, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
+    ENDS,
     MONITORING,
     NETS,
     POSTS,
@@ -22,6 +23,7 @@ from netdesign.site.columns.all_tables import (
     SNOW,
 )
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item
 from netdesign.site.model import Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
@@ -74,9 +76,12 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         plan.name: _read_types(tables[plan.name], findings) for plan in _TYPE_SHEETS
     }
     snow = read_layers(tables[SNOW.name], findings)
+    ends = read_ends(tables[ENDS.name], findings)
     nets, ranges = tables[NETS.name], tables[RANGES.name]
     absent = [plan.name for plan in _TYPE_SHEETS if is_absent(workbook, plan)]
-    net_rows = build_net_rows(nets, type_sheets, snow, findings, absent) if nets else ()
+    net_rows = (
+        build_net_rows(nets, type_sheets, snow, findings, absent, ends) if nets else ()
+    )
     built_ranges = build_ranges(ranges, findings) if ranges else None
     if built_ranges:
         density = built_ranges[0]["density"]

@@ -12,7 +12,7 @@ from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
     compute_lateral_factor,
-    find_governing_width,
+    list_supports,
 )
 
 __all__ = [
@@ -28,6 +28,6 @@ __all__ = [
     "compute_edge_width",
     "compute_head_forces",
     "compute_lateral_factor",
-    "find_governing_width",
+    "list_supports",
     "place_support",
 ]

@@ -20,6 +20,8 @@ class Member(StrEnum):
     POST_BASE = "post_base"
 
 
+# Those that carry a force to be resisted: all but the net.
+CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
 # Those whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = (
     Member.FOOT_ANCHOR,

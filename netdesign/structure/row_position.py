@@ -10,6 +10,9 @@ from netdesign.guards import require_positive, require_within
 
 Position = Literal["intermediate", "edge"]
 
+# A gap that lies this close to a threshold, as a share of it, counts as either side.
+NEAR_THRESHOLD = 0.1
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EndEffectRule:
@@ -52,12 +55,16 @@ class LoadedWidth:
         f_R; 0 for an intermediate support [-].
     end_length : float
         Length over which the end effect acts [m].
+    other_width : float or None
+        Width on the other side of a threshold that the gap lies close to; at most
+        ``width``. None away from a threshold [m].
     """
 
     position: Position
     width: float
     end_factor: float = 0.0
     end_length: float = 0.0
+    other_width: float | None = None
 
 
 def compute_edge_width(
@@ -71,7 +78,9 @@ def compute_edge_width(
     """Loaded width of the first or last support of a row.
 
     Half a bay, and the end effect as the width under plain load that brings the
-    same force. Theory: structure/THEORY.md, eqs. (S9) and (S10).
+    same force. Close to the gap from which on the end counts as free, both sides are
+    worked out and the wider one is taken. Theory: structure/THEORY.md, eqs. (S9) and
+    (S10).
 
     Parameters
     ----------
@@ -103,35 +112,55 @@ def compute_edge_width(
     require_positive("post spacing", post_spacing, "m")
     require_positive("net height", net_height, "m")
     require_within("glide factor", glide_factor, 1.0, 20.0)
-    cap = rule.cap_constant + rule.cap_per_glide * glide_factor
-    longest = rule.length_cap * net_height
-    if gap >= rule.isolated_gap:  # also an infinite one
-        factor, length = cap, longest
-    else:
-        require_within("gap to the next work", gap, 0.0, rule.isolated_gap, "m")
-        slope = rule.constant + rule.per_glide * glide_factor
-        factor = min(slope * gap / 2.0, cap)
-        length = min(rule.length * gap / 2.0, longest)
+    if gap != math.inf:
+        require_within("gap to the next work", gap, 0.0, math.inf, "m")
+    effects = []
+    if gap >= rule.isolated_gap * (1.0 - NEAR_THRESHOLD):  # also an infinite one
+        effects.append(_find_isolated_effect(rule, net_height, glide_factor))
+    if gap <= rule.isolated_gap * (1.0 + NEAR_THRESHOLD):
+        effects.append(_find_effect_beside(rule, net_height, gap, glide_factor))
+    widths = [0.5 * post_spacing + factor * length for factor, length in effects]
+    width, (factor, length) = max(zip(widths, effects, strict=True))
     return LoadedWidth(
         position="edge",
-        width=0.5 * post_spacing + factor * length,
+        width=width,
         end_factor=factor,
         end_length=length,
+        other_width=min(widths) if len(widths) > 1 else None,
     )
 
 
-def find_governing_width(post_spacing: float, edge: LoadedWidth | None) -> LoadedWidth:
-    """Larger of a whole bay and the edge's loaded width.
+def _find_isolated_effect(
+    rule: EndEffectRule, net_height: float, glide_factor: float
+) -> tuple[float, float]:
+    """f_R and its length at an end that counts as free [-], [m]."""
+    cap = rule.cap_constant + rule.cap_per_glide * glide_factor
+    return cap, rule.length_cap * net_height
+
+
+def _find_effect_beside(
+    rule: EndEffectRule, net_height: float, gap: float, glide_factor: float
+) -> tuple[float, float]:
+    """f_R and its length beside a gap to the next work [-], [m]."""
+    cap, longest = _find_isolated_effect(rule, net_height, glide_factor)
+    slope = rule.constant + rule.per_glide * glide_factor
+    return min(slope * gap / 2.0, cap), min(rule.length * gap / 2.0, longest)
+
+
+def list_supports(
+    post_spacing: float, edge: LoadedWidth | None
+) -> tuple[LoadedWidth, ...]:
+    """Supports of a row that differ in their load: one inside it, then its end.
 
     Parameters
     ----------
     post_spacing : float
         b [m].
     edge : LoadedWidth or None
-        Of the row's first or last support.
+        Of the row's first or last support; None where the row has no end.
     """
-    whole = LoadedWidth(position="intermediate", width=post_spacing)
-    return edge if edge is not None and edge.width > whole.width else whole
+    inside = LoadedWidth(position="intermediate", width=post_spacing)
+    return (inside,) if edge is None else (inside, edge)
 
 
 def compute_lateral_factor(share: float) -> float:

@@ -80,7 +80,7 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     ids = {row.id for row in site.rows}
     measured = sum(one.row_id in ids for one in site.monitoring)
     histories = rows if run.method == "transient" else 0
-    checks = sum(len(row.resistances) for row in site.rows)
+    checks = sum(map(_count_checks, site.rows))
     phases = [
         _plan_envelope(site, run),
         Phase(
@@ -112,6 +112,12 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
         ),
     ]
     return [one for one in phases if one.most or one.seconds]
+
+
+def _count_checks(row: NetRow) -> int:
+    """Checks of forces, of the support inside the row and of the one at its end."""
+    ends = len(row.resistances_at("edge")) if row.has_end else 0
+    return len(row.resistances) + ends
 
 
 def _plan_envelope(site: Site, run: CheckRun) -> Phase:
@@ -183,7 +189,8 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
 
 def _build_layered(row: NetRow, law: CreepLaw) -> _LayeredScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    return _LayeredScenes(row=replace(row, inputs=(), resistances=()), law=law)
+    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    return _LayeredScenes(row=bare, law=law)
 
 
 def _find_scene(row: NetRow, ranges: Ranges, law: CreepLaw) -> Scene:

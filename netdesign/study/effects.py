@@ -1,11 +1,11 @@
-"""What turns a solved force into that of the worst support of a row."""
+"""Effects that turn a solved force into those of the supports of a row."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
 
-from netdesign.checks import Band, CheckResult, Standard, load_standard
+from netdesign.checks import CheckResult, Standard, load_standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.guideline.comparison import find_glide_factor
@@ -17,10 +17,8 @@ from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
     compute_lateral_factor,
-    find_governing_width,
+    list_supports,
 )
-from netdesign.study.records import ActionRecord
-from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 GUIDELINE = "swiss-guideline-2007"
@@ -28,14 +26,14 @@ GUIDELINE = "swiss-guideline-2007"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowEffects:
-    """Loaded width and lateral load of the support that carries most.
+    """Loaded widths and lateral load of the supports of a row.
 
     Attributes
     ----------
     post_spacing : float
         [m].
-    width : LoadedWidth
-        Of the governing support.
+    supports : tuple of LoadedWidth
+        One inside the row, and where the row has an end its first or last one.
     lateral_share : float
         Share of the load along the row [-].
     is_foot_shared : bool
@@ -45,14 +43,14 @@ class RowEffects:
     """
 
     post_spacing: float
-    width: LoadedWidth
+    supports: tuple[LoadedWidth, ...]
     lateral_share: float
     missing: tuple[Message, ...]
     is_foot_shared: bool = False
 
-    def factor(self, member: str) -> float:
-        """Force on the governing support over the solved one [-]."""
-        ratio = self.width.width / self.post_spacing
+    def factor(self, member: str, width: LoadedWidth) -> float:
+        """Force on a support of that width over the solved one [-]."""
+        ratio = width.width / self.post_spacing
         return ratio * self.lateral_factor(member)
 
     def lateral_factor(self, member: str) -> float:
@@ -62,17 +60,10 @@ class RowEffects:
             return 1.0  # what the load does at the head: study/sideways.py
         return compute_lateral_factor(self.lateral_share)
 
-    def record(self, member: str, solved: Band) -> ActionRecord:
-        """The effects on one member, for the worked calculation."""
-        return ActionRecord(
-            solved_kN=kilonewton_from_newton(solved.value),
-            post_spacing_m=self.post_spacing,
-            position=self.width.position,
-            loaded_width_m=self.width.width,
-            end_factor=self.width.end_factor,
-            end_length_m=self.width.end_length,
-            lateral_factor=self.lateral_factor(member),
-        )
+    def find_support(self, position: str) -> LoadedWidth:
+        """Support at a position; the one inside the row where it has no other."""
+        found = [one for one in self.supports if one.position == position]
+        return (found or self.supports)[0]
 
 
 @lru_cache(maxsize=1)
@@ -93,7 +84,7 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
     spacing = row.layout.post_spacing
     rule, share = read_end_effect(standard), standard.find(LATERAL_SHARE)
     edge = None
-    if rule is not None:
+    if rule is not None and row.has_end:
         edge = compute_edge_width(
             rule,
             post_spacing=spacing,
@@ -106,7 +97,7 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
         lacks.append(say("ends.no_lateral_load", value=LATERAL_SHARE))
     return RowEffects(
         post_spacing=spacing,
-        width=find_governing_width(spacing, edge),
+        supports=list_supports(spacing, edge),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
         is_foot_shared=row.layout.uphill_anchor_distance == 0.0,

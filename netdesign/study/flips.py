@@ -3,7 +3,8 @@
 Proportions (resistance, post spacing) are exact. Density, snow height and friction
 angle are roots of the coupled solve: found for the case that governs, then confirmed
 for every case whose force came near to governing; a case that still fails takes over,
-and so on.
+and so on. A floor by the guideline's load knows neither density nor friction of the
+ranges; it limits the snow height by its closed form.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
-from netdesign.study.effects import RowEffects
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
 from netdesign.units import degree_from_radian, radian_from_degree
@@ -50,6 +51,8 @@ class Target:
         Case of the largest force.
     results : sequence of CaseResult
         Of the whole grid, or of the search.
+    use_floor : callable
+        Utilisation of a row by the guideline's load alone, 0 without a floor [-].
     """
 
     row: NetRow
@@ -58,6 +61,12 @@ class Target:
     scale: float
     governing: Case
     results: Sequence[CaseResult]
+    use_floor: Callable[[NetRow], float] = lambda _: 0.0
+
+    @property
+    def is_slack(self) -> bool:
+        """Slackness: the member carries nothing in any solved case."""
+        return all(not self.utilisation(result) for result in self.results)
 
     def utilisation(self, result: CaseResult) -> float | None:
         """Upper end of the utilisation in a case [-]; None if it has no result."""
@@ -69,16 +78,18 @@ class Target:
 Build = Callable[[float, Case], tuple[NetRow, Case]]
 
 
-def find_spacing_change(effects: RowEffects, utilisation: float) -> ChangeRecord:
+def find_spacing_change(
+    post_spacing: float, width: LoadedWidth, utilisation: float
+) -> ChangeRecord:
     """Largest post spacing at which a check passes: every force is in proportion."""
-    allowed = effects.width.width / utilisation
-    ends = effects.width.end_factor * effects.width.end_length
-    widest = min(allowed, 2.0 * (allowed - ends)) if ends else allowed
+    allowed = width.width / utilisation
+    ends = width.end_factor * width.end_length
+    widest = 2.0 * (allowed - ends) if width.position == "edge" else allowed
     bound = math.floor(100.0 * widest + 1e-9) / 100.0
     return ChangeRecord(
         quantity=say("change.post_spacing"),
         unit="m",
-        now=effects.post_spacing,
+        now=post_spacing,
         bound=bound if bound > 0.0 else None,
         sense="at most",
         solves=0,
@@ -86,8 +97,26 @@ def find_spacing_change(effects: RowEffects, utilisation: float) -> ChangeRecord
     )
 
 
+def _refuse_by_floor(quantity: str, unit: str, now: float) -> ChangeRecord:
+    """No value of a quantity that the guideline's load does not know mends a check."""
+    return ChangeRecord(
+        quantity=say(f"change.{quantity}"),
+        unit=unit,
+        now=now,
+        bound=None,
+        sense="at most",
+        solves=0,
+        note=say("change.floor_stays"),
+    )
+
+
 def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
-    """Largest snow density at which a check passes."""
+    """Largest snow density at which a check passes.
+
+    The guideline's load has densities of its own and stays.
+    """
+    if target.use_floor(target.row) > 1.0:
+        return _refuse_by_floor("snow_density", "kg/m3", target.ranges["density"].high)
 
     def build(value: float, case: Case) -> tuple[NetRow, Case]:
         return target.row, replace(case, density=value)
@@ -117,21 +146,34 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 
 
 def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
-    """Largest snow thickness, normal to the slope, at which a check passes."""
+    """Largest snow thickness, normal to the slope, at which a check passes.
+
+    Coupled force and floor both rise with it; the lower of the two limits counts.
+    """
 
     def build(value: float, case: Case) -> tuple[NetRow, Case]:
         return replace(target.row, snow_thickness=value), case
 
     thickness = target.row.snow_thickness
-    bound, solves, note = _search(
-        target,
-        probe,
-        build,
-        start=thickness,
-        limits=(_LEAST_SHARE * thickness, target.row.net_height),
-        step=_STEPS["thickness"],
-        power=2.0,
-    )
+    least, most = _LEAST_SHARE * thickness, target.row.net_height
+    highest = _find_floor_height(target, least, most)
+    if highest is None:
+        bound, solves, note = None, 0, say("change.not_even", value=least)
+    elif target.is_slack:  # the floor alone decides
+        bound, solves, note = _round_down(highest, _STEPS["thickness"]), 0, None
+    else:
+        bound, solves, note = _search(
+            target,
+            probe,
+            build,
+            start=min(thickness, highest),
+            limits=(least, highest),
+            step=_STEPS["thickness"],
+            power=2.0,
+        )
+    limit = most if highest is None else highest
+    if bound is not None and limit < most and bound > limit - _STEPS["thickness"]:
+        note = say("change.floor_limits")
     return ChangeRecord(
         quantity=say("change.snow_thickness"),
         unit="m",
@@ -143,6 +185,29 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     )
 
 
+def _round_down(value: float, step: float) -> float:
+    return round(math.floor(value / step + 1e-9) * step, 6)
+
+
+def _find_floor_height(target: Target, least: float, most: float) -> float | None:
+    """Largest snow thickness at which the floor is met [m]; None if not at the least.
+
+    The floor rises with the height.
+    """
+
+    def is_met(thickness: float) -> bool:
+        return target.use_floor(replace(target.row, snow_thickness=thickness)) <= 1.0
+
+    if is_met(most):
+        return most
+    if not is_met(least):
+        return None
+    while most - least > 0.1 * _STEPS["thickness"]:
+        middle = 0.5 * (least + most)
+        least, most = (middle, most) if is_met(middle) else (least, middle)
+    return least
+
+
 def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     """Friction angle from or up to which a failing check passes.
 
@@ -151,13 +216,15 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     governing case is told, between the nearest sample that passes and the one that
     does not.
     """
+    now = degree_from_radian(target.governing.friction_angle)
+    if target.use_floor(target.row) > 1.0:
+        return _refuse_by_floor("friction_angle", "deg", now)
     samples = _list_friction_angles(target)
     worst = [_worst_at(target, angle) for angle in samples]
     if all(one is not None and one <= 1.0 for one in worst):
         return None
     place = samples.index(target.governing.friction_angle)
     passing = [k for k, one in enumerate(worst) if one is not None and one <= 1.0]
-    now = degree_from_radian(samples[place])
     if not passing or place in passing:
         return ChangeRecord(
             quantity=say("change.friction_angle"),
@@ -270,7 +337,7 @@ def _search(
         found = _find_root(target, probe, build, active, value, limits, power)
         if isinstance(found, Message):
             return None, probe.count - before, found
-        value = round(math.floor(found / step + 1e-9) * step, 6)
+        value = _round_down(found, step)
         worst = _find_violator(target, probe, build, value)
         if worst is None:
             at_end = found == limits[1]

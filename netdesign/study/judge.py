@@ -14,6 +14,7 @@ from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
+from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_loads import find_loads
 from netdesign.study.notes import (
     list_case_notes,
@@ -107,7 +108,8 @@ def judge_site(
 def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     row, solved = task.row, task.solved
     extremes = solved.extremes
-    loads = find_loads(row, solved.results, extremes, task.standard)
+    floor = find_row_floor(row, task.site.ranges, task.standard)
+    loads = find_loads(row, solved.results, extremes, task.standard, floor)
     checks = check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(checks, extremes)
@@ -132,6 +134,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
+        floor=record_floor(floor),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_test_notes(checks, task.standard),
@@ -152,12 +155,21 @@ def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, flo
     for check in checks:
         action = check.action
         if check.resistance_kN is not None and check.action_factor and action:
+            if _fails_by_floor(check):
+                continue  # no coupled force turns it
             on_row = check.action_factor * action.lateral_factor
             on_row *= action.loaded_width_m / action.post_spacing_m
             met = (check.resistance_kN / on_row - action.added_kN) / action.share
             level = newton_from_kilonewton(met)
             levels.setdefault(check.member, []).append((check.id, level))
     return levels
+
+
+def _fails_by_floor(check: CheckRecord) -> bool:
+    """Failure by the guideline's load alone."""
+    least = check.action.guideline_kN if check.action else None
+    demand = (least or 0.0) * (check.action_factor or 0.0)
+    return check.resistance_kN is not None and demand > check.resistance_kN
 
 
 def _governing_result(

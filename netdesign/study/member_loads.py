@@ -6,11 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Band, Standard
+from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.demand import Demand, build_demand
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.pulls import AnchorPull, list_pulls
 from netdesign.study.records import ActionRecord
@@ -20,55 +23,48 @@ from netdesign.units import kilonewton_from_newton
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowLoads:
-    """Effects that turn a solved force of the section into the action of a check.
+    """Loads that turn a solved force of the section into the demand of a check.
 
     Attributes
     ----------
     effects : RowEffects
-        Loaded width, and the load along the row at the foot.
+        Loaded widths, and the load along the row at the foot.
+    floor : Floor or None
+        The guideline's forces; None where they are no floor.
     sideways : Sideways
         The load along the row at the head.
-    pulls : mapping of Member to AnchorPull
+    pulls : tuple of AnchorPull
         Directions at the anchors.
     tilt : float
         Largest force along the slope at the post's base over that across, (S19) [-].
     """
 
     effects: RowEffects
+    floor: Floor | None
     sideways: Sideways
-    pulls: Mapping[Member, AnchorPull]
+    pulls: tuple[AnchorPull, ...]
     tilt: float
 
-    def act(self, given: Resistance, force: Band) -> Band:
-        """Characteristic action of a check, from a force of the section [N]."""
-        on_row = self._load(given).apply(force)
-        return on_row.times(self.effects.factor(given.member))
-
-    def press(self, force: Band) -> Band:
-        """Characteristic force across the base plate, of one in the section [N]."""
-        on_row = self.sideways.load(Member.POST_BASE).apply(force)
-        return on_row.times(self.effects.factor(Member.POST_BASE))
-
-    def record(self, given: Resistance, extreme: Extreme) -> ActionRecord:
-        """The same for the worked calculation."""
-        load = self._load(given)
-        plain = self.effects.record(given.member, extreme.force)
-        parts = self._list_parts(given.member, extreme.governing)
-        return replace(
-            plain,
-            share=load.share,
-            added_kN=kilonewton_from_newton(load.added.value),
-            added_low_kN=kilonewton_from_newton(load.added.low),
-            added_high_kN=kilonewton_from_newton(load.added.high),
-            sideways=load.sideways,
-            foot_part_kN=parts[0],
-            guy_part_kN=parts[1],
-        )
-
-    def _load(self, given: Resistance) -> MemberLoad:
+    def demand(self, given: Resistance, extreme: Extreme, width: LoadedWidth) -> Demand:
+        """Demand of a check on the support of that width."""
         load = self.sideways.load(given.member)
-        if given.mode != "sliding":
-            return load
+        if given.mode == "sliding":
+            load = self._turn(load)
+        least = self.floor.find(given.member) if self.floor else None
+        solved = extreme.widened
+        return build_demand(self.effects, given.member, width, solved, least, load)
+
+    def press(self, extreme: Extreme, width: LoadedWidth) -> float:
+        """Characteristic force across the base plate, from one in the section [N]."""
+        load = self.sideways.load(Member.POST_BASE)
+        least = self.floor.find(Member.POST_BASE) if self.floor else None
+        found = build_demand(
+            self.effects, Member.POST_BASE, width, extreme.widened, least, load
+        )
+        return found.action.value
+
+    def _turn(self, load: MemberLoad) -> MemberLoad:
+        """Force along the slope instead of that across the base plate, (S19)."""
         return MemberLoad(
             share=self.tilt * load.share,
             added=load.added.times(self.tilt),
@@ -76,18 +72,18 @@ class RowLoads:
             and replace(load.sideways, part=self.tilt * load.sideways.part),
         )
 
-    def _list_parts(
-        self, member: str, governing: CaseResult
-    ) -> tuple[float | None, float | None]:
-        """Both forces on one anchor that carries net and uphill guy, (S7) [kN]."""
-        anchors = governing.anchors
-        both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
-        if anchors is None or not anchors.is_foot_shared or member not in both:
-            return None, None
-        return (
-            kilonewton_from_newton(anchors.foot_anchor.size),
-            kilonewton_from_newton(anchors.uphill_anchor.size),
-        )
+
+def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> ActionRecord:
+    """Record with both forces on one anchor that carries net and uphill guy, (S7)."""
+    anchors = governing.anchors
+    both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
+    if anchors is None or not anchors.is_foot_shared or member not in both:
+        return record
+    return replace(
+        record,
+        foot_part_kN=kilonewton_from_newton(anchors.foot_anchor.size),
+        guy_part_kN=kilonewton_from_newton(anchors.uphill_anchor.size),
+    )
 
 
 def find_loads(
@@ -95,13 +91,16 @@ def find_loads(
     results: Sequence[CaseResult],
     extremes: Mapping[str, Extreme],
     standard: Standard,
+    floor: Floor | None,
 ) -> RowLoads:
     """Loads on a row beside its section, over its solved cases."""
     effects = find_effects(row, standard)
+    head = floor.head if floor else None
     return RowLoads(
         effects=effects,
-        sideways=find_sideways(row, results, extremes, standard),
-        pulls=list_pulls(row, results, effects.lateral_share),
+        floor=floor,
+        sideways=find_sideways(row, results, extremes, standard, head),
+        pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
         tilt=_find_tilt(row, results),
     )
 

@@ -12,7 +12,7 @@ from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
-from netdesign.structure.members import REPORTED_MEMBERS, Member
+from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.effects import RowEffects
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
@@ -73,21 +73,24 @@ def _layer_notes(site: Site) -> list[Message]:
 
 
 def list_row_notes(
-    row: NetRow, effects: RowEffects, pulls: Mapping[Member, AnchorPull]
+    row: NetRow, effects: RowEffects, pulls: Sequence[AnchorPull]
 ) -> list[Message]:
     """What was taken for granted about this row."""
     notes = []
     if not math.isfinite(row.gap):
         notes.append(say("row.ends_free"))
-    if effects.width.position == "edge":
-        notes.append(say("row.edge_governs"))
+    for width in effects.supports:
+        if width.other_width is not None:
+            wider, other = width.width, width.other_width
+            told = say("row.gap_at_threshold", gap=row.gap, wider=wider, other=other)
+            notes.append(told)
     checked = {given.mode for given in row.resistances}
     if "bearing" not in checked:
         notes.append(say("row.bearing_not_checked"))
     return [*notes, *_list_pull_notes(pulls)]
 
 
-def _list_pull_notes(pulls: Mapping[Member, AnchorPull]) -> list[Message]:
+def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
     """Axes and kinds of anchors that nobody has given."""
     notes = [
         say(
@@ -95,12 +98,12 @@ def _list_pull_notes(pulls: Mapping[Member, AnchorPull]) -> list[Message]:
             member=name_member(one.anchor),
             axis=degree_from_radian(one.axis),
         )
-        for one in pulls.values()
-        if not one.is_axis_given
+        for one in pulls
+        if not one.is_axis_given and one.position == "intermediate"
     ]
-    unknown = [name_member(one.anchor) for one in pulls.values() if not one.kind]
+    unknown = {one.anchor: name_member(one.anchor) for one in pulls if not one.kind}
     if unknown:
-        notes.append(say("row.kind_assumed", members=tuple(unknown)))
+        notes.append(say("row.kind_assumed", members=tuple(unknown.values())))
     return notes
 
 
@@ -157,7 +160,7 @@ def list_reasons(
     unproven = [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode),
+            check=name_check(check.member, check.mode, check.position),
             reason=check.reason,
         )
         for check in checks

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import judge, list_assumed, not_proven
 from netdesign.checks.schema import BAR_ANGLE, ROPE_ANGLE
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow
+from netdesign.site.model import AnchorType, NetRow
 from netdesign.structure.axis import (
     PullRange,
     find_pull_range,
@@ -20,6 +21,7 @@ from netdesign.structure.axis import (
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
 from netdesign.study.records import PullRecord
 from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, radian_from_degree
@@ -36,6 +38,8 @@ class AnchorPull:
     ----------
     anchor : Member
         Which.
+    position : str
+        "intermediate", or "edge" of an anchor of the row's end alone.
     pulls : PullRange
         Directions in the section [rad].
     axis : float
@@ -51,6 +55,7 @@ class AnchorPull:
     """
 
     anchor: Member
+    position: Position
     pulls: PullRange
     axis: float
     is_axis_given: bool
@@ -66,9 +71,16 @@ class AnchorPull:
 
 
 def list_pulls(
-    row: NetRow, results: Sequence[CaseResult], share: float
-) -> dict[Member, AnchorPull]:
-    """Pull on every anchor over the converged cases; ``share`` acts along the row."""
+    row: NetRow,
+    results: Sequence[CaseResult],
+    share: float,
+    floor: HeadSpan | None = None,
+) -> list[AnchorPull]:
+    """Pull on every anchor over the converged cases and under the floor's load.
+
+    ``share`` acts along the row. The anchors of the row's end come last, where they
+    are of types of their own.
+    """
     solved = [one for one in results if one.is_converged]
     points = [place_row(row, one) for one in solved]
     feet = [one.anchors.foot_anchor for one in solved if one.anchors is not None]
@@ -78,15 +90,34 @@ def list_pulls(
     directions[Member.FOOT_ANCHOR] = [
         measure_pull(force.x, force.y, Member.FOOT_ANCHOR) for force in feet
     ]
+    if floor is not None and feet:
+        directions[Member.FOOT_ANCHOR] += [floor.foot_least, floor.foot_largest]
     if row.layout.uphill_anchor_distance == 0.0:  # one anchor, pulled both ways
         both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
         directions[Member.FOOT_ANCHOR] = directions[Member.UPHILL_ANCHOR] = both
     ranges = {anchor: find_pull_range(found) for anchor, found in directions.items()}
-    return {
-        anchor: build_pull(row, anchor, pulls, share)
+    return [
+        build_pull(row, anchor, pulls, share, position)
+        for position in list_positions(row)
         for anchor, pulls in ranges.items()
         if pulls is not None
-    }
+    ]
+
+
+def list_positions(row: NetRow) -> tuple[Position, ...]:
+    """Supports whose anchors are of types of their own."""
+    if row.end_anchors is None or not row.has_end:
+        return ("intermediate",)
+    return ("intermediate", "edge")
+
+
+def find_pull(
+    pulls: Sequence[AnchorPull], anchor: str, position: Position
+) -> AnchorPull | None:
+    """Pull on an anchor of a support; that inside the row where it has no other."""
+    found = [one for one in pulls if one.anchor == anchor]
+    own = [one for one in found if one.position == position]
+    return next(iter(own or found), None)
 
 
 def _measure_guy(points: SupportPoints, anchor: Member) -> float:
@@ -97,11 +128,12 @@ def _measure_guy(points: SupportPoints, anchor: Member) -> float:
     return measure_pull(x, y, anchor)
 
 
-def record_pulls(pulls: Mapping[Member, AnchorPull]) -> list[PullRecord]:
+def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
     """Record the directions in degrees."""
     return [
         PullRecord(
             anchor=one.anchor,
+            position=one.position,
             kind=one.kind,
             least_deg=degree_from_radian(one.pulls.least),
             largest_deg=degree_from_radian(one.pulls.largest),
@@ -109,36 +141,46 @@ def record_pulls(pulls: Mapping[Member, AnchorPull]) -> list[PullRecord]:
             is_axis_given=one.is_axis_given,
             angle_deg=degree_from_radian(one.angle),
         )
-        for one in pulls.values()
+        for one in pulls
     ]
 
 
-def read_pulls(row: NetRow, records: Sequence[PullRecord]) -> dict[Member, AnchorPull]:
-    """Pulls on a row's anchors from their records; kind and lever are the row's."""
-    return {
-        Member(one.anchor): AnchorPull(
-            anchor=Member(one.anchor),
-            pulls=PullRange(
-                least=radian_from_degree(one.least_deg),
-                largest=radian_from_degree(one.largest_deg),
-            ),
-            axis=radian_from_degree(one.axis_deg),
-            is_axis_given=one.is_axis_given,
-            kind=one.kind,
-            lever=_find_lever(row, Member(one.anchor)),
-            angle=radian_from_degree(one.angle_deg),
-        )
-        for one in records
-    }
+def read_pulls(row: NetRow, records: Sequence[PullRecord]) -> list[AnchorPull]:
+    """Pulls on a row's anchors from their records; the levers are the row's."""
+    return [_read_pull(row, one) for one in records]
 
 
-def _find_lever(row: NetRow, anchor: Member) -> float | None:
-    kind = row.find_anchor_type(anchor)
+def _read_pull(row: NetRow, one: PullRecord) -> AnchorPull:
+    anchor, position = Member(one.anchor), _read_position(one.position)
+    return AnchorPull(
+        anchor=anchor,
+        position=position,
+        pulls=PullRange(
+            least=radian_from_degree(one.least_deg),
+            largest=radian_from_degree(one.largest_deg),
+        ),
+        axis=radian_from_degree(one.axis_deg),
+        is_axis_given=one.is_axis_given,
+        kind=one.kind,
+        lever=_find_lever(row.find_anchor_type(anchor, position)),
+        angle=radian_from_degree(one.angle_deg),
+    )
+
+
+def _read_position(text: str) -> Position:
+    return "edge" if text == "edge" else "intermediate"
+
+
+def _find_lever(kind: AnchorType | None) -> float | None:
     return kind.lever if kind else None
 
 
 def build_pull(
-    row: NetRow, anchor: Member, pulls: PullRange, share: float
+    row: NetRow,
+    anchor: Member,
+    pulls: PullRange,
+    share: float,
+    position: Position = "intermediate",
 ) -> AnchorPull:
     """Pull on an anchor from the range of its directions.
 
@@ -152,8 +194,10 @@ def build_pull(
         [rad].
     share : float
         Part of the foot's pull along the row [-].
+    position : str
+        Of the support.
     """
-    given, kind = row.find_axis(anchor), row.find_anchor_type(anchor)
+    given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
     axis = pulls.mean if given is None else given
     is_shared = row.layout.uphill_anchor_distance == 0.0
     is_foot = anchor == Member.FOOT_ANCHOR or (
@@ -162,24 +206,31 @@ def build_pull(
     turned = turn_sideways(pulls.find_largest_angle(axis), share if is_foot else 0.0)
     return AnchorPull(
         anchor=anchor,
+        position=position,
         pulls=pulls,
         axis=axis,
         is_axis_given=given is not None,
         kind=kind.kind if kind else "",
-        lever=_find_lever(row, anchor),
+        lever=_find_lever(kind),
         angle=turned,
     )
 
 
 def check_directions(
-    pulls: Mapping[Member, AnchorPull], standard: Standard, gap: Message | None
-) -> list[CheckResult]:
-    """Check the angles of rope anchors, and of bars whose lever arm is not given."""
+    pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
+) -> list[tuple[Position, CheckResult]]:
+    """Check the angles of rope anchors, and of bars whose lever arm is not given.
+
+    Each with the support that it belongs to.
+    """
     return [
-        _check_rope(one, standard, gap)
-        if one.kind == "rope anchor"
-        else _check_bar(one, standard, gap)
-        for one in pulls.values()
+        (
+            one.position,
+            _check_rope(one, standard, gap)
+            if one.kind == "rope anchor"
+            else _check_bar(one, standard, gap),
+        )
+        for one in pulls
         if one.is_checked
     ]
 

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.comparison import (
     GuidelineResult,
-    NetGeometry,
     compare_with_guideline,
 )
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
+from netdesign.snow.snowpack import GRAVITY
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.floor import build_geometry
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import GuidelineCase, GuidelineRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
+_OTHER_DENSITY = 0.1  # share from which another density is told as a cause
 # Why the two differ, by the kind of ground.
 _SENTENCES = {
     "free": "guideline.on_free_ground",
@@ -58,15 +64,7 @@ def compare_case(
     standard = load_guideline()
     cases = compare_with_guideline(
         read_load_model(standard),
-        NetGeometry(
-            slope_angle=row.slope_angle,
-            snow_thickness=row.snow_thickness,
-            net_height=row.net_height,
-            inclination=case.inclination,
-            stiffness=row.net_stiffness_per_m,
-            slack=row.slack,
-            layout=row.layout,
-        ),
+        build_geometry(row, case.inclination),
         density=case.density,
         altitude=row.altitude,
         glide_factor=find_row_glide_factor(row),
@@ -78,8 +76,58 @@ def compare_case(
         solved_load_kN_per_m=kilonewton_from_newton(load),
         solved_foot_anchor_kN=kilonewton_from_newton(foot),
         cases=[_record_case(one, load, foot) for one in cases],
-        sentence=say(_SENTENCES[row.ground.kind]),
+        sentence=_explain_difference(row, case, foot, cases),
     )
+
+
+def _explain_difference(
+    row: NetRow, case: Case, foot: float, cases: Sequence[GuidelineResult]
+) -> Message:
+    """Sentence on the larger of the two at the foot, its excess and known cause."""
+    same, *governing = cases
+    forces = {one.name: _find_foot(one) for one in governing}
+    known = {name: force for name, force in forces.items() if force}
+    if not known or foot <= 0.0 or same.load is None:
+        return say(_SENTENCES[row.ground.kind])
+    largest = max(governing, key=lambda one: known.get(one.name, 0.0))
+    other = known[largest.name]
+    key = "guideline.larger" if other > foot else "guideline.smaller"
+    return say(
+        key,
+        case=name("load_case", largest.name),
+        guideline=kilonewton_from_newton(other),
+        coupled=kilonewton_from_newton(foot),
+        percent=100.0 * (max(other, foot) / min(other, foot) - 1.0),
+        causes=_list_causes(row, case, same, largest),
+    )
+
+
+def _find_foot(case: GuidelineResult) -> float | None:
+    forces = case.anchors.member_forces if case.anchors else {}
+    return forces.get(Member.FOOT_ANCHOR)
+
+
+def _list_causes(
+    row: NetRow, case: Case, same: GuidelineResult, largest: GuidelineResult
+) -> tuple[Message, ...]:
+    """Causes that the numbers show: density, length; else those of ground and law."""
+    causes = []
+    if not math.isclose(largest.density, case.density, rel_tol=_OTHER_DENSITY):
+        numbers = {"guideline": largest.density, "coupled": case.density}
+        causes.append(say("guideline.other_density", **numbers))
+    push = case.density * GRAVITY * row.snow_thickness * math.sin(row.slope_angle)
+    weight = push * row.upslope_length
+    load = same.load.resultant[0] if same.load else 0.0
+    if load > weight:
+        length = {
+            "length": row.upslope_length,
+            "load": kilonewton_from_newton(load),
+            "weight": kilonewton_from_newton(weight),
+        }
+        causes.append(say("guideline.knows_no_length", **length))
+    else:
+        causes.append(say(_SENTENCES[row.ground.kind]))
+    return tuple(causes)
 
 
 def _record_case(case: GuidelineResult, load: float, foot: float) -> GuidelineCase:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import importlib.metadata
 import platform
+from dataclasses import replace
 
 from netdesign import __version__
-from netdesign.checks import Standard
+from netdesign.checks import Standard, StandardValue
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.cases import CheckRun
+from netdesign.study.effects import load_guideline
 from netdesign.study.records import ProfileRecord, ProfileValue, Provenance
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
@@ -24,18 +26,36 @@ def record_profile(standard: Standard) -> ProfileRecord:
         sha256=standard.sha256,
         version=standard.version,
         choice=standard.choice,
+        floor=standard.floor,
         values=[
-            ProfileValue(
-                id=entry.id,
-                clause=entry.clause,
-                text=entry.text,
-                value=entry.value,
-                unit=entry.unit,
-                status=entry.status,
-                source=entry.source,
-            )
-            for entry in standard.listed
+            *map(_record_value, standard.listed),
+            *map(_record_value, _list_floor_values(standard)),
         ],
+    )
+
+
+def _list_floor_values(standard: Standard) -> list[StandardValue]:
+    """Numbers of the floor's load model, unless they are those of the profile itself.
+
+    Every demand rests on them, under whatever profile.
+    """
+    if standard.floor == "none":
+        return []
+    model = [one for one in load_guideline().values if one.id.startswith("snow.")]
+    if all(standard.find(one.id) == one for one in model):
+        return []
+    return [replace(one, id=f"floor.{one.id}") for one in model]
+
+
+def _record_value(value: StandardValue) -> ProfileValue:
+    return ProfileValue(
+        id=value.id,
+        clause=value.clause,
+        text=value.text,
+        value=value.value,
+        unit=value.unit,
+        status=value.status,
+        source=value.source,
     )
 
 

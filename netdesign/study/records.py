@@ -187,11 +187,18 @@ class ActionRecord:
 
     solved_kN: float  # of a support inside a row, over the envelope
     post_spacing_m: float
-    position: str  # "intermediate" or "edge": which of the two carries more
+    position: str  # "intermediate", or "edge": the first or last support
     loaded_width_m: float
     end_factor: float  # f_R, 0 inside a row
     end_length_m: float
     lateral_factor: float
+    coupled_kN: float  # on this support: upper end, with what may hide
+    other_width_m: float | None = None  # on the other side of a threshold close by
+    floor_kN: float | None = None  # the guideline's, inside a row; None: no floor
+    guideline_kN: float | None = None  # the same on this support
+    floor_case: str = ""  # "load_case_1" or "load_case_2"
+    floor_inclination_deg: float | None = None  # at which it is largest
+    governs: str = "coupled"  # or "guideline": the larger of the two
     share: float = 1.0  # of the solved force, in this member or along the slope
     added_kN: float = 0.0  # by the load along the row at the head
     added_low_kN: float = 0.0
@@ -256,6 +263,7 @@ class CheckRecord:
     action: ActionRecord | None = None
     spreads: list[SpreadRecord] = field(default_factory=list)
     changes: list[ChangeRecord] = field(default_factory=list)
+    position: str = ""  # of its support: "intermediate" or "edge"; "" of geometry
 
     @property
     def utilisation_band(self) -> tuple[float | None, float | None]:
@@ -344,6 +352,7 @@ class PullRecord:
     """
 
     anchor: str
+    position: str  # "intermediate", or "edge" of types of the row's end alone
     kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
     least_deg: float
     largest_deg: float
@@ -394,6 +403,33 @@ class GuidelineRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FloorForceRecord:
+    """Largest force of the guideline's load in one member, inside the row."""
+
+    member: str
+    force_kN: float  # characteristic
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float  # of the net, where the force is largest
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    load_along_kN_per_m: float  # on the net, downslope, with the prism
+    load_across_kN_per_m: float  # out of the ground
+    chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloorRecord:
+    """Forces that no demand of a row lies below, by the guideline's load cases."""
+
+    profile: str  # whose load model
+    sha256: str
+    forces: list[FloorForceRecord]  # empty where the floor is not available
+    reason: Text | None = None  # why it is not
+
+
+@dataclass(frozen=True, kw_only=True)
 class IndependentRecord:
     """One law that the drawn case must obey whatever the mesh."""
 
@@ -428,6 +464,7 @@ class RowStudy:
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
     pulls: list[PullRecord] = field(default_factory=list)  # over all solved cases
     guideline: GuidelineRecord | None = None
+    floor: FloorRecord | None = None  # None under a profile without a floor
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
@@ -457,6 +494,7 @@ class ProfileRecord:
     values: list[ProfileValue]
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
+    floor: str = "guideline"  # what no demand lies below: or "none"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,14 +17,14 @@ from netdesign.checks import (
 from netdesign.envelope.extremes import Extreme, find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
+from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import BaseFriction, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS
-from netdesign.study.dependent import (
-    Circumstances,
-    settle_resistance,
-)
-from netdesign.study.effects import check_ends, find_effects
+from netdesign.structure.row_position import LoadedWidth, Position
+from netdesign.study.demand import Demand, tell_governing
+from netdesign.study.dependent import Circumstances, settle_resistance
+from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
     Target,
@@ -33,9 +33,10 @@ from netdesign.study.flips import (
     find_height_change,
     find_spacing_change,
 )
-from netdesign.study.member_loads import RowLoads
+from netdesign.study.floor import find_row_floor
+from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.probe import Probe
-from netdesign.study.pulls import check_directions
+from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import ChangeRecord, CheckRecord, SpreadRecord
 from netdesign.study.sideways import check_sideways
@@ -64,31 +65,79 @@ class RowCheck:
     on_check: Callable[[], None] = lambda: None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberCheck:
+    """One member of one support in one mode, judged.
+
+    ``extreme`` and ``demand`` are None where no case was solved.
+    """
+
+    given: Resistance
+    width: LoadedWidth
+    extreme: Extreme | None
+    demand: Demand | None
+    result: CheckResult
+
+    @property
+    def ratio(self) -> float:
+        """Upper end of the utilisation [-]; below 0 without one."""
+        used = self.result.utilisation
+        return used.high if used else -1.0
+
+
 def check_row(
     task: RowCheck, extremes: Mapping[str, Extreme], loads: RowLoads
 ) -> list[CheckRecord]:
-    """Every check of a row: each member in each mode, then the geometry.
+    """Every check of a row: the members of both supports, then the geometry.
 
     ``extremes`` and ``loads`` are those of its solved cases.
     """
+    judged = [
+        _judge_member(task, given, width, extremes, loads)
+        for width, given in list_checked(task.row, loads.effects)
+    ]
     checks = []
-    for given in task.row.resistances:
-        checks.append(_check_one(task, given, extremes, loads))
+    for one in judged:
+        rivals = [other for other in judged if _name_of(other) == _name_of(one)]
+        is_worst = one is max(rivals, key=lambda other: other.ratio)
+        checks.append(_record_member(task, one, loads.effects, is_worst=is_worst))
         task.on_check()
     return [
         *checks,
-        *(record_result(one) for one in _check_directions(task, loads)),
+        *_check_directions(task, loads),
         *record_geometry(task.row, task.site.ranges, task.standard),
     ]
 
 
-def _check_directions(task: RowCheck, loads: RowLoads) -> list[CheckResult]:
-    """Checks of a support that compare no force: load along the row, directions."""
-    gap = task.solved.gap
+def _check_directions(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
+    """Checks of a row that compare no force: load along it, directions of pulls."""
+    gap = find_gap(task.solved.gap, loads.floor)
+    lateral = check_sideways(task.row, loads.sideways, gap)
+    directions = check_directions(loads.pulls, task.standard, gap)
     return [
-        check_sideways(task.row, loads.sideways, gap),
-        *check_directions(loads.pulls, task.standard, gap),
+        record_result(lateral),
+        *(place_check(record_result(one), place) for place, one in directions),
     ]
+
+
+def find_gap(solved: Message | None, floor: Floor | None) -> Message | None:
+    """Gap of the cases, else of the floor; None where nothing is missing."""
+    return solved or (floor.reason if floor else None)
+
+
+def list_checked(
+    row: NetRow, effects: RowEffects
+) -> list[tuple[LoadedWidth, Resistance]]:
+    """Members that are checked of a row, on each support and in each mode."""
+    return [
+        (width, given)
+        for width in effects.supports
+        for given in row.resistances_at(width.position)
+    ]
+
+
+def _name_of(one: MemberCheck) -> tuple[str, str]:
+    return one.given.member, one.given.mode
 
 
 def record_geometry(
@@ -113,46 +162,57 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def _check_one(
+def _judge_member(
     task: RowCheck,
     given: Resistance,
+    width: LoadedWidth,
     extremes: Mapping[str, Extreme],
     loads: RowLoads,
+) -> MemberCheck:
+    extreme, demand = extremes.get(given.member), None
+    if extreme is not None:
+        demand = loads.demand(given, extreme, width)
+        known = Circumstances(
+            row=task.row,
+            ranges=task.site.ranges,
+            standard=task.standard,
+            pull=find_pull(loads.pulls, given.member, width.position),
+            pressing=loads.press(extreme, width),
+        )
+        given = settle_resistance(given, known)
+    gap = find_gap(task.solved.gap, loads.floor)
+    action = demand.action if demand else None
+    return MemberCheck(
+        given=given,
+        width=width,
+        extreme=extreme,
+        demand=demand,
+        result=judge_forces(action, given, task.standard, gap),
+    )
+
+
+def _record_member(
+    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
 ) -> CheckRecord:
-    extreme = extremes.get(given.member)
-    gap = task.solved.gap
-    if extreme is None:
-        return record_result(check_member(None, given, task.standard, gap=gap), given)
-    action = loads.act(given, extreme.widened)
-    given = _settle(task, given, extreme, loads)
-    result = judge_forces(action, given, task.standard, gap)
+    given, result = one.given, one.result
+    if one.extreme is None or one.demand is None:
+        return place_check(record_result(result, given), one.width.position)
     before = task.probe.faults if task.probe else 0
-    at_cases = loads.act(given, extreme.force)
-    spreads = _list_spreads(task, extreme, result, at_cases)
-    changes = _list_changes(task, given, extreme, loads, result)
-    if task.probe and task.probe.faults > before and not gap:
-        result = judge_forces(action, given, task.standard, _FAULT_BESIDE)
+    spreads = _list_spreads(task, one, one.extreme)
+    changes = _list_changes(task, one, effects, is_worst=is_worst)
+    if task.probe and task.probe.faults > before and not task.solved.gap:
+        force = one.demand.action
+        result = judge_forces(force, given, task.standard, _FAULT_BESIDE)
+    plain = one.demand.record(effects, given.member)
+    action = add_parts(plain, one.extreme.governing, given.member)
     return replace(
-        record_result(result, given),
-        case=record_point(extreme.governing.case),
-        action=loads.record(given, extreme),
+        place_check(record_result(result, given), one.width.position),
+        case=record_point(one.extreme.governing.case),
+        action=action,
+        reason=tell_governing(result.reason, action),
         spreads=spreads,
         changes=changes,
     )
-
-
-def _settle(
-    task: RowCheck, given: Resistance, extreme: Extreme, loads: RowLoads
-) -> Resistance:
-    """The resistance with the value that follows from the demand, where it does."""
-    known = Circumstances(
-        row=task.row,
-        ranges=task.site.ranges,
-        standard=task.standard,
-        pull=loads.pulls.get(given.member),
-        pressing=loads.press(extreme.widened).value,
-    )
-    return settle_resistance(given, known)
 
 
 def judge_forces(
@@ -164,6 +224,12 @@ def judge_forces(
     if lack is None or lack.key != "post_bending.too_much":
         return result
     return replace(result, verdict=Verdict.FAIL, reason=lack)
+
+
+def place_check(check: CheckRecord, position: Position) -> CheckRecord:
+    """Check of a member, named by its support."""
+    name_of_end = ".end" if position == "edge" else ""
+    return replace(check, id=f"{check.id}{name_of_end}", position=position)
 
 
 def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
@@ -208,36 +274,64 @@ def _describe_derivation(
 
 
 def _list_spreads(
-    task: RowCheck, extreme: Extreme, result: CheckResult, at_cases: Band
+    task: RowCheck, one: MemberCheck, extreme: Extreme
 ) -> list[SpreadRecord]:
     """Parts of the interval of a utilisation, the creep law's for comparison.
 
-    ``at_cases`` is the action without what may hide between the cases.
+    A floor cuts off what lies below it.
     """
-    used = result.utilisation
-    if used is None or at_cases.value == 0.0:
+    used, scale = one.result.utilisation, _find_scale(one)
+    if used is None or scale is None or used.value == 0.0:
         return []
-    scale = used.value / at_cases.value
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
+    numerical = max(used.value, _use_at_cases(one, extreme))
     spreads = [
         SpreadRecord(
             source=say("spread.numerical_error"),
-            low=at_cases.low * scale,
-            high=at_cases.high * scale,
+            low=used.low,
+            high=numerical,
             in_verdict=True,
+            note=_note_floor(one),
         ),
         SpreadRecord(
             source=say("spread.between_cases"),
             low=used.value,
-            high=used.high - at_cases.high * scale + used.value,
+            high=used.value + used.high - numerical,
             in_verdict=True,
             note=say("spread.unknown_along", axes=unknown) if unknown else None,
         ),
     ]
     if task.probe is not None and extreme.force.value > 0.0:
-        on_force = used.value / extreme.force.value
-        spreads += _list_creep_laws(task.probe, task.row, extreme, on_force)
+        spreads += _list_creep_laws(task.probe, task.row, extreme, scale)
     return spreads
+
+
+def _use_at_cases(one: MemberCheck, extreme: Extreme) -> float:
+    """Utilisation by the coupled force without what may hide between the cases [-]."""
+    result, demand = one.result, one.demand
+    if demand is None or not (result.action_factor and result.design_resistance):
+        return 0.0
+    force = demand.load.apply(extreme.force).high * demand.on_support
+    return force * result.action_factor / result.design_resistance
+
+
+def _find_scale(one: MemberCheck) -> float | None:
+    """Utilisation for each N of the solved force [1/N]; None without a resistance.
+
+    What the load along the row adds counts in proportion.
+    """
+    result, demand = one.result, one.demand
+    if demand is None or not (result.action_factor and result.design_resistance):
+        return None
+    solved, on_force = demand.solved.high, demand.on_support * demand.load.share
+    if solved > 0.0:
+        on_force = demand.coupled.high / solved
+    return on_force * result.action_factor / result.design_resistance
+
+
+def _note_floor(one: MemberCheck) -> Message | None:
+    is_floor = one.demand is not None and one.demand.governs == "guideline"
+    return say("spread.floor_governs") if is_floor else None
 
 
 def _list_creep_laws(
@@ -259,49 +353,70 @@ def _list_creep_laws(
 
 
 def _list_changes(
-    task: RowCheck,
-    given: Resistance,
-    extreme: Extreme,
-    loads: RowLoads,
-    result: CheckResult,
+    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
 ) -> list[ChangeRecord]:
-    """Changes that flip a failing, unproven or close check."""
+    """Changes that flip a failing, unproven or close check.
+
+    What needs a solve is looked for at the support that uses its member most: where
+    that passes, the other one does.
+    """
+    result, used = one.result, one.result.utilisation
     if result.demand is None or result.demand.high == 0.0:
         return []
-    used = result.utilisation
     is_close = used is not None and used.high >= CLOSE
     gap = task.solved.gap
     if not is_close and (result.verdict is Verdict.PASS or (used and gap)):
         return []  # a case without result is not mended by any change
-    if isinstance(given.dimensions, BaseFriction):
+    if isinstance(one.given.dimensions, BaseFriction):
         return []  # in proportion to what presses the base
-    changes = _list_resistance_changes(task, given, result)
+    changes = _list_resistance_changes(task, one.given, result)
     if used is None or result.design_resistance is None:
         return changes
-    changes.append(find_spacing_change(loads.effects, used.high))
+    changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
     if gap:
         note = say("change.as_far_as_solved")
         return [replace(change, note=note) for change in changes]
-    if task.probe is None or given.dimensions or extreme.force.value == 0.0:
+    if task.probe is None or not is_worst or one.given.dimensions:
         return changes  # what follows the snow is no fixed resistance
-    at_cases = find_extreme(given.member, task.solved.results).force.high
-    margin = extreme.widened.high / at_cases
-    action = loads.act(given, extreme.widened).high / extreme.widened.high
-    on_force = action * (result.action_factor or math.nan)
-    target = Target(
-        row=task.row,
-        ranges=task.site.ranges,
-        member=given.member,
-        scale=on_force * margin / result.design_resistance,
-        governing=extreme.governing.case,
-        results=task.solved.results,
-    )
+    target = _build_target(task, one)
     found = (
         find_density_change(target, task.probe),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
     return [*changes, *(change for change in found if change is not None)]
+
+
+def _build_target(task: RowCheck, one: MemberCheck) -> Target:
+    """The check as a function of a solved case and of the snow height."""
+    extreme, scale = one.extreme, _find_scale(one)
+    if extreme is None or scale is None or one.demand is None:
+        raise ValueError("a check without a demand has no target")
+    member, ranges, demand = one.given.member, task.site.ranges, one.demand
+
+    def use(force: float) -> float:
+        """Utilisation by a force of the section with what is added to it."""
+        on_force = demand.on_support * (one.result.action_factor or math.nan)
+        on_member = demand.load.share * force + demand.load.added.value
+        return on_member * on_force / (one.result.design_resistance or math.nan)
+
+    def use_floor(row: NetRow) -> float:
+        floor = find_row_floor(row, ranges, task.standard)
+        least = floor.find(member) if floor else None
+        if floor is not None and least is None:
+            return math.inf
+        return use(least.force) if least else 0.0
+
+    at_cases = find_extreme(member, task.solved.results).force.high
+    return Target(
+        row=task.row,
+        ranges=ranges,
+        member=member,
+        scale=scale * (extreme.widened.high / at_cases if at_cases else 1.0),
+        governing=extreme.governing.case,
+        results=task.solved.results,
+        use_floor=use_floor,
+    )
 
 
 def _list_resistance_changes(

@@ -15,6 +15,7 @@ from netdesign.checks.check import not_proven
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces
@@ -136,6 +137,7 @@ def find_sideways(
     results: Sequence[CaseResult],
     extremes: Mapping[str, Extreme],
     standard: Standard,
+    floor: HeadSpan | None = None,
 ) -> Sideways:
     """Load along the row at the heads of a net row, over its solved cases.
 
@@ -149,6 +151,8 @@ def find_sideways(
         Largest forces of the members, with what may hide.
     standard : Standard
         Profile that gives the share of the load.
+    floor : HeadSpan or None
+        What the guideline's load brings at the head; None without a floor.
     """
     value, splay = standard.find(LATERAL_SHARE), row.guys.splay
     if value is None:
@@ -179,8 +183,11 @@ def find_sideways(
     return Sideways(
         share=value.value,
         splay=splay,
-        pull=_widen(heads, sum(hidden.values())),
-        least_tension=max(0.0, min(head.tension for head in heads) - in_guys),
+        pull=_widen(heads, sum(hidden.values()), floor.pull if floor else 0.0),
+        least_tension=min(
+            max(0.0, min(head.tension for head in heads) - in_guys),
+            floor.least_tension if floor else math.inf,
+        ),
         uphill=max(one.largest_uphill for one in weights),
         downhill=max(one.largest_downhill for one in weights),
         post=max(one.post for one in weights),
@@ -242,7 +249,7 @@ def _read_head(row: NetRow, result: CaseResult, anchors: AnchorForces) -> _Head:
     error = result.solution.head.error if result.solution else 0.0
     bands = result.member_forces
     return _Head(
-        pull=_sum_head(anchors),
+        pull=anchors.head_pull,
         error=error * row.layout.post_spacing,
         tension=sum(bands[guy].low for guy in GUYS),
         points=points,
@@ -250,18 +257,15 @@ def _read_head(row: NetRow, result: CaseResult, anchors: AnchorForces) -> _Head:
     )
 
 
-def _sum_head(anchors: AnchorForces) -> Point:
-    """Pull of the net on the head: the sum of what its members bring to the ground."""
-    forces = (anchors.post_base, anchors.uphill_anchor, anchors.downhill_anchor)
-    return sum(one.x for one in forces), sum(one.y for one in forces)
+def _widen(heads: Sequence[_Head], hidden: float, least: float) -> Band:
+    """Largest pull on a head with its error and with what may hide [N].
 
-
-def _widen(heads: Sequence[_Head], hidden: float) -> Band:
-    """Largest pull on a head with its error and with what may hide [N]."""
+    None of its ends lies below ``least``, that of the floor.
+    """
     return Band(
-        low=max(max(0.0, head.size - head.error) for head in heads),
-        value=max(head.size for head in heads),
-        high=max(head.size + head.error for head in heads) + hidden,
+        low=max(least, *(head.size - head.error for head in heads)),
+        value=max(least, *(head.size for head in heads)),
+        high=max(least, max(head.size + head.error for head in heads) + hidden),
     )
 
 

@@ -28,7 +28,7 @@ def find_type_change(
     """
     enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
     for row in site.rows:
-        for other in row.resistances:
+        for other in (*row.resistances, *(row.end_resistances or ())):
             if other.mode != given.mode:
                 continue
             factor = standard.find_resistance_factor(other.mode, other.basis)

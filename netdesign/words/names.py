@@ -29,6 +29,10 @@ def name_mode(mode: str) -> Message:
     return name("mode", mode)
 
 
-def name_check(member: str, mode: str) -> Message:
-    """Name of a check by its member and mode: "Foot anchor, pull-out"."""
-    return say("check.title", member=name_member(member), mode=name_mode(mode))
+def name_check(member: str, mode: str, position: str = "") -> Message:
+    """Name of a check by its member and mode: "Foot anchor, pull-out".
+
+    That of a row's first and last support says so.
+    """
+    title = say("check.title", member=name_member(member), mode=name_mode(mode))
+    return say("check.of_end", check=title) if position == "edge" else title

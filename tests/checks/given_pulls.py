@@ -1,6 +1,7 @@
 """A net row from a workbook, judged under given pulls of the net, without a solve."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
@@ -66,8 +67,21 @@ def judge_row(tmp_path: Path, profile, **changes):
     return {check.id: check for check in row.checks}
 
 
-def study_row(tmp_path: Path, profile, *, anchor, foot, head, post=POST, **nets):
-    """Study of the row under a profile, given by its id or its folder."""
+def study_row(
+    tmp_path: Path,
+    profile,
+    *,
+    anchor,
+    foot,
+    head,
+    floor="none",
+    post=POST,
+    **nets,
+):
+    """Study of the row under a profile, given by its id or its folder.
+
+    Without a floor by the guideline's load the given pulls are the demand.
+    """
     sheets = {
         "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
         "Anchors": {"id": "A"} | anchor,
@@ -93,7 +107,8 @@ def study_row(tmp_path: Path, profile, *, anchor, foot, head, post=POST, **nets)
     site = read_site(path)
     result = give_pulls(site, foot, head)
     run = CheckRun(settings=SolverSettings())
-    return judge_site(site, [RowGrid(results=[result])], load_standard(profile), run)
+    standard = replace(load_standard(profile), floor=floor)
+    return judge_site(site, [RowGrid(results=[result])], standard, run)
 
 
 def give_pulls(site, foot, head) -> CaseResult:

@@ -155,7 +155,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         **{"glide factor [-]": 2.0, "post spacing [m]": 4.0},
     )
     # No gap is given: a free end. f_R = 1.00 + 1.25 * 2.0 = 3.5 over D_K / 3 = 1.0 m:
-    # edge 4 / 2 + 3.5 * 1.0 = 5.5 m > 4 m: the edge governs (all recalled, UV-0704).
+    # edge 4 / 2 + 3.5 * 1.0 = 5.5 m > 4 m of those inside (all recalled, UV-0704).
     # Geometry as in row 1; head pull on 5.5 m: (22, -82.5) kN.
     post = (22.0 * 0.53544 + 0.84458 * 82.5) / 0.67722  # 120.28 kN
     guy = (0.25882 * 82.5 + 0.96593 * 22.0) / 0.67722  # 62.91 kN
@@ -163,7 +163,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     foot = 1.5 * 105.65 * 1.00499  # 159.27 kN
     # Tendon pi/4 * 32^2 * 500 = 402.1 kN, 1.35 (recalled).
     expect(
-        checks["foot_anchor.tendon"],
+        checks["foot_anchor.tendon.end"],
         demand=foot,
         resistance=402.12 / 1.35,
         utilisation=0.5347,
@@ -172,7 +172,7 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     # Bond: pi * 0.09 * 5.0 * 120 kPa (FHWA, gravel, type B, least) = 169.65 kN;
     # 1.35 * 1.40 = 1.89: 89.76 kN.
     expect(
-        checks["foot_anchor.pull_out"],
+        checks["foot_anchor.pull_out.end"],
         demand=foot,
         resistance=169.65 / 1.89,
         utilisation=1.7744,
@@ -180,29 +180,34 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
     )
     # Head 5.5 m wide: S = 0.1 * 85.38 kN; geometry and kappa as in row 1.
     expect(
-        checks["uphill_guy.rope"],
+        checks["uphill_guy.rope.end"],
         demand=1.5 * (guy / (2.0 * 0.86603) + 0.5351 * 8.538 / 0.5),
         resistance=201.64 / 1.35,  # recalled factor of ropes
         utilisation=0.4565,
         verdict=Verdict.PASS,
     )
     expect(
-        checks["post.compression"],
+        checks["post.compression.end"],
         demand=1.5 * post,
         resistance=395.7 / 1.05,
         utilisation=0.4788,
         verdict=Verdict.PASS,
     )
-    action = checks["foot_anchor.pull_out"].action
+    action = checks["foot_anchor.pull_out.end"].action
     assert (action.position, action.loaded_width_m) == ("edge", pytest.approx(5.5))
+    # Inside the row the same anchor carries 4 m: 4 / 5.5 of it.
+    inside = checks["foot_anchor.pull_out"]
+    assert inside.action.position == "intermediate"
+    assert inside.demand_kN == pytest.approx(foot * 4.0 / 5.5, **CLOSE)
+    assert inside.utilisation == pytest.approx(1.7744 * 4.0 / 5.5, **CLOSE)
     # Resistance that would do, for the pull-out: 159.27 * 1.89 = 301.0 kN.
-    needed = checks["foot_anchor.pull_out"].changes[0]
+    needed = checks["foot_anchor.pull_out.end"].changes[0]
     assert needed.bound == pytest.approx(159.27 * 1.89, **CLOSE)
     # Widest spacing: the edge may have 5.5 / 1.7744 = 3.0996 m, and its end effect
     # takes 3.5 m of them: no spacing does.
     spacing = next(
         c
-        for c in checks["foot_anchor.pull_out"].changes
+        for c in checks["foot_anchor.pull_out.end"].changes
         if c.quantity.key == "change.post_spacing"
     )
     assert spacing.bound is None

@@ -212,6 +212,13 @@ def test_consequence_class_3_is_stricter(folder):
             "'unit' = 'cm': must be 'm' for geometry.gap.max",
         ),
         (
+            "nf-p-95-304-style",
+            "document.toml",
+            'floor = "guideline"',
+            'floor = "margreth"',
+            "'load' 'floor' = 'margreth': Input should be 'guideline' or 'none'",
+        ),
+        (
             "onr-24805-style",
             "choices.toml",
             'name = "cc3"',
@@ -273,3 +280,15 @@ def test_edited_value_is_found_by_its_new_number(folder):
     assert replace(standard, values=shipped.values, sha256=shipped.sha256) == replace(
         shipped
     )
+
+
+@pytest.mark.parametrize("name", list_standards())
+def test_profiles_have_the_guideline_as_floor_unless_they_say_otherwise(folder, name):
+    assert load_standard(name).floor == "guideline"
+    mine = folder(name)
+    file = mine / "document.toml"
+    text = file.read_text("utf-8")
+    file.write_text(text.replace('load.floor = "guideline"\n', ""), "utf-8")
+    assert load_standard(mine).floor == "guideline"
+    file.write_text(text.replace('"guideline"', '"none"'), "utf-8")
+    assert load_standard(mine).floor == "none"

@@ -186,3 +186,25 @@ def test_all_faults_of_a_file_are_told_at_once():
     lines = refusal(FactorsFile, {"factor": entries}).splitlines()
     assert len(lines) == 2 + 6
     assert all(line.startswith("my.toml: 'factor' entry ") for line in lines)
+
+
+def test_profile_that_says_nothing_of_the_floor_has_the_guideline_as_floor():
+    for load in ({}, {"load": {}}, {"load": {"floor": "guideline"}}):
+        file = check_table(DocumentFile, a_document(**load), "d")
+        assert file.load.floor == "guideline"
+    without = check_table(DocumentFile, a_document(load={"floor": "none"}), "d")
+    assert without.load.floor == "none"
+
+
+@pytest.mark.parametrize("floor", ["margreth", "", "None", "GUIDELINE", 1, False])
+def test_floor_that_nobody_knows_is_one_finding_with_place_and_words(floor):
+    text = refusal(DocumentFile, a_document(load={"floor": floor}))
+    assert text.count("\n") == 0
+    assert text.startswith("my.toml: 'load' 'floor'")
+    assert "'guideline' or 'none'" in text
+
+
+def test_other_key_beside_the_floor_is_refused_with_what_is_accepted():
+    text = refusal(DocumentFile, a_document(load={"flor": "none"}))
+    assert "'load' 'flor': unknown key; accepted are floor" in text
+    assert "'load'" in refusal(DocumentFile, a_document(load="none"))

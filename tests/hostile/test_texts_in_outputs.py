@@ -48,7 +48,7 @@ ATTACKS = (
 )
 # Set by the program, compared with words of its own, or of a form that is checked.
 KEPT = {"schema", "member", "mode", "quantity", "anchor", "started", "status", "id"}
-KEPT |= {"sense"}
+KEPT |= {"sense", "governs"}
 
 
 def attack(value, text, key=""):

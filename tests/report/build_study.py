@@ -20,6 +20,8 @@ from netdesign.study.records import (
     CheckRecord,
     Drawing,
     ExtremeRecord,
+    FloorForceRecord,
+    FloorRecord,
     GuidelineCase,
     GuidelineRecord,
     HeadForce,
@@ -174,7 +176,31 @@ def build_row(
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
+        floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
+    )
+
+
+def build_floor(extreme: ExtremeRecord) -> FloorRecord:
+    """One member of a floor."""
+    return FloorRecord(
+        profile="swiss-guideline-2007",
+        sha256="0" * 64,
+        forces=[
+            FloorForceRecord(
+                member=extreme.quantity,
+                force_kN=0.4 * extreme.max_kN / 1.1,
+                load_case="load_case_1",
+                inclination_deg=35.0,
+                density_kg_m3=270.0,
+                height_vertical_m=5.22,
+                creep_factor=0.741,
+                glide_factor=1.0,
+                load_along_kN_per_m=12.0,
+                load_across_kN_per_m=-3.4,
+                chord_tension_kN_per_m=17.1,
+            )
+        ],
     )
 
 
@@ -364,6 +390,11 @@ def build_check(
             end_factor=1.6,
             end_length_m=1.5,
             lateral_factor=1.0,
+            coupled_kN=extreme.high_kN,
+            floor_kN=0.4 * extreme.max_kN / 1.1,
+            guideline_kN=0.4 * extreme.max_kN,
+            floor_case="load_case_1",
+            floor_inclination_deg=35.0,
         ),
         spreads=[
             SpreadRecord(

@@ -1,6 +1,7 @@
 """End effect and lateral load against the guideline's formulas by hand."""
 
 import math
+from itertools import pairwise
 
 import pytest
 
@@ -9,7 +10,7 @@ from netdesign.structure.row_position import (
     EndEffectRule,
     compute_edge_width,
     compute_lateral_factor,
-    find_governing_width,
+    list_supports,
 )
 
 RULE = EndEffectRule(
@@ -52,17 +53,39 @@ def test_length_is_capped_by_the_net_height():
     assert an_edge(gap=1.9, net_height=1.5).end_length == 0.5
 
 
-@pytest.mark.parametrize(
-    ("gap", "position"), [(1.0, "intermediate"), (math.inf, "edge")]
-)
-def test_larger_width_governs(gap, position):
-    governing = find_governing_width(4.0, an_edge(gap=gap))
-    assert governing.position == position
-    assert governing.width == pytest.approx(4.0 if gap == 1.0 else 5.5, rel=1e-14)
+@pytest.mark.parametrize("gap", [1.81, 1.99, 2.0, 2.19])
+def test_gap_close_to_the_threshold_gives_both_widths_and_takes_the_wider(gap):
+    """Free end 2 + 3.5 m; beside the gap 2 + (0.92 + 1.30) gap / 2 * 0.60 gap / 2."""
+    edge = an_edge(gap=gap)
+    beside = 2.0 + min(2.22 * gap / 2.0, 3.5) * 0.30 * gap
+    assert edge.width == pytest.approx(5.5, rel=1e-14)
+    assert edge.other_width == pytest.approx(beside, rel=1e-14)
+    assert (edge.end_factor, edge.end_length) == (3.5, 1.0)
 
 
-def test_without_a_rule_a_whole_bay_is_loaded():
-    assert find_governing_width(4.0, None).width == 4.0
+@pytest.mark.parametrize("gap", [0.0, 1.79, 2.21, math.inf])
+def test_gap_away_from_the_threshold_has_one_width(gap):
+    assert an_edge(gap=gap).other_width is None
+
+
+def test_width_has_no_jump_that_a_slip_of_the_gap_could_hide():
+    """0.1.0 rose from 2.666 to 5.5 m between 1.99 and 2 m; the rise has two values."""
+    gaps = [0.01 * k for k in range(400)]
+    edges = [an_edge(gap=gap) for gap in gaps]
+    for below, above in pairwise(edges):
+        least = above.width if above.other_width is None else above.other_width
+        assert least - below.width < 0.02
+        assert above.width >= below.width - 1e-12
+
+
+def test_row_has_a_support_inside_and_its_end():
+    edge = an_edge(gap=1.0)
+    inside, end = list_supports(4.0, edge)
+    assert (inside.position, inside.width, inside.end_factor) == (
+        "intermediate", 4.0, 0.0,
+    )  # fmt: skip
+    assert end is edge
+    assert [one.width for one in list_supports(4.0, None)] == [4.0]
 
 
 @pytest.mark.parametrize(

@@ -229,7 +229,7 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     """The snow density that is told passes with the bound, and a little more fails."""
     band = envelopes[0].extremes["foot_anchor"].widened
     study = judge(standard, envelopes)
-    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon")
+    check = next(c for c in study.rows[0].checks if c.id == "foot_anchor.tendon.end")
     factor = on_row(check) * check.action_factor * check.resistance_factor
     row = build_row(
         "R1", resistances=resist(foot_anchor__tendon=0.85 * band.value * factor)
@@ -237,7 +237,7 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
     site = build_site(row, ranges=RANGES)
     probe = Probe(RUN.settings, RUN.creep_law)
     again = judge_site(site, envelopes[:1], standard, RUN, probe)
-    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon")
+    check = next(c for c in again.rows[0].checks if c.id == "foot_anchor.tendon.end")
     assert check.verdict is Verdict.FAIL
     changes = {str(change.quantity): change for change in check.changes}
     bound = changes["snow density"].bound
@@ -251,7 +251,9 @@ def test_what_flips_a_check_of_a_searched_row_is_solved(standard, envelopes):
         changed = build_site(row, ranges=ranges)
         found = search_site(changed, RUN)
         judged = judge(standard, found, changed).rows[0]
-        return next(c for c in judged.checks if c.id == "foot_anchor.tendon").verdict
+        return next(
+            c for c in judged.checks if c.id == "foot_anchor.tendon.end"
+        ).verdict
 
     assert verdict(bound) is Verdict.PASS
     assert verdict(bound + 15.0) is not Verdict.PASS

@@ -13,7 +13,6 @@ from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.effects import RowEffects
 from netdesign.study.flips import (
     Target,
     find_density_change,
@@ -188,20 +187,16 @@ def test_friction_that_never_helps_and_that_never_hurts():
     assert change.bound is None
 
 
-def some_effects(width):
-    return RowEffects(post_spacing=4.0, width=width, lateral_share=0.1, missing="")
-
-
 def test_spacing_is_in_proportion_inside_the_row():
     width = LoadedWidth(position="intermediate", width=4.0)
-    assert find_spacing_change(some_effects(width), 1.25).bound == 3.2
+    assert find_spacing_change(4.0, width, 1.25).bound == 3.2
 
 
 def test_spacing_at_the_edge_leaves_its_end_effect():
     """Edge 4 / 2 + 1.5 * 2 = 5 m, used 1.25: 4 m allowed, 2 (4 - 3) = 2 m."""
     width = LoadedWidth(position="edge", width=5.0, end_factor=1.5, end_length=2.0)
-    assert find_spacing_change(some_effects(width), 1.25).bound == 2.0
-    assert find_spacing_change(some_effects(width), 2.0).bound is None
+    assert find_spacing_change(4.0, width, 1.25).bound == 2.0
+    assert find_spacing_change(4.0, width, 2.0).bound is None
 
 
 def test_governing_case_is_of_the_grid():
@@ -252,3 +247,47 @@ def test_an_angle_of_a_few_searched_cases_proves_nothing():
     change = find_friction_change(target, MadeUpProbe(by_friction))
     assert change.sense == "at most"
     assert change.bound == pytest.approx(24.0, abs=0.11)
+
+
+def with_floor(scale, used):
+    """Target whose floor is used so far at today's height, and goes with its square."""
+    target = a_target(scale)
+
+    def use_floor(row):
+        return used * (row.snow_thickness / ROW.snow_thickness) ** 2
+
+    return replace(target, use_floor=use_floor)
+
+
+def test_floor_that_fails_is_mended_by_no_density_and_no_friction_angle():
+    target, probe = with_floor(0.3, 1.21), MadeUpProbe()
+    for found in (find_density_change, find_friction_change):
+        change = found(target, probe)
+        assert (change.bound, change.solves) == (None, 0)
+        assert change.note.key == "change.floor_stays"
+    assert probe.count == 0
+
+
+def test_height_is_limited_by_the_floor_where_that_is_lower():
+    """Floor 1.21 at today's height: met at 1 / 1.1 of it, rounded down."""
+    change = find_height_change(with_floor(0.3, 1.21), MadeUpProbe())
+    most = ROW.snow_thickness / 1.1
+    assert most - 0.011 < change.bound <= most
+    assert change.note.key == "change.floor_limits"
+    same = find_height_change(with_floor(1.3, 0.5), MadeUpProbe())
+    alone = find_height_change(a_target(1.3), MadeUpProbe())
+    assert (same.bound, same.note) == (alone.bound, alone.note)
+
+
+def test_height_of_a_slack_member_follows_from_the_floor_alone():
+    slack = replace(with_floor(0.0, 1.44), scale=0.0)
+    probe = MadeUpProbe()
+    change = find_height_change(slack, probe)
+    assert change.bound == pytest.approx(ROW.snow_thickness / 1.2, abs=0.011)
+    assert probe.count == change.solves == 0
+
+
+def test_floor_that_no_height_meets_leaves_no_bound():
+    change = find_height_change(with_floor(0.3, 4.1), MadeUpProbe())
+    assert change.bound is None
+    assert change.note.key == "change.not_even"

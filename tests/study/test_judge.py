@@ -76,7 +76,8 @@ def test_study_is_complete(results, standard):
     assert study.project.name == "Combe"
     assert [row.id for row in study.rows] == ["R1", "R2"]
     modes = (*MEMBER_MODES, *DEPENDENT_MODES)
-    expected = [f"{member}.{mode}" for member, mode in modes]
+    inside = [f"{member}.{mode}" for member, mode in modes]
+    expected = [*inside, *(f"{one}.end" for one in inside)]
     for row in study.rows:
         assert [check.id for check in row.checks] == [
             *expected,
@@ -153,7 +154,8 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     )
     # two samples on each axis: nothing is known between the cases, and told
     between = next(s for s in check.spreads if s.source.key == "spread.between_cases")
-    assert (between.low, between.high) == (check.utilisation, check.utilisation)
+    assert between.low == check.utilisation
+    assert between.high == pytest.approx(check.utilisation, rel=1e-12)
     assert "density, friction angle" in str(between.note)
     assert check.demand_high_kN == pytest.approx(
         factors["action.snow"] * on_row * action.high_kN, rel=1e-12
@@ -200,12 +202,14 @@ def test_a_missing_resistance_is_named(judge):
     assert check.resistance_kN is None
     assert "no resistance is given for " in str(check.reason)
     assert "Anchors!B2" in str(check.reason)
+    end = check_of(study, "foot_anchor.pull_out.end")
     assert study.rows[0].reasons == [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode),
-            reason=check.reason,
+            check=name_check(one.member, one.mode, one.position),
+            reason=one.reason,
         )
+        for one in (check, end)
     ]
 
 

@@ -21,6 +21,7 @@ FAMILIES: tuple[str, ...] = (
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("law.", "termination.", "verdict.", "meaning.", "label.", "load_case."),
+    *("load.", "load_name.", "show.load_", "floor.profile_"),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(
         "profile_about.",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.row_tables import describe_widths
+from netdesign.report.view.row_tables import describe_load, describe_widths, show_loads
 from netdesign.report.words import (
     MISSING,
     VerdictWords,
@@ -20,7 +20,7 @@ from netdesign.report.words import (
     show_verdict,
     show_with_unit,
 )
-from netdesign.study.records import CheckRecord
+from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.names import name
 
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.PASS)  # worst first
@@ -56,6 +56,8 @@ class CheckView:
     case: str
     case_short: str
     reason: str
+    load: str  # which load governs, and both values; "" without a floor
+    loads: str  # both values by their symbols
 
     @property
     def resistance_from(self) -> str:
@@ -125,10 +127,28 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
         band=show_band(words, "utilisation", low, high),
         bar=_build_bar(low, check.utilisation, high),
         verdict=show_verdict(check.verdict, words),
-        case=name_case(check.case),
-        case_short=name_case_short(check.case),
+        case=_name_case(check, words),
+        case_short=_name_case(check, words, is_short=True),
         reason=words.show(check.reason),
+        load=describe_load(check, words),
+        loads=show_loads(check),
     )
+
+
+def find_case(check: CheckRecord) -> CasePoint | None:
+    """Case of the ranges that brings the demand; None where the guideline does."""
+    action = check.action
+    return None if action and action.governs == "guideline" else check.case
+
+
+def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> str:
+    """Case that brings the demand: of the ranges, or the guideline's load case."""
+    action, case = check.action, find_case(check)
+    if action is None or action.governs != "guideline":
+        return name_case_short(case) if is_short else name_case(case)
+    named = show_text(words.show(name("load_case", action.floor_case)))
+    inclination = show_with_unit("inclination_deg", action.floor_inclination_deg)
+    return f"{named}, θ {inclination}"
 
 
 def _build_bar(
@@ -149,7 +169,7 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
         title=words(
             "show.row_at_case",
             check=show_check(words, check),
-            case=name_case(check.case),
+            case=_name_case(check, words),
         ),
         steps=(
             *_derive_action(check),

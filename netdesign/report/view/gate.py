@@ -41,6 +41,7 @@ def require_consistent(study: Study) -> None:
         for check in row.checks:
             where = say("audit.check", place=place, check=check.id)
             _require_sound(where, check)
+            _require_floor(where, check, study.profile.floor)
 
 
 def _require_earned(place: Message, whole: Verdict, parts: Iterable[Verdict]) -> None:
@@ -85,6 +86,30 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
                     high=show_value(high),
                 )
             )
+
+
+def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
+    """Refuse a demand below the guideline's load, and a pass that does not know it."""
+    action, force = check.action, check.action_kN
+    if action is None or force is None or floor == "none":
+        return
+    least = action.guideline_kN
+    if least is None:
+        if check.verdict is Verdict.PASS:
+            raise NetDesignError(say("audit.without_floor", place=place))
+        return
+    ends = [force, *_divide_demands(check)]
+    is_above = all(end >= least * (1.0 - _TOLERANCE) for end in ends)
+    governs = "guideline" if least and least >= action.coupled_kN else "coupled"
+    if not is_above or action.governs != governs:
+        raise NetDesignError(say("audit.below_floor", place=place, least=least))
+
+
+def _divide_demands(check: CheckRecord) -> list[float]:
+    """Ends of the demand without the factor, as far as they are known [kN]."""
+    ends = (check.demand_low_kN, check.demand_high_kN)
+    factor = check.action_factor
+    return [end / factor for end in ends if end is not None and factor]
 
 
 def _require_sizes(place: Message, check: CheckRecord) -> None:

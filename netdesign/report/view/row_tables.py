@@ -22,7 +22,9 @@ from netdesign.report.words import (
     show_band,
     show_check,
     show_member,
+    show_number,
     show_quantity,
+    show_text,
     show_with_unit,
 )
 from netdesign.study.records import (
@@ -327,22 +329,23 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
         tilt = show_with_unit("share", action.share)
         steps.append(("g", "|F_x / F_y|", tilt))
     solved = show_with_unit("solved_kN", action.solved_kN)
-    symbols, numbers = "E_s", solved
-    if action.share != 1.0 or action.added_kN:
-        share, added = (
-            show_with_unit(key, getattr(action, key)) for key in ("share", "added_kN")
+    if action.floor_kN is None:
+        force = show_with_unit("action_kN", check.action_kN)
+        symbols, numbers = _load_member("E_s", solved, action)
+        line = (f"E_k = {symbols} · b_e / b · k_q", _widen(numbers, action), force)
+        steps.append(line)
+    else:
+        steps += _describe_floor(check, action, solved)
+    if action.other_width_m is not None and check.action_kN is not None:
+        other = check.action_kN * action.other_width_m / action.loaded_width_m
+        width, taken = (
+            show_with_unit("loaded_width_m", one)
+            for one in (action.other_width_m, action.loaded_width_m)
         )
-        symbols, numbers = "(g · E_s + A)", f"({share} · {solved} + {added})"
-    steps.append(
-        (
-            f"E_k = {symbols} · b_e / b · k_q",
-            f"{numbers} · "
-            f"{show_with_unit('loaded_width_m', action.loaded_width_m)} / "
-            f"{show_with_unit('post_spacing_m', action.post_spacing_m)} · "
-            f"{show_with_unit('lateral_factor', action.lateral_factor)}",
-            show_with_unit("action_kN", check.action_kN),
-        )
-    )
+        force = show_with_unit("action_kN", check.action_kN)
+        numbers = f"{force} · {width} / {taken}"
+        shown = show_with_unit("action_kN", other)
+        steps.append(("E_k' = E_k · b_e' / b_e", numbers, shown))
     return tuple(steps)
 
 
@@ -371,3 +374,109 @@ def _describe_parts(action: ActionRecord) -> list[tuple[str, str, str]]:
         symbols = "A = w · (k · P / tan β − T_min)"
         numbers = f"{part} · ({share} · {pull} / tan {splay} − {tension})"
     return [*steps, (symbols, numbers, added)]
+
+
+def _load_member(symbol: str, force: str, action: ActionRecord) -> tuple[str, str]:
+    """Force of the section with its share and what is added, symbols and numbers."""
+    if action.share == 1.0 and not action.added_kN:
+        return symbol, force
+    share, added = (
+        show_with_unit(key, getattr(action, key)) for key in ("share", "added_kN")
+    )
+    return f"(g · {symbol} + A)", f"({share} · {force} + {added})"
+
+
+def _describe_floor(
+    check: CheckRecord, action: ActionRecord, solved: str
+) -> list[tuple[str, str, str]]:
+    """The coupled force and the guideline's, of which the larger one counts."""
+    on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
+    on_member = action.share * action.solved_kN + action.added_kN
+    coupled = show_with_unit("coupled_kN", on_member * on_row)
+    floor = show_with_unit("floor_kN", action.floor_kN)
+    least = show_with_unit("guideline_kN", action.guideline_kN)
+    force = show_with_unit("action_kN", check.action_kN)
+    by_solve, solved_numbers = _load_member("E_s", solved, action)
+    by_floor, floor_numbers = _load_member("E_g0", floor, action)
+    return [
+        (f"E_c = {by_solve} · b_e / b · k_q", _widen(solved_numbers, action), coupled),
+        (f"E_g = {by_floor} · b_e / b · k_q", _widen(floor_numbers, action), least),
+        ("E_k = max(E_c; E_g)", f"max({coupled}; {least})", force),
+    ]
+
+
+def _widen(force: str, action: ActionRecord) -> str:
+    return (
+        f"{force} · {show_with_unit('loaded_width_m', action.loaded_width_m)} / "
+        f"{show_with_unit('post_spacing_m', action.post_spacing_m)} · "
+        f"{show_with_unit('lateral_factor', action.lateral_factor)}"
+    )
+
+
+_FLOOR = (
+    "force_kN",
+    "inclination_deg",
+    "density_kg_m3",
+    "height_vertical_m",
+    "creep_factor",
+    "glide_factor",
+    "load_along_kN_per_m",
+    "load_across_kN_per_m",
+    "chord_tension_kN_per_m",
+)
+
+
+def build_floor(row: RowStudy, words: Words) -> Table:
+    """Largest forces by the guideline's load, with what each follows from."""
+    floor = row.floor
+    empty = words("floor.none")
+    if floor is not None and floor.reason is not None:
+        empty = words.show(floor.reason)
+    return Table(
+        caption=words("caption.floor"),
+        columns=(
+            text_column(words("heading.member")),
+            text_column(words("heading.load_case")),
+            *(quantity_column(words, key) for key in _FLOOR),
+        ),
+        rows=tuple(
+            (
+                text_cell(show_member(words, force.member)),
+                text_cell(words.show(name("load_case", force.load_case))),
+                *(number_cell(key, getattr(force, key)) for key in _FLOOR),
+            )
+            for force in (floor.forces if floor else ())
+        ),
+        empty=empty,
+    )
+
+
+def describe_load(check: CheckRecord, words: Words) -> str:
+    """Governing load of a demand, with both values; "" without a floor."""
+    action = _find_loaded(check)
+    if action is None:
+        return ""
+    return words(
+        f"show.load_{action.governs}",
+        coupled=show_with_unit("coupled_kN", action.coupled_kN),
+        guideline=show_with_unit("guideline_kN", action.guideline_kN),
+        case=show_text(words.show(name("load_case", action.floor_case))),
+    )
+
+
+def show_loads(check: CheckRecord) -> str:
+    """Both values by their symbols, characteristic; "" without a floor."""
+    action = _find_loaded(check)
+    if action is None:
+        return ""
+    coupled = show_number("coupled_kN", action.coupled_kN)
+    guideline = show_with_unit("guideline_kN", action.guideline_kN)
+    return f"E_c ≤ {coupled}, E_g = {guideline}"
+
+
+def _find_loaded(check: CheckRecord) -> ActionRecord | None:
+    """Action under a floor; None without one, and of a member slack under both."""
+    action = check.action
+    if action is None or action.guideline_kN is None:
+        return None
+    return action if action.coupled_kN or action.guideline_kN else None

@@ -73,6 +73,7 @@ class RowView:
     independent: Table
     guideline: Table
     guideline_sentence: str
+    floor: Table
     notes: tuple[str, ...]
 
 
@@ -199,6 +200,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         independent=row_tables.build_independent(row, words),
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
+        floor=row_tables.build_floor(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 
@@ -279,7 +281,19 @@ def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
             words("heading.cases"),
             words("show.cases_solved", solved=cases - failed, failed=failed),
         ),
+        (words("heading.floor"), _tell_floor(study, words)),
     )
+
+
+def _tell_floor(study: Study, words: Words) -> str:
+    """Floor of the demands, and how often it governs."""
+    if study.profile.floor == "none":
+        return words("floor.none")
+    actions = [c.action for row in study.rows for c in row.checks if c.action]
+    governed = sum(one.governs == "guideline" for one in actions)
+    profiles = {row.floor.profile for row in study.rows if row.floor}
+    named = show_text(", ".join(sorted(profiles)))
+    return words("floor.told", profile=named, count=governed, all=len(actions))
 
 
 def _list_assumed(study: Study, words: Words) -> str:

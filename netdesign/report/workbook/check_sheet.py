@@ -23,7 +23,7 @@ from netdesign.report.view.check_formulas import (
     write_unchanged,
     write_verdict,
 )
-from netdesign.report.view.check_view import CheckView
+from netdesign.report.view.check_view import CheckView, find_case
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
@@ -126,22 +126,27 @@ _TAIL = (
     _Field("W", "", "heading.resistance_from", 18),
     _Field("X", "", "heading.reason", 36),
 )
+_LOADS = (
+    _field("Y", "coupled_kN", "high"),
+    _field("Z", "guideline_kN"),
+    _Field("AA", "", "heading.governing_load", 20),
+)
 _CASES = tuple(
     _Field(letter, quantity, "", 8.5)
     for letter, quantity in zip("TUV", CASE_QUANTITIES, strict=True)
 )
 # Hidden: what the live cells are compared with, and what is sorted by.
-_RANK = _Field("Y", "", "heading.rank", 8)
-_UNCHANGED = _Field("Z", "", "heading.as_in_study", 8)
+_RANK = _Field("AB", "", "heading.rank", 8)
+_UNCHANGED = _Field("AC", "", "heading.as_in_study", 8)
 _STUDY_TEXTS = (
-    _Field("AA", "", "heading.resistance_from", 8, is_of_study=True),
-    _Field("AB", "", "heading.reason", 8, is_of_study=True),
+    _Field("AD", "", "heading.resistance_from", 8, is_of_study=True),
+    _Field("AE", "", "heading.reason", 8, is_of_study=True),
 )
-_STUDY_VERDICT = _Field("AC", "", "heading.verdict", 8, is_of_study=True)
+_STUDY_VERDICT = _Field("AF", "", "heading.verdict", 8, is_of_study=True)
 _STUDY_NUMBERS = (
-    _Field("AD", "utilisation", "", 8, "low", is_of_study=True),
-    _Field("AE", "utilisation", "", 8, "high", is_of_study=True),
-    _Field("AF", "resistance_characteristic_kN", "", 8, is_of_study=True),
+    _Field("AG", "utilisation", "", 8, "low", is_of_study=True),
+    _Field("AH", "utilisation", "", 8, "high", is_of_study=True),
+    _Field("AI", "resistance_characteristic_kN", "", 8, is_of_study=True),
 )
 _SHOWN = (
     *_LEAD,
@@ -156,6 +161,7 @@ _SHOWN = (
     _VERDICT,
     *_CASES,
     *_TAIL,
+    *_LOADS,
 )
 _HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
 _FIELDS = (*_SHOWN, *_HIDDEN)
@@ -195,6 +201,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         "check_verdict": _VERDICT,
         "check_rank": _RANK,
         "check_unchanged": _UNCHANGED,
+        "check_load": _LOADS[2],
         **{f"check_case_{n}": field for n, field in enumerate(_CASES, 1)},
     }
     for name, field in named.items():
@@ -241,9 +248,10 @@ class _CheckLine:
         self._put(_LEAD[0], Cell(text=str(number), number=float(number)))
         self._write_numbers(check)
         self._write_verdict(number, check)
-        case = check.case
+        case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
+        self._write_loads(check, view)
         texts = (show_text(name), view.title, view.clause)
         for field, text in zip(_LEAD[1:], texts, strict=True):
             self._put(field, Cell(text=text))
@@ -253,6 +261,14 @@ class _CheckLine:
         shown = (*texts, view.resistance_from, view.reason)
         lines = count_lines(shown, [field.width for field in fields])
         self._book.set_height(self._sheet, self._line, lines)
+
+    def _write_loads(self, check: CheckRecord, view: CheckView) -> None:
+        """Coupled bound and guideline's force, characteristic, and the larger one."""
+        action = check.action
+        bound, least, governing = _LOADS
+        self._put_number(bound, action.coupled_kN if action else None)
+        self._put_number(least, action.guideline_kN if action else None)
+        self._put(governing, Cell(text=show_load(check, view, self._book.words)))
 
     def _write_numbers(self, check: CheckRecord) -> None:
         actions, demands = _list_actions(check), _list_demands(check)
@@ -341,6 +357,14 @@ class _CheckLine:
         live = f'=IFERROR({formula},"{MISSING}")'
         cached = MISSING if value is None else value
         self._sheet.write_formula(self._at(field), live, form, cached)
+
+
+def show_load(check: CheckRecord, view: CheckView, words: Words) -> str:
+    """Load that governs; that of the guideline with its case."""
+    if check.action is None or not view.load:
+        return MISSING
+    named = words(f"load_name.{check.action.governs}")
+    return f"{named}, {view.case}" if find_case(check) is None else named
 
 
 def decide_by_ratio(low: float | None, high: float | None) -> Verdict:

@@ -141,7 +141,11 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
     ):
         caption = parts[0][1].caption if parts else book.words(title)
         stacked = _stack(book, caption, parts)
-        sheet = book.add_table_sheet(name, book.words(title), [stacked])
+        shown = [stacked]
+        if name == "guideline":
+            floors = _list_parts(view, "floor")
+            shown.append(_stack(book, book.words("caption.floor"), floors))
+        sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:
             add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))

@@ -7,12 +7,12 @@ from typing import Any
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.view.check_formulas import write_merged
-from netdesign.report.view.check_view import find_governing, find_highest
+from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import MISSING, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
-from netdesign.report.workbook.check_sheet import CHANGED
+from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import CasePoint, RowStudy, Study
@@ -151,7 +151,7 @@ def _write_governing(
         f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
     )
     case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"'
-    governing = find_governing(row.checks)
+    load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
     form = book.text(text_wrap=True)
     title = shown.governing.title if shown.governing else none
     is_there = f"COUNTIFS({mine})>0"
@@ -165,16 +165,23 @@ def _write_governing(
     sheet.write_formula(
         index,
         _CASE,
-        f'=IFERROR(IF({is_there},{case},"{MISSING}"),"{MISSING}")',
+        f'=IFERROR(IF({is_there},{case},"{MISSING}"),{load})',
         form,
-        _show_case(governing.case if governing else None),
+        _tell_case(book, row, shown),
     )
 
 
-def _show_case(case: CasePoint | None) -> str:
-    """Case as the formula shows it."""
-    if case is None:
+def _tell_case(book: Book, row: RowStudy, shown: RowView) -> str:
+    """Case that brings the governing demand, or the guideline's load case."""
+    check, view = find_governing(row.checks), shown.governing
+    if check is None or view is None:
         return MISSING
+    case = find_case(check)
+    return show_load(check, view, book.words) if case is None else _show_case(case)
+
+
+def _show_case(case: CasePoint) -> str:
+    """Case as the formula shows it."""
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
     first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
     return f"{first} kg/m³, φ {second}°, θ {third}°"

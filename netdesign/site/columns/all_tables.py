@@ -7,6 +7,7 @@ English here, in French and German in ``words/*.toml``.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from netdesign.site.columns.dimension_columns import (
     ANCHOR_DIMENSIONS,
@@ -209,6 +210,32 @@ NETS = word_plan(
             _reference("post", "Posts"),
             *ROW_POSITION,
             *GUYS_AND_AXES,
+        ),
+    )
+)
+
+# Types of the first and last support of a row, where they are not those of the others.
+_END_NOTE = "of the first and last support; left empty, that of sheet Nets"
+ENDS = word_plan(
+    SheetPlan(
+        name="Ends",
+        fields=(
+            Field(
+                key="row",
+                aliases=("row",),
+                kind="id",
+                required=True,
+                refers_to="Nets",
+                note="id of a row of sheet Nets; used once",
+            ),
+            *(
+                replace(_reference(key, sheet), note=_END_NOTE)
+                for key, sheet in (
+                    *((anchor, "Anchors") for anchor in _ANY_ANCHOR),
+                    *((guy, "Ropes") for guy in _ANY_GUY),
+                    ("post", "Posts"),
+                )
+            ),
         ),
     )
 )
@@ -462,7 +489,7 @@ MONITORING = word_plan(
 )
 
 SHEETS: tuple[SheetPlan, ...] = (
-    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS),
+    *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS),
     MONITORING,
 )
 # The sheet that an annotated copy lists its findings on, by language.

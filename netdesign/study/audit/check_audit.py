@@ -15,7 +15,11 @@ from netdesign.checks.schema import (
 )
 from netdesign.outcome import Verdict
 from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
-from netdesign.structure.members import BROUGHT_BY, Member
+from netdesign.structure.members import (
+    BROUGHT_BY,
+    CARRYING_MEMBERS,
+    Member,
+)
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
     SAME,
@@ -24,8 +28,20 @@ from netdesign.study.audit.comparing import (
     tell_unequal,
     tell_verdict,
 )
-from netdesign.study.audit.envelope_audit import is_complete, same_point
-from netdesign.study.records import CheckRecord, ExtremeRecord, ProfileRecord, RowStudy
+from netdesign.study.audit.envelope_audit import (
+    is_complete,
+    name_members,
+    same_point,
+)
+from netdesign.study.demand import leave_out_governing, tell_governing
+from netdesign.study.records import (
+    ActionRecord,
+    CheckRecord,
+    ExtremeRecord,
+    FloorForceRecord,
+    ProfileRecord,
+    RowStudy,
+)
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
@@ -46,17 +62,23 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
         for name, count in counts.items()
         if count > 1
     )
-    modes = (*MEMBER_MODES, *DEPENDENT_MODES, (Member.POST, "lateral"))
+    modes = (*MEMBER_MODES, *DEPENDENT_MODES)
     wanted = [f"{member}.{mode}" for member, mode in modes]
+    if _has_end(row, profile):
+        wanted += [f"{name}.end" for name in wanted]
+    wanted.append(f"{Member.POST}.lateral")
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))
+    yield from _audit_floor(place, row, profile)
     factors = {value.id: value.value for value in profile.values}
     clauses = {value.id: value.clause for value in profile.values}
     for check in row.checks:
         where = say("audit.check", place=place, check=check.id)
-        if check.id != f"{check.member}.{check.mode}" and check.member != Member.NET:
-            what = name_check(check.member, check.mode)
+        end = ".end" if check.position == "edge" else ""
+        is_own = check.id == f"{check.member}.{check.mode}{end}"
+        if not is_own and check.member != Member.NET:
+            what = name_check(check.member, check.mode, check.position)
             yield say("audit.check_of_other", place=where, what=what)
         if check.mode in MODES_WITHOUT_FORCE:
             yield from _audit_direction(where, check, row, factors)
@@ -65,6 +87,28 @@ def audit_checks(row: RowStudy, profile: ProfileRecord) -> Iterator[Message]:
             yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, complete=is_complete(row))
             yield from _audit_spreads(where, check)
+
+
+def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
+    """Presence of a last support that a rule of the profile loads."""
+    gap = say("column.Nets.gap")
+    goes_on = any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
+    return not goes_on and any(one.id == "end.constant" for one in profile.values)
+
+
+def _audit_floor(
+    place: Message, row: RowStudy, profile: ProfileRecord
+) -> Iterator[Message]:
+    """A floor where the profile takes one: a force of every member, or a reason."""
+    floor = row.floor
+    if (floor is None) is not (profile.floor == "none"):
+        yield say("audit.floor_of_profile", place=place, floor=profile.floor)
+    if floor is None:
+        return
+    named = [one.member for one in floor.forces]
+    wanted = [] if floor.reason else list(CARRYING_MEMBERS)
+    if sorted(named) != sorted(wanted):
+        yield say("audit.floor_of_others", place=place, named=name_members(named))
 
 
 def _audit_factors(
@@ -100,45 +144,92 @@ def _audit_action(
             yield say("audit.action_or_force", place=place)
         return
     is_part = check.member == Member.POST_BASE
-    lateral = 1.0
-    if check.member == Member.FOOT_ANCHOR or _is_shared(check, row):
-        lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
+    lateral = _find_lateral(check, row, factors)
     on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
-    on_force = on_row * (check.action_factor or 0.0)
+    least = _find_floor(check, row)
+    on_support = None
+    if least is not None:
+        on_support = (record.share * least.force_kN + record.added_kN) * on_row
+    factor, floor = check.action_factor or 0.0, on_support or 0.0
+    solved = (record.share * record.solved_kN + record.added_kN) * on_row
     pairs: list[Pair] = [
         ("lateral_factor", record.lateral_factor, lateral),
+        ("floor_kN", record.floor_kN, least.force_kN if least else None),
+        ("guideline_kN", record.guideline_kN, on_support),
         (
-            "action_kN",
-            check.action_kN,
-            (record.share * record.solved_kN + record.added_kN) * on_row,
+            "floor_inclination_deg",
+            record.floor_inclination_deg,
+            least.inclination_deg if least else None,
         ),
+        ("action_kN", check.action_kN, max(solved, floor)),
     ]
+    if check.action_factor is not None:
+        high = max(record.coupled_kN, floor) * factor
+        pairs.append(("demand_high_kN", check.demand_high_kN, high))
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         if check.action_factor is not None:
-            low = (record.share * extreme.low_kN + record.added_low_kN) * on_force
+            low = (record.share * extreme.low_kN + record.added_low_kN) * on_row
+            low = max(low, floor) * factor
             pairs.append(("demand_low_kN", check.demand_low_kN, low))
-            high = record.share * extreme.high_kN + record.added_high_kN
-            yield from _audit_high_end(place, check, extreme, high * on_force)
+        yield from _audit_high_end(place, record, extreme, on_row)
         if not same_point(check.case, extreme.case):
             yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
         yield say("audit.more_on_base", place=place)
+    elif record.coupled_kN < solved * (1.0 - SAME):
+        told = show_value(record.coupled_kN)
+        yield say("audit.too_low_end", place=place, high=told, least=solved)
     yield from tell_unequal(place, pairs)
+    yield from _audit_governing(place, check, record, least)
+    yield from _audit_width(place, check, record)
+
+
+def _find_floor(check: CheckRecord, row: RowStudy) -> FloorForceRecord | None:
+    forces = row.floor.forces if row.floor else []
+    return next((one for one in forces if one.member == check.member), None)
+
+
+def _audit_governing(
+    place: Message,
+    check: CheckRecord,
+    record: ActionRecord,
+    least: FloorForceRecord | None,
+) -> Iterator[Message]:
+    """Governing load: the larger one, which the reason names."""
+    floor = record.guideline_kN or 0.0
+    governs = "guideline" if floor and floor >= record.coupled_kN else "coupled"
+    case = least.load_case if least else ""
+    reason = tell_governing(leave_out_governing(check.reason), record)
+    if (record.governs, record.floor_case) != (governs, case) or reason != check.reason:
+        yield say("audit.other_load", place=place, load=say(f"load_name.{governs}"))
+
+
+def _audit_width(
+    place: Message, check: CheckRecord, record: ActionRecord
+) -> Iterator[Message]:
+    """Width of the support that the check names; of two near a threshold the wider."""
     width, spacing = record.loaded_width_m, record.post_spacing_m
-    expected = "intermediate" if is_same(width, spacing) else "edge"
-    if width < spacing * (1.0 - SAME) or record.position != expected:
+    ends = record.end_factor * record.end_length_m
+    expected = 0.5 * spacing + ends if record.position == "edge" else spacing
+    is_known = record.position in ("intermediate", "edge")
+    is_wider = record.other_width_m is None or record.other_width_m <= width
+    if (
+        not (is_known and is_wider and is_same(width, expected))
+        or record.position != check.position
+    ):
         yield say("audit.position", place=place, width=width, spacing=spacing)
 
 
 def _audit_high_end(
-    place: Message, check: CheckRecord, extreme: ExtremeRecord, least: float
+    place: Message, record: ActionRecord, extreme: ExtremeRecord, on_row: float
 ) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
-    high = check.demand_high_kN
+    high = record.coupled_kN
+    least = (record.share * extreme.high_kN + record.added_high_kN) * on_row
     if extreme.upper_bound_kN is not None:
-        yield from tell_unequal(place, [("demand_high_kN", high, least)])
-    elif high is None or high < least * (1.0 - SAME):
+        yield from tell_unequal(place, [("coupled_kN", high, least)])
+    elif high < least * (1.0 - SAME):
         yield say("audit.too_low_end", place=place, high=show_value(high), least=least)
 
 
@@ -149,6 +240,15 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     if check.member in extremes:
         return extremes[check.member]
     return extremes.get(BROUGHT_BY.get(check.member, Member.NET))  # its guy's or post's
+
+
+def _find_lateral(
+    check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> float:
+    """Factor of the load along the row at the net's foot; 1 elsewhere."""
+    if check.member == Member.FOOT_ANCHOR or _is_shared(check, row):
+        return compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
+    return 1.0
 
 
 def _is_shared(check: CheckRecord, row: RowStudy) -> bool:
@@ -166,7 +266,9 @@ def _audit_direction(
         yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
     if check.mode != "direction":
         return
-    pull = next((one for one in row.pulls if one.anchor == check.member), None)
+    own = [one for one in row.pulls if one.anchor == check.member]
+    at_end = [one for one in own if one.position == check.position]
+    pull = next(iter(at_end or own), None)
     if pull is None:
         yield say("audit.action_or_force", place=place)
         return
@@ -195,13 +297,13 @@ def _audit_verdict(
             yield say("audit.slack_but_used", place=place, used=used)
     elif resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
-    if check.reason.key == "post_bending.too_much":
+    if leave_out_governing(check.reason).key == "post_bending.too_much":
         verdict = Verdict.FAIL
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
     if check.verdict is not verdict and not is_held_back(check):
         yield tell_verdict(place, check.verdict, verdict)
-    if check.reason.key not in _REASONS[check.verdict]:
+    if leave_out_governing(check.reason).key not in _REASONS[check.verdict]:
         told = say(f"verdict.{check.verdict}")
         yield say("audit.other_reason", place=place, verdict=told)
 
@@ -213,7 +315,8 @@ def is_held_back(check: CheckRecord) -> bool:
     """
     high, resistance = check.demand_high_kN, check.resistance_kN
     is_met = high is not None and bool(resistance) and high <= (resistance or 0.0)
-    is_told = check.reason.key in _REASONS[Verdict.NOT_PROVEN]
+    reason = leave_out_governing(check.reason)
+    is_told = reason.key in _REASONS[Verdict.NOT_PROVEN]
     return check.verdict is Verdict.NOT_PROVEN and is_met and is_told
 
 

@@ -213,8 +213,10 @@ def _audit_bound(
 
 
 def is_complete(row: RowStudy) -> bool:
-    """Whether the cases cover the ranges: none failed, nothing was left open."""
+    """Completeness: every case solved, nothing left open, the floor known."""
     record = row.envelope
+    if row.floor is not None and row.floor.reason is not None:
+        return False
     if not row.cases or len(list_solved(row)) < len(row.cases):
         return False
     if record is None:

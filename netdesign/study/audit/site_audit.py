@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from netdesign.checks import Band, Standard
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import Case, build_cases
+from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import (
     Pair,
@@ -22,8 +24,10 @@ from netdesign.study.audit.comparing import (
     tell_value,
 )
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
-from netdesign.study.effects import find_effects, load_guideline
+from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
     list_row_notes,
@@ -34,18 +38,27 @@ from netdesign.study.pulls import (
     AnchorPull,
     build_pull,
     check_directions,
+    find_pull,
     read_pulls,
     record_pulls,
 )
 from netdesign.study.record_cases import is_calibrated, record_point
 from netdesign.study.record_guideline import compare_case
-from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import (
     judge_forces,
+    list_checked,
+    place_check,
     record_geometry,
     record_result,
 )
-from netdesign.study.sideways import GUYS, Sideways, check_sideways, find_lack
+from netdesign.study.sideways import (
+    GUYS,
+    MemberLoad,
+    Sideways,
+    check_sideways,
+    find_lack,
+)
 from netdesign.study.values import compare_values
 from netdesign.units import (
     degree_from_radian,
@@ -137,22 +150,25 @@ def _audit_judgement(
     row: RowStudy, given: NetRow, site: Site, standard: Standard, *, is_steady: bool
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
-    effects, pulls = find_effects(given, standard), read_pulls(given, row.pulls)
+    effects = find_effects(given, standard)
+    floor = find_row_floor(given, site.ranges, standard)
+    pulls = read_pulls(given, row.pulls)
     members = []
-    for check, one in zip(row.checks, given.resistances, strict=False):
+    for check, (width, one) in zip(
+        row.checks, list_checked(given, effects), strict=False
+    ):
         known = Circumstances(
             row=given,
             ranges=site.ranges,
             standard=standard,
-            pull=pulls.get(one.member),
+            pull=find_pull(pulls, one.member, width.position),
             pressing=_find_pressing(check),
         )
         settled = settle_resistance(one, known)
-        members.append(_judge_again(row, check, settled, standard))
-    directions = _expect_directions(row, given, pulls, standard)
+        members.append(_judge_again(row, check, width, settled, standard))
     expected = [
         *members,
-        *directions,
+        *_expect_directions(row, given, pulls, standard),
         *record_geometry(given, site.ranges, standard),
     ]
     stored, again = (
@@ -172,21 +188,13 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
+    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+        yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
-            width = effects.record(check.member, _hold(check.action.solved_kN))
-            plain = replace(
-                check.action,
-                share=width.share,
-                added_kN=width.added_kN,
-                added_low_kN=width.added_low_kN,
-                added_high_kN=width.added_high_kN,
-                sideways=None,
-                foot_part_kN=None,
-                guy_part_kN=None,
-            )
             yield from _audit_share(check, given, effects.lateral_share, place)
-            for found in compare_values(plain, width):
+            action = _act_again(check, check.action, effects, floor)
+            for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
@@ -203,7 +211,7 @@ def _find_pressing(check: CheckRecord) -> float:
 def _expect_directions(
     row: RowStudy,
     given: NetRow,
-    pulls: Mapping[Member, AnchorPull],
+    pulls: Sequence[AnchorPull],
     standard: Standard,
 ) -> list[CheckRecord]:
     """Checks of the load along the row and of directions, from what is stored."""
@@ -218,11 +226,11 @@ def _expect_directions(
         gap=_UNKNOWN_GAP if is_solved else lack,  # only a solve can tell the first
     )
     found = [
-        record_result(one)
-        for one in (
-            check_sideways(given, sideways, gap),
-            *check_directions(pulls, standard, gap),
-        )
+        record_result(check_sideways(given, sideways, gap)),
+        *(
+            place_check(record_result(one), position)
+            for position, one in check_directions(pulls, standard, gap)
+        ),
     ]
     if value is None or is_solved or gap is not None:  # a gap in its own words is one
         return [
@@ -235,11 +243,12 @@ def _expect_directions(
 def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message]:
     """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
     place = say("audit.row", row=row.id)
-    again = [
-        build_pull(given, member, pull.pulls, share)
-        for member, pull in read_pulls(given, row.pulls).items()
-    ]
-    expected = record_pulls({one.anchor: one for one in again})
+    expected = record_pulls(
+        [
+            build_pull(given, one.anchor, one.pulls, share, one.position)
+            for one in read_pulls(given, row.pulls)
+        ]
+    )
     for found in compare_values(row.pulls, expected)[:_MOST]:
         yield say("audit.judged_otherwise", place=place, value=found.message)
 
@@ -272,7 +281,11 @@ def _audit_share(
 
 
 def _judge_again(
-    row: RowStudy, check: CheckRecord, given: Resistance, standard: Standard
+    row: RowStudy,
+    check: CheckRecord,
+    width: LoadedWidth,
+    given: Resistance,
+    standard: Standard,
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -288,18 +301,49 @@ def _judge_again(
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
     again = record_result(judge_forces(action, given, standard, gap), given)
-    # a gap in its own words is one
-    return again if is_whole else replace(again, reason=check.reason)
+    again = place_check(again, width.position)
+    if not is_whole:  # a gap in its own words is one
+        return replace(again, reason=check.reason)
+    if check.action is None:
+        return again
+    return replace(again, reason=tell_governing(again.reason, check.action))
+
+
+def _act_again(
+    check: CheckRecord, stored: ActionRecord, effects: RowEffects, floor: Floor | None
+) -> ActionRecord:
+    """The action from its solved force, with what may hide as the study states it."""
+    width = effects.find_support(check.position)
+    value = newton_from_kilonewton(stored.solved_kN)
+    high = newton_from_kilonewton(stored.coupled_kN)
+    high /= effects.factor(check.member, width)
+    load = _read_load(stored)
+    high = (high - load.added.high) / load.share if load.share else value
+    solved = Band(low=0.0, value=value, high=max(value, high))
+    least = floor.find(check.member) if floor else None
+    demand = build_demand(effects, check.member, width, solved, least, load)
+    return replace(
+        demand.record(effects, check.member),
+        foot_part_kN=stored.foot_part_kN,
+        guy_part_kN=stored.guy_part_kN,
+    )
+
+
+def _read_load(stored: ActionRecord) -> MemberLoad:
+    low, value, high = sorted(
+        newton_from_kilonewton(one)
+        for one in (stored.added_low_kN, stored.added_kN, stored.added_high_kN)
+    )
+    return MemberLoad(
+        share=stored.share,
+        added=Band(low=max(low, 0.0), value=max(value, 0.0), high=max(high, 0.0)),
+        sideways=stored.sideways,
+    )
 
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
     return replace(check, case=None, action=None, spreads=[], changes=[])
-
-
-def _hold(force_kN: float) -> Band:
-    force = newton_from_kilonewton(force_kN)
-    return Band(low=force, value=force, high=force)
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:

@@ -83,7 +83,7 @@ def _audit_profile(study: Study, standard: Standard | None) -> Iterator[Message]
     for name in dict.fromkeys((*stored, *listed)):
         if stored.get(name) != listed.get(name):
             yield say("audit.other_profile", name=name)
-    for key in ("id", "title", "edition", "version", "choice"):
+    for key in ("id", "title", "edition", "version", "choice", "floor"):
         if getattr(study.profile, key) != getattr(again, key):
             yield say("audit.other_profile", name=key)
 

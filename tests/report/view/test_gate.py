@@ -86,3 +86,41 @@ def test_a_section_needs_more_than_its_heading():
     require_sections(page + "<h2>Head</h2></section>", ["a"])
     with pytest.raises(NetDesignError, match="nothing in section b, c"):
         require_sections(page + "<h2>Head</h2></section>", ["a", "b", "c"])
+
+
+def with_action(**changes):
+    action = build_study().rows[0].checks[0].action
+    return spoil(0, 0, action=replace(action, **changes))
+
+
+def with_floor_at(share):
+    """The first check with a floor at a share of its action, said as it follows."""
+    check = build_study().rows[0].checks[0]
+    least = share * check.action_kN
+    governs = "guideline" if least >= check.action.coupled_kN else "coupled"
+    return with_action(guideline_kN=least, governs=governs)
+
+
+def test_a_demand_below_the_guideline_is_refused():
+    check = build_study().rows[0].checks[0]
+    low = check.demand_low_kN / check.demand_kN
+    assert require_consistent(with_floor_at(0.999 * low)) is None
+    for share in (1.001 * low, 1.001, 1.7):
+        with pytest.raises(NetDesignError, match="below the guideline's load"):
+            require_consistent(with_floor_at(share))
+
+
+def test_the_wrong_governing_load_is_refused():
+    with pytest.raises(NetDesignError, match="names the wrong load"):
+        require_consistent(with_action(governs="guideline"))
+
+
+def test_a_pass_without_its_floor_is_refused_unless_the_profile_takes_none():
+    study = build_study()
+    row = next(k for k, r in enumerate(study.rows) if r.checks[0].verdict == "pass")
+    action = replace(study.rows[row].checks[0].action, guideline_kN=None)
+    bare = spoil(row, 0, action=action)
+    with pytest.raises(NetDesignError, match="passes without the guideline's load"):
+        require_consistent(bare)
+    profile = replace(bare.profile, floor="none")
+    assert require_consistent(replace(bare, profile=profile)) is None

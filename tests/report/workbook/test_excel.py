@@ -268,7 +268,7 @@ def test_sheets_are_ready_to_read_and_print(content):
         assert sheet.page_setup.orientation == "landscape"
         assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
         assert sheet.print_title_rows
-    assert book["Checks"].auto_filter.ref == "A4:X25"
+    assert book["Checks"].auto_filter.ref == "A4:AA25"
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )

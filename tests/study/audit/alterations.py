@@ -29,20 +29,35 @@ def forces(study):
 
 
 def scale_demand(check, factor):
-    for key in ("demand_kN", "demand_low_kN", "demand_high_kN", "action_kN"):
-        check[key] *= factor
-    action = check["action"]
-    scale_all(
-        action, ("solved_kN", "added_kN", "added_low_kN", "added_high_kN"), factor
-    )
+    """Scale the coupled part; the guideline's load stays below the demand."""
+    action, safety = check["action"], check["action_factor"]
+    parts = ("added_kN", "added_low_kN", "added_high_kN")
+    scale_all(action, ("solved_kN", "coupled_kN", *parts), factor)
     if action["sideways"]:
         scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
-    if check["mode"] == "sliding":  # its friction follows what presses the base
-        for key in ("resistance_kN", "resistance_characteristic_kN"):
-            check[key] *= factor
-        check["resistance_derivation"]["arguments"]["pressing"] *= factor
-    else:
-        scale_ratio(check, factor)
+    least = action["guideline_kN"] or 0.0
+    on_row = action["loaded_width_m"] / action["post_spacing_m"]
+    solved = action["share"] * action["solved_kN"] + action["added_kN"]
+    solved *= on_row * action["lateral_factor"]
+    check["action_kN"] = max(solved, least)
+    check["demand_kN"] = check["action_kN"] * safety
+    low = check["demand_low_kN"] * factor
+    check["demand_low_kN"] = max(low, least * safety)
+    check["demand_high_kN"] = max(action["coupled_kN"], least) * safety
+    settle_spreads(check, factor)
+
+
+def settle_spreads(check, factor):
+    resistance = check["resistance_kN"]
+    low, used, high = (
+        check[f"demand_{end}kN"] / resistance for end in ("low_", "", "high_")
+    )
+    numerical, between, *others = check["spreads"]
+    numerical.update(low=low, high=max(used, numerical["high"] * factor))
+    between.update(low=used, high=used + high - numerical["high"])
+    for one in others:
+        scale_all(one, ("low", "high"), factor)
+    check["utilisation"] = used
 
 
 def scale_ratio(check, factor):
@@ -80,6 +95,10 @@ def scale_guideline(record, factor):
     for case in record["cases"]:
         for key in ("foot_difference_percent", "load_difference_percent"):
             case[key] = 100.0 * (factor * (1.0 + case[key] / 100.0) - 1.0)
+    told = record["sentence"]["arguments"]
+    told["coupled"] *= factor
+    sizes = sorted((told["coupled"], told["guideline"]))
+    told["percent"] = 100.0 * (sizes[1] / sizes[0] - 1.0)
 
 
 @alteration
@@ -652,3 +671,94 @@ def a_measurement_added(study):
 @alteration
 def a_layer_of_the_drawing_thinner(study):
     study["rows"][0]["drawing"]["snow_thickness_m"] *= 0.8
+
+
+def loaded_by_floor(study):
+    """A check whose demand is the guideline's, of any row."""
+    return next(c for c in forces(study) if c["action"]["governs"] == "guideline")
+
+
+@alteration
+def the_floor_dropped_from_a_row(study):
+    study["rows"][0]["floor"] = None
+
+
+@alteration
+def the_floor_dropped_from_the_profile_too(study):
+    study["profile"]["floor"] = "none"
+    for row in study["rows"]:
+        row["floor"] = None
+
+
+@alteration
+def a_force_of_the_floor_lowered(study):
+    force = study["rows"][0]["floor"]["forces"][0]
+    force["force_kN"] *= 0.83
+
+
+@alteration
+def a_force_of_the_floor_lowered_wherever_it_stands(study):
+    row = study["rows"][0]
+    for force in row["floor"]["forces"]:
+        force["force_kN"] *= 0.5
+    for check in row["checks"]:
+        if check["action"]:
+            scale_all(check["action"], ("floor_kN", "guideline_kN"), 0.5)
+            if check["action_kN"]:
+                scale_demand(check, 1.0)
+
+
+@alteration
+def a_member_of_the_floor_dropped(study):
+    study["rows"][0]["floor"]["forces"].pop(2)
+
+
+@alteration
+def a_floor_said_to_be_unknown(study):
+    study["rows"][0]["floor"]["reason"] = as_given("not known")
+
+
+@alteration
+def a_load_of_the_floor_altered(study):
+    study["rows"][0]["floor"]["forces"][1]["load_along_kN_per_m"] *= 0.91
+
+
+@alteration
+def a_check_without_its_floor(study):
+    action = forces(study)[0]["action"]
+    action.update(floor_kN=None, guideline_kN=None, floor_case="", governs="coupled")
+
+
+@alteration
+def the_other_load_said_to_govern(study):
+    action = forces(study)[0]["action"]
+    other = {"coupled": "guideline", "guideline": "coupled"}
+    action["governs"] = other[action["governs"]]
+
+
+@alteration
+def a_coupled_bound_lowered(study):
+    forces(study)[1]["action"]["coupled_kN"] *= 0.71
+
+
+@alteration
+def the_checks_of_the_end_dropped(study):
+    for row in study["rows"]:
+        row["checks"] = [one for one in row["checks"] if one["position"] != "edge"]
+
+
+@alteration
+def an_end_loaded_like_a_support_inside(study):
+    row = study["rows"][0]
+    inside = {c["id"]: c for c in row["checks"]}
+    for check in row["checks"]:
+        if check["position"] == "edge":
+            like = inside[check["id"].removesuffix(".end")]
+            kept = {key: check[key] for key in ("id", "position", "reason")}
+            check.update({**like, **kept})
+
+
+@alteration
+def a_width_beside_a_threshold_given_the_other_side(study):
+    action = next(c for c in forces(study) if c["position"] == "edge")["action"]
+    action["other_width_m"] = action["loaded_width_m"] * 1.3

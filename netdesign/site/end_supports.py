@@ -1,0 +1,52 @@
+"""From the lines of sheet Ends to the types of a row's first and last support."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from netdesign.site.cells.findings import Finding, add_nearest
+from netdesign.site.model import InputEcho
+from netdesign.site.readings import Row, refuse
+from netdesign.site.tables import Table, read_rows
+from netdesign.words.message import say
+
+EndsByRow = Mapping[str, Row]  # one line by net row
+
+
+def read_ends(table: Table | None, findings: list[Finding]) -> EndsByRow:
+    """Lines of sheet Ends by net row; a second line of one is a finding."""
+    by_row: dict[str, Row] = {}
+    for line in read_rows(table, findings) if table else ():
+        reading = line["row"]
+        if reading.word in by_row:
+            first = by_row[reading.word]["row"].place
+            rule = say("nets.used_twice", place=first)
+            refuse(reading, rule, say("ends.one_line"), findings)
+        elif reading.word:
+            by_row[reading.word] = line
+    return by_row
+
+
+def refuse_unknown_ends(
+    ends: EndsByRow, net_rows: Mapping[str, Row], findings: list[Finding]
+) -> None:
+    """Refuse ends of a net row that sheet Nets does not have."""
+    places = {name: row["id"].place for name, row in net_rows.items()}
+    for name, line in ends.items():
+        if name not in net_rows:
+            sheet = say("sheet.Nets")
+            accepted = say("accepted.id_of_sheet", sheet=sheet)
+            accepted = add_nearest(accepted, name, net_rows, places)
+            refuse(line["row"], say("nets.no_id", sheet=sheet), accepted, findings)
+
+
+def replace_types(row: Row, end: Row) -> Row:
+    """Line of sheet Nets with the types that its end has instead."""
+    named = {key: reading for key, reading in end.items() if key != "row"}
+    return {**row, **{key: one for key, one in named.items() if one.word}}
+
+
+def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
+    """Types of the ends as typed; those left empty are those of the row."""
+    readings = end.values() if end else ()
+    return tuple(one.echo() for one in readings if one.word and one.field.key != "row")

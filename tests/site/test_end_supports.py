@@ -1,0 +1,86 @@
+"""Sheet Ends: other types for the first and last support of a row."""
+
+import pytest
+
+from netdesign.site.model import MEMBER_MODES
+from netdesign.site.reader import read_site
+
+HEADINGS = ["net row", "foot anchor", "uphill anchor", "uphill guy", "post"]
+
+
+@pytest.fixture
+def with_ends(sheets):
+    sheets["Nets"][0] += ["uphill anchor"]
+    for line in sheets["Nets"][1:]:
+        line.append("A1")
+    sheets["Anchors"].append(["A3", 731, 617, "tested"])
+    sheets["Ends"] = [list(HEADINGS), ["R1", "A3", None, None, None]]
+    return sheets
+
+
+def values(resistances):
+    return {(one.member, one.mode): one.value for one in resistances}
+
+
+def test_named_types_are_those_of_the_end_and_blank_ones_those_of_the_row(
+    with_ends, save
+):
+    first, second = read_site(save(with_ends)).rows
+    inside, end = values(first.resistances), values(first.resistances_at("edge"))
+    assert tuple(end) == MEMBER_MODES
+    assert inside["foot_anchor", "tendon"] == 400e3
+    assert end["foot_anchor", "tendon"] == 731e3
+    assert end["foot_anchor", "pull_out"] == 617e3
+    changed = {key for key in end if end[key] != inside[key]}
+    assert changed == {("foot_anchor", "tendon"), ("foot_anchor", "pull_out")}
+    assert second.end_resistances is None
+    assert second.resistances_at("edge") is second.resistances
+    assert first.resistances_at("intermediate") is first.resistances
+
+
+def test_type_of_the_end_is_echoed_with_its_cell(with_ends, save):
+    row = read_site(save(with_ends)).rows[0]
+    echo = next(one for one in row.inputs if one.cell == "Ends!B2")
+    assert (echo.text, echo.value) == ("A3", "A3")
+    assert not [one for one in row.inputs if one.cell == "Ends!C2"]
+
+
+def test_a_row_without_types_of_its_own_at_the_end_is_alike(with_ends, save):
+    with_ends["Ends"][1][1] = None
+    row = read_site(save(with_ends)).rows[0]
+    assert values(row.end_resistances) == values(row.resistances)
+
+
+@pytest.mark.parametrize(
+    ("line", "cell", "told"),
+    [
+        (["R1", "A9", None, None, None], "B2", "A9"),
+        (["R9", "A3", None, None, None], "A2", "R9"),
+        ([None, "A3", None, None, None], "A2", ""),
+    ],
+)
+def test_unknown_row_or_type_is_one_finding(with_ends, save, refused, line, cell, told):
+    with_ends["Ends"][1] = line
+    (finding,) = refused(save(with_ends))
+    assert (finding.sheet, finding.cell, finding.text) == ("Ends", cell, told)
+
+
+def test_a_row_named_twice_is_one_finding(with_ends, save, refused):
+    with_ends["Ends"].append(["R1", None, "A3", None, None])
+    (finding,) = refused(save(with_ends))
+    assert (finding.sheet, finding.cell) == ("Ends", "A3")
+    assert "Ends!A2" in str(finding.message)
+
+
+@pytest.mark.parametrize(
+    ("sheet", "headings"),
+    [
+        ("Extrémités", ["rangée", "ancrage de pied"]),
+        ("Enden", ["Werkreihe", "Fußanker"]),
+    ],
+)
+def test_sheet_is_read_in_other_languages(with_ends, save, sheet, headings):
+    del with_ends["Ends"]
+    with_ends[sheet] = [headings, ["R1", "A3"]]
+    row = read_site(save(with_ends)).rows[0]
+    assert values(row.end_resistances)["foot_anchor", "tendon"] == 731e3

@@ -1,0 +1,266 @@
+"""The larger of coupled bound and floor, on the two supports of a row."""
+
+import math
+import random
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import Band, load_standard
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.guideline.floor import Floor
+from netdesign.outcome import Verdict
+from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.structure.members import CARRYING_MEMBERS, Member
+from netdesign.study.audit import audit_study
+from netdesign.study.cases import solve_site
+from netdesign.study.demand import (
+    build_demand,
+    leave_out_governing,
+    tell_governing,
+)
+from netdesign.study.document import read_document, write_document
+from netdesign.study.effects import find_effects
+from netdesign.study.floor import find_row_floor, record_floor
+from netdesign.study.judge import judge_site
+from netdesign.study.record_provenance import record_profile
+from netdesign.words.message import say
+from tests.small_site import RUN, build_row, build_site, resist
+
+SWISS = load_standard("swiss-guideline-2007")
+RANGES = Ranges.of(
+    density=Interval(low=200.0, high=270.0, count=2),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(45), count=2),
+    inclination=Interval(low=math.radians(28), high=math.radians(33), count=2),
+)
+LIGHT = {
+    "slope_angle": math.radians(45.0),
+    "snow_thickness": 4.0,
+    "net_height": 4.0,
+    "upslope_length": 5.0,
+    "ground": build_ground_from_glide_factor(2.4, 4.0),
+    "net_stiffness_per_m": 2e7,
+    "slack": 0.08,
+    "gap": 1.0,
+}
+ROW = build_row("R1", **LIGHT)
+
+
+def a_floor(row=ROW, standard=SWISS):
+    return find_row_floor(row, RANGES, standard)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """The short, light snowpack of the issue, on two coarse meshes."""
+    return solve_site(build_site(ROW, ranges=RANGES), RUN)
+
+
+def judge(solved, standard=SWISS, **changes):
+    site = build_site(replace(ROW, **changes), ranges=RANGES)
+    return site, judge_site(site, solved, standard, RUN)
+
+
+def checks_of(study):
+    return {check.id: check for check in study.rows[0].checks}
+
+
+def test_short_light_snow_fails_by_the_guideline_where_the_coupled_force_passed(solved):
+    """psi 45, D 4 m, N 2.4, 200 to 270 kg/m3, L 5 m: passed until 0.1.0."""
+    resistances = resist(foot_anchor__tendon=400e3)
+    _, study = judge(solved, resistances=resistances)
+    check = checks_of(study)["foot_anchor.tendon"]
+    assert study.verdict == check.verdict == Verdict.FAIL
+    assert check.action.governs == "guideline"
+    assert check.action.floor_case == "load_case_2"
+    assert "the guideline's load (load case 2) governs" in str(check.reason)
+    assert 1.4 < check.utilisation < 1.5
+    none = replace(SWISS, floor="none")
+    _, without = judge(solved, none, resistances=resistances)
+    alone = checks_of(without)["foot_anchor.tendon"]
+    assert alone.verdict == Verdict.PASS
+    assert alone.utilisation < 0.9
+    assert without.profile.floor == "none"
+    assert without.rows[0].floor is None
+
+
+def test_every_demand_is_the_larger_of_both_and_says_which(solved):
+    _, study = judge(solved)
+    floor = {one.member: one for one in study.rows[0].floor.forces}
+    seen = set()
+    for check in study.rows[0].checks:
+        action = check.action
+        if action is None:
+            continue
+        on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
+        least = floor[check.member].force_kN * on_row
+        assert action.guideline_kN == pytest.approx(least, rel=1e-12)
+        value = max(action.solved_kN * on_row, least)
+        assert check.action_kN == pytest.approx(value, rel=1e-12)
+        high = max(action.coupled_kN, least) * check.action_factor
+        assert check.demand_high_kN == pytest.approx(high, rel=1e-12)
+        assert check.demand_low_kN >= least * check.action_factor * (1.0 - 1e-12)
+        is_floor = least > 0.0 and least >= action.coupled_kN
+        assert action.governs == ("guideline" if is_floor else "coupled")
+        seen.add((check.position, action.governs))
+    assert {position for position, _ in seen} == {"intermediate", "edge"}
+    assert ("intermediate", "guideline") in seen
+
+
+def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
+    """As values of the floor, unless the profile has the very same of its own."""
+    model = [one for one in SWISS.values if one.id.startswith("snow.")]
+    assert len(model) == 13
+    for profile, prefix in (("eurocode", "floor."), ("swiss-guideline-2007", "")):
+        standard = load_standard(profile)
+        found = {one.id: one for one in record_profile(standard).values}
+        for value in model:
+            one = found[f"{prefix}{value.id}"]
+            assert (one.value, one.status) == (value.value, value.status)
+        assert len(found) == len(standard.listed) + (13 if prefix else 0)
+        none = record_profile(replace(standard, floor="none"))
+        assert not [one for one in none.values if one.id.startswith("floor.")]
+
+
+@pytest.mark.parametrize("profile", ["eurocode", "nf-p-95-304-style"])
+def test_load_model_is_the_guideline_s_under_every_profile(profile):
+    assert a_floor(standard=load_standard(profile)) == a_floor()
+
+
+def test_profile_without_a_floor_has_none():
+    none = replace(SWISS, floor="none")
+    assert a_floor(standard=none) is None
+    assert record_floor(None) is None
+
+
+def test_floor_that_is_not_known_proves_nothing(solved):
+    """A slope beyond the closed forms: the coupled results alone would pass."""
+    site, study = judge(solved, slope_angle=0.04)
+    forces = [check for check in study.rows[0].checks if check.position]
+    assert {check.verdict for check in forces} == {Verdict.NOT_PROVEN}
+    for check in forces:
+        assert "guideline's load, the floor of every demand" in str(check.reason)
+    assert study.rows[0].floor.forces == []
+    assert study.rows[0].floor.reason is not None
+    assert site.rows[0].slope_angle == 0.04
+
+
+def test_band_is_cut_off_at_the_floor():
+    draw, effects = random.Random(31), find_effects(ROW, SWISS)
+    width = effects.supports[0]
+    least = a_floor().find(Member.POST)
+    scale = least.force
+    for _ in range(200):
+        ends = sorted(draw.uniform(0.3, 1.9) * scale for _ in range(3))
+        solved = Band(low=ends[0], value=ends[1], high=ends[2])
+        demand = build_demand(effects, Member.POST, width, solved, least)
+        action = demand.action
+        assert action.low == max(ends[0], scale)
+        assert action.value == max(ends[1], scale)
+        assert action.high == max(ends[2], scale)
+        assert demand.governs == ("guideline" if scale >= ends[2] else "coupled")
+    free = build_demand(effects, Member.POST, width, solved, None)
+    assert free.action == solved
+    assert (free.governs, free.guideline) == ("coupled", None)
+
+
+def test_reason_names_the_load_and_gives_back_its_own_part():
+    effects = find_effects(ROW, SWISS)
+    least = a_floor().find(Member.FOOT_ANCHOR)
+    force = Band(low=0.0, value=0.0, high=0.0)
+    member = Member.FOOT_ANCHOR
+    demand = build_demand(effects, member, effects.supports[1], force, least)
+    reason = say("check.passes")
+    told = tell_governing(reason, demand.record(effects, member))
+    assert str(told).endswith(
+        "; the guideline's load (load case 2) governs the demand."
+    )
+    assert leave_out_governing(told) == reason
+    assert leave_out_governing(reason) == reason
+    guy = Member.DOWNHILL_GUY
+    slack = build_demand(effects, guy, effects.supports[1], force, a_floor().find(guy))
+    assert slack.action.high == 0.0
+    assert tell_governing(reason, slack.record(effects, guy)) == reason
+
+
+def test_support_inside_and_end_are_checked_each_with_its_own_types(solved):
+    """A free end is loaded wider; its stronger anchor leaves the others as they are."""
+    strong = resist(foot_anchor__tendon=3e6)
+    _, study = judge(
+        solved,
+        gap=math.inf,
+        resistances=resist(foot_anchor__tendon=700e3),
+        end_resistances=strong,
+    )
+    checks = checks_of(study)
+    inside, end = checks["foot_anchor.tendon"], checks["foot_anchor.tendon.end"]
+    spacing = ROW.layout.post_spacing
+    # f_R = 1.00 + 1.25 * 2.4 = 4.0 over 4 m / 3
+    wide = 0.5 * spacing + 4.0 * 4.0 / 3.0
+    assert inside.action.loaded_width_m == spacing
+    assert end.action.loaded_width_m == pytest.approx(wide, rel=1e-9)
+    assert end.demand_kN == pytest.approx(inside.demand_kN * wide / spacing, rel=1e-12)
+    assert end.resistance_characteristic_kN == 3000.0
+    assert inside.resistance_characteristic_kN == 700.0
+    assert (inside.verdict, end.verdict) == (Verdict.PASS, Verdict.PASS)
+    assert wide > 2.0 * spacing - 0.5
+
+
+def test_row_that_goes_on_has_no_end(solved):
+    _, study = judge(solved, gap=0.0)
+    assert {c.position for c in study.rows[0].checks if c.action} == {"intermediate"}
+
+
+@pytest.mark.parametrize(("gap", "is_told"), [(1.99, True), (2.0, True), (1.7, False)])
+def test_gap_close_to_a_threshold_shows_both_values(solved, gap, is_told):
+    """1.99 and 2.00 m give one demand, and the other value beside it."""
+    _, study = judge(solved, gap=gap)
+    action = checks_of(study)["foot_anchor.tendon.end"].action
+    keys = [note.key for note in study.rows[0].notes]
+    assert ("row.gap_at_threshold" in keys) is is_told
+    assert (action.other_width_m is not None) is is_told
+    free = 0.5 * ROW.layout.post_spacing + 4.0 * 4.0 / 3.0
+    assert (action.loaded_width_m == pytest.approx(free, rel=1e-9)) is is_told
+    if is_told:
+        assert action.other_width_m < 0.7 * action.loaded_width_m
+
+
+def test_comparison_ends_in_a_sentence_with_size_and_cause(solved):
+    _, study = judge(solved)
+    told = str(study.rows[0].guideline.sentence)
+    cases = {one.name: one for one in study.rows[0].guideline.cases}
+    foot = study.rows[0].guideline.solved_foot_anchor_kN
+    larger = cases["load_case_2"].foot_anchor_kN
+    assert f"load case 2 is larger: {larger:.0f} kN against {foot:.0f} kN" in told
+    assert f"{100.0 * (larger / foot - 1.0):.0f} % more" in told
+    assert "Density: the guideline's snow has 400 kg/m3" in told
+    assert "over 5 m, as it knows no length" in told
+
+
+def test_study_agrees_with_itself_its_site_and_its_floor(solved):
+    for standard in (SWISS, replace(SWISS, floor="none")):
+        site, study = judge(solved, standard)
+        again = read_document(write_document(study))
+        assert audit_study(again, standard, site) == []
+    floor = study_floor(judge(solved)[1])
+    assert set(floor) == set(CARRYING_MEMBERS)
+
+
+def study_floor(study):
+    return {one.member: one.force_kN for one in study.rows[0].floor.forces}
+
+
+def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
+    """Load and tension of the record give the foot's force by (G7)."""
+    _, study = judge(solved)
+    foot = study.rows[0].floor.forces[0]
+    share = {"load_case_1": 1.0, "load_case_2": 0.77}[foot.load_case]
+    lean = math.radians(foot.inclination_deg)
+    x = (1.0 - share / 2.0) * foot.load_along_kN_per_m
+    y = (1.0 - share / 2.0) * foot.load_across_kN_per_m
+    x += foot.chord_tension_kN_per_m * math.sin(lean)
+    y += foot.chord_tension_kN_per_m * math.cos(lean)
+    again = math.hypot(x, y) * ROW.layout.post_spacing
+    assert foot.member == Member.FOOT_ANCHOR
+    assert foot.force_kN == pytest.approx(again, rel=1e-9)
+    assert isinstance(a_floor(), Floor)
