@@ -47,6 +47,11 @@ class Target:
         Whose force.
     scale : float
         Utilisation for each N of the upper end of the solved force [1/N].
+    added : float
+        Utilisation by what is added to the largest force [-]. Another force brings it:
+        it stays where the member's falls, and grows in proportion.
+    largest : float
+        Largest force of the member over the solved cases [N].
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
@@ -62,6 +67,8 @@ class Target:
     governing: Case
     results: Sequence[CaseResult]
     use_floor: Callable[[NetRow], float] = lambda _: 0.0
+    added: float = 0.0
+    largest: float = 0.0
 
     @property
     def is_slack(self) -> bool:
@@ -72,7 +79,12 @@ class Target:
         """Upper end of the utilisation in a case [-]; None if it has no result."""
         if not result.is_converged:
             return None
-        return self.scale * result.member_forces[self.member].high
+        return self.use(result.member_forces[self.member].high)
+
+    def use(self, force: float) -> float:
+        """Utilisation by a force of the member [-]."""
+        growth = max(1.0, force / self.largest) if self.largest else 1.0
+        return self.scale * force + self.added * growth
 
 
 Build = Callable[[float, Case], tuple[NetRow, Case]]

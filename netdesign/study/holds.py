@@ -196,7 +196,7 @@ class _Line:
         carried = check.force(serving)
         self._lack = check.largest / carried if carried else 1.0
         self._near = list_near(self._target)[:2]
-        coupled = self._target.scale * check.largest
+        coupled = self._target.use(check.largest)
         self._used = max(coupled, self._target.use_floor(self._target.row))
         self._passes = self._used <= 1.0
         self._note: Message | None = None

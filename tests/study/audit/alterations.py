@@ -31,10 +31,20 @@ def forces(study):
 def scale_demand(check, factor):
     """Scale the coupled part; the guideline's load stays below the demand."""
     action, safety = check["action"], check["action_factor"]
-    scale_all(action, ("solved_kN", "coupled_kN"), factor)
-    least = action["guideline_kN"] or 0.0
+    parts = ("added_kN", "added_low_kN", "added_high_kN")
+    scale_all(action, ("solved_kN", "coupled_kN", *parts), factor)
+    if action["sideways"]:
+        scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
     on_row = action["loaded_width_m"] / action["post_spacing_m"]
-    solved = action["solved_kN"] * on_row * action["lateral_factor"]
+    on_row *= action["lateral_factor"]
+    solved, least = (
+        (action["share"] * (action[key] or 0.0) + action["added_kN"]) * on_row
+        for key in ("solved_kN", "floor_kN")
+    )
+    if action["floor_kN"] is not None:
+        action["guideline_kN"] = least
+    else:
+        least = 0.0
     check["action_kN"] = max(solved, least)
     check["demand_kN"] = check["action_kN"] * safety
     low = check["demand_low_kN"] * factor
