@@ -187,10 +187,7 @@ def _find_holds(
         return {}
     find = cache(partial(_find_floor, task))  # the same for all members
     held = {
-        check.id: HeldCheck(
-            target=_build_target(task, one, find),
-            widen=partial(_find_width, task.standard, one),
-        )
+        check.id: HeldCheck(target=_build_target(task, one, find))
         for one, check in zip(judged, checks, strict=True)
         if one.ratio > 0.0 and _has_target(one) and _is_worst(one, judged)
     }
@@ -264,13 +261,11 @@ def _judge_member(
             pressing=loads.press(extreme, width),
         )
         given = settle_resistance(given, known)
-        doubt = find_doubt(
-            task.site,
-            task.row,
-            task.law,
-            density=extreme.governing.case.density,
-            largest=extreme.widened.high,
-        )
+        brings = [extreme]
+        if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
+            brings.append(extremes[Member.POST])
+        doubts = (_find_doubt(task, one) for one in brings)
+        doubt = next((one for one in doubts if one), None)
     gap = find_gap(task.solved.gap, loads.floor)
     action = demand.action if demand else None
     return MemberCheck(
@@ -282,6 +277,12 @@ def _judge_member(
         doubt=doubt,
         result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
     )
+
+
+def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:
+    """Doubt that the creep law holds for the snow of a largest force."""
+    density, largest = extreme.governing.case.density, extreme.widened.high
+    return find_doubt(task.site, task.row, task.law, density=density, largest=largest)
 
 
 def _record_member(
@@ -555,6 +556,7 @@ def _build_target(
         governing=extreme.governing.case,
         results=task.solved.results,
         use_floor=use_floor,
+        widen=partial(_find_width, task.standard, one),
     )
 
 

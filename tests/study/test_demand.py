@@ -10,6 +10,7 @@ from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
+from netdesign.site.model import Project
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.study.audit import audit_study
@@ -29,6 +30,7 @@ from netdesign.study.sideways import MemberLoad
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site, resist
 
+ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
 PLAIN = MemberLoad()  # the force of the section as it is
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
@@ -60,7 +62,7 @@ def solved():
 
 
 def judge(solved, standard=SWISS, **changes):
-    site = build_site(replace(ROW, **changes), ranges=RANGES)
+    site = build_site(replace(ROW, **changes), ranges=RANGES, project=ACCEPTED)
     return site, judge_site(site, solved, standard, RUN)
 
 
@@ -289,6 +291,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
     site = build_site(
         replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
         ranges=RANGES,
+        project=ACCEPTED,
     )
     probe = Probe(RUN.settings, RUN.creep_law)
     checks = checks_of(judge_site(site, solved, SWISS, RUN, probe))
@@ -316,5 +319,6 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
 def judge_end(solved, resistance):
     row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
     probe = Probe(RUN.settings, RUN.creep_law)
-    study = judge_site(build_site(row, ranges=RANGES), solved, SWISS, RUN, probe)
+    site = build_site(row, ranges=RANGES, project=ACCEPTED)
+    study = judge_site(site, solved, SWISS, RUN, probe)
     return checks_of(study)

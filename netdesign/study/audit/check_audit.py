@@ -253,6 +253,18 @@ def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     return extremes.get(BROUGHT_BY.get(check.member, Member.NET))  # its guy's or post's
 
 
+def list_bringing(check: CheckRecord, row: RowStudy) -> list[ExtremeRecord]:
+    """Largest forces that a check rests on: its member's, and what adds to it.
+
+    The net's pull on the head brings what is added, as it does the post's force.
+    """
+    own = _find_extreme(check, row)
+    found = [own] if own else []
+    if check.action is not None and check.action.added_high_kN > 0.0:
+        found += [one for one in row.extremes if one.quantity == Member.POST]
+    return found
+
+
 def _find_lateral(
     check: CheckRecord, row: RowStudy, factors: dict[str, float]
 ) -> float:
@@ -343,13 +355,11 @@ def _is_information(check: CheckRecord, row: RowStudy) -> bool:
 
 def _audit_snow(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[Message]:
     """No pass on a force of snow for which the creep law is not given."""
-    if (
-        check.verdict is Verdict.PASS
-        and check.demand_high_kN
-        and any(
-            same_point(check.case, case.case) and not case.is_calibrated
-            for case in row.cases
-        )
+    points = [one.case for one in list_bringing(check, row) if one.high_kN]
+    if check.verdict is Verdict.PASS and any(
+        same_point(point, case.case) and not case.is_calibrated
+        for point in points
+        for case in row.cases
     ):
         yield say("audit.extrapolated_pass", place=place)
 

@@ -15,7 +15,7 @@ from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.audit.check_audit import is_held_back
+from netdesign.study.audit.check_audit import is_held_back, list_bringing
 from netdesign.study.audit.comparing import (
     Pair,
     is_of_steady_states,
@@ -262,24 +262,25 @@ def _find_open(row: RowStudy, basis: _Basis) -> Message | None:
     """Gap of the forces, else a doubt about the governing snow of any check."""
     if not is_complete(row):
         return _UNKNOWN_GAP
-    doubts = (
-        _find_doubt(one, newton_from_kilonewton(one.demand_high_kN or 0.0), basis)
-        for one in row.checks
-    )
+    doubts = (_find_doubt(one, row, basis) for one in row.checks)
     return next((one for one in doubts if one is not None), None)
 
 
-def _find_doubt(check: CheckRecord, largest: float, basis: _Basis) -> Message | None:
-    """Doubt that the creep law holds for a check's governing snow."""
-    if check.case is None:
+def _find_doubt(check: CheckRecord, row: RowStudy, basis: _Basis) -> Message | None:
+    """Doubt that the creep law holds for the snow that a check rests on."""
+    if check.action is None:
         return None
-    return find_doubt(
-        basis.site,
-        basis.row,
-        basis.law,
-        density=check.case.density_kg_m3,
-        largest=largest,
+    doubts = (
+        find_doubt(
+            basis.site,
+            basis.row,
+            basis.law,
+            density=one.case.density_kg_m3,
+            largest=max(one.high_kN, one.upper_bound_kN or 0.0),
+        )
+        for one in list_bringing(check, row)
     )
+    return next((one for one in doubts if one is not None), None)
 
 
 def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message]:
@@ -343,7 +344,7 @@ def _judge_again(
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
     gap = None if is_whole else _UNKNOWN_GAP
-    doubt = _find_doubt(check, action.high, basis) if action else None
+    doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
     settled = settle_check(basis.site, basis.row, result)
     again = place_check(record_result(settled, given), width.position)
