@@ -40,6 +40,7 @@ _OF_CHECK = (
     "resistance_basis",
     "resistance_type",
     "clause",
+    "declared",
 )
 _MOST_DIGITS = 17  # tell any two numbers apart
 _Value = TypeVar("_Value")
@@ -260,12 +261,19 @@ def _list_governing(row: RowStudy) -> Named:
 
 def _list_checks(row: RowStudy) -> Named:
     return {
-        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): getattr(
-            check, key
+        say("diff.of_check", check=title, what=say(f"diff_check.{key}")): (
+            _name_proof(check) if key == "declared" else getattr(check, key)
         )
         for title, check in _name_checks(row).items()
         for key in _OF_CHECK
     }
+
+
+def _name_proof(check: CheckRecord) -> str | None:
+    """Place of the proof of a declared check, as the workbook has it."""
+    if check.declared is None:
+        return None
+    return ", ".join(text for text in asdict(check.declared).values() if text)
 
 
 def _list_project(study: Study) -> Named:

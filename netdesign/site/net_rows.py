@@ -438,7 +438,7 @@ def _derive_thickness(height: float, slope_deg: float) -> Message:
 
 
 def _derive_slip(glide_factor: float, thickness: float) -> Message | None:
-    """How a slip length follows from the table; None of ground without slip."""
+    """Formula of a slip length from the table; None of ground without slip."""
     if glide_factor == 1.0:
         return None
     step = find_glide_step(glide_factor)

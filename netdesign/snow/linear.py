@@ -104,8 +104,10 @@ class Pattern(NamedTuple):
     ----------
     slots : ndarray of int, shape (n,)
         Place of each entry of the blocks among the stored ones.
-    rows, starts : ndarray of int
-        Row of each stored entry; first one of each column, and the end.
+    rows : ndarray of int, shape (n_stored,)
+        Row of each stored entry.
+    starts : ndarray of int, shape (n_dofs + 1,)
+        First stored entry of each column, and the end.
     diagonal : ndarray of int, shape (n_dofs,)
         Stored entries on the diagonal.
     """
@@ -146,7 +148,7 @@ class Ordering:
     known : dict
         Places found before, shape (n,), by the arrays of unknowns they are of.
     patterns : dict
-        Sparse patterns found before, in the same way.
+        Sparse patterns found before, of shape (n,), in the same way.
     """
 
     place: Ints

@@ -171,15 +171,25 @@ def list_history_notes(extremes: Mapping[str, Extreme]) -> list[Message]:
 def list_reasons(
     checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
 ) -> list[Message]:
-    """Why a row does not pass: each check that does not, each law that is not met."""
+    """Reasons of a row that does not pass: of its checks, and of laws not met.
+
+    Checks with the same reason stand before it together.
+    """
+    titles: dict[str, list[Message]] = {}
+    reasons: dict[str, Message] = {}
+    for check in checks:
+        if check.verdict is not Verdict.PASS:
+            title = name_check(check.member, check.mode, check.position)
+            told = str(check.reason)  # numbers that are not shown may differ
+            titles.setdefault(told, []).append(title)
+            reasons.setdefault(told, check.reason)
     unproven = [
         say(
             "row.check_reason",
-            check=name_check(check.member, check.mode, check.position),
-            reason=check.reason,
+            check=tuple(named) if len(named) > 1 else named[0],
+            reason=reasons[told],
         )
-        for check in checks
-        if check.verdict is not Verdict.PASS
+        for told, named in titles.items()
     ]
     unmet = [
         say("row.law_not_met", law=name("law", one.name))

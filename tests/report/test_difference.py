@@ -213,7 +213,8 @@ def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
     lost = compare_studies(old, new)
     assert [(one.old, one.new) for one in lost[:2]] == [("pass", "declared")] * 2
     assert all(one.is_turned for one in lost[:2])
-    found = {one.name(ENGLISH) for one in lost}
-    assert any(name.startswith("checks.3.declared") for name in found)
+    name = f"{declared.id}: declared as proven"
+    found = changes_of(old, new)["check", row.id, name]
+    assert found == (None, "G-17, B. R., D!B2")
     gained = compare_studies(new, old)
     assert [(one.old, one.new) for one in gained[:2]] == [("declared", "pass")] * 2

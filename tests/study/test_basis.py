@@ -210,3 +210,15 @@ def test_a_net_counts_as_overtopped_beyond_rounding_only(height, expected):
     row = build_row("R1", net_height=height)
     assert row.is_overtopped is expected
     assert row.held_thickness == (height if expected else 2.5)
+
+
+def test_checks_with_one_reason_are_told_in_one_sentence(judge):
+    study = judge(build_row("R1", net_height=2.2))
+    *forces_told, height_told = map(str, study.rows[0].reasons)
+    parts = [told.partition(": ") for told in forces_told]
+    reasons = [reason for _, _, reason in parts]
+    assert all("overtops the net" in reason for reason in reasons)
+    assert len(set(reasons)) == len(reasons)
+    named = sum(1 + titles.count(";") for titles, _, _ in parts)
+    assert named == 2 * len(MEMBER_MODES)
+    assert height_told.startswith("Net, height: The net height 2.2 m")

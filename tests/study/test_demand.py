@@ -62,6 +62,7 @@ def solved():
 
 
 def judge(solved, standard=SWISS, **changes):
+    """Study of the row; its site accepts the creep law for snow as light."""
     site = build_site(replace(ROW, **changes), ranges=RANGES, project=ACCEPTED)
     return site, judge_site(site, solved, standard, RUN)
 
@@ -150,6 +151,12 @@ def test_floor_that_is_not_known_proves_nothing(solved):
         assert check.changes == []  # none of them makes it known
     assert study.rows[0].floor.forces == []
     assert study.rows[0].floor.reason is not None
+    assert audit_study(study) == []
+    first, *others = study.rows[0].checks
+    passed = replace(first, verdict=Verdict.PASS, reason=say("check.passes"))
+    row = replace(study.rows[0], checks=[passed, *others])
+    told = [str(one) for one in audit_study(replace(study, rows=[row]))]
+    assert any("says PASS, but its parts give NOT PROVEN" in one for one in told)
     assert site.rows[0].slope_angle == 0.04
 
 

@@ -204,13 +204,10 @@ def test_a_missing_resistance_is_named(judge):
     assert "no resistance is given for " in str(check.reason)
     assert "Anchors!B2" in str(check.reason)
     end = check_of(study, "foot_anchor.pull_out.end")
+    assert end.reason == check.reason
+    titles = [name_check(one.member, one.mode, one.position) for one in (check, end)]
     assert study.rows[0].reasons == [
-        say(
-            "row.check_reason",
-            check=name_check(one.member, one.mode, one.position),
-            reason=one.reason,
-        )
-        for one in (check, end)
+        say("row.check_reason", check=tuple(titles), reason=check.reason)
     ]
 
 

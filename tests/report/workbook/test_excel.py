@@ -291,7 +291,7 @@ def test_charts_follow_the_cells(content):
         charts = [parts.read(n).decode() for n in parts.namelist() if "/charts/" in n]
     references = "".join(charts)
     assert len(charts) == 3
-    for area in ("Summary!$G$6:$G$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
+    for area in ("Summary!$H$6:$H$8", "Envelope!$C$5:$C$16", "Cases!$E$5:$E$31"):
         assert area in references
 
 

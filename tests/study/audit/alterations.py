@@ -50,7 +50,20 @@ def scale_demand(check, factor):
     low = check["demand_low_kN"] * factor
     check["demand_low_kN"] = max(low, least * safety)
     check["demand_high_kN"] = max(action["coupled_kN"], least) * safety
+    settle_friction(check)
     settle_spreads(check, factor)
+
+
+def settle_friction(check):
+    """A base slides on what presses it, in proportion to its demand."""
+    derivation = check["resistance_derivation"]
+    if derivation is None or derivation["key"] != "derivation.sliding":
+        return
+    told, share = derivation["arguments"], check["action"]["share"]
+    pressing = check["action_kN"] / share
+    told["pressing"], before = pressing, told["pressing"]
+    keys = ("resistance_characteristic_kN", "resistance_kN")
+    scale_all(check, keys, pressing / before)
 
 
 def settle_spreads(check, factor):
