@@ -44,6 +44,11 @@ def fourth_meter_from_fourth_centimeter(value: float) -> float:
     return value / 1e8
 
 
+def cubic_meter_from_cubic_centimeter(value: float) -> float:
+    """Section modulus in cm3 to m3."""
+    return value / 1e6
+
+
 def pascal_from_kilopascal(value: float) -> float:
     """Stress in kPa to Pa."""
     return value * 1e3

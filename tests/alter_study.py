@@ -16,6 +16,7 @@ OBJECTS = (
     "model_reason",
     "resistance_derivation",
     "derivation",
+    "sideways",
 )
 WORDS = ([*Verdict], [*Outcome])
 

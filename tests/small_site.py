@@ -5,6 +5,7 @@ import math
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.site.model import (
+    DEPENDENT_MODES,
     MEMBER_MODES,
     InputEcho,
     NetRow,
@@ -14,6 +15,7 @@ from netdesign.site.model import (
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
+from netdesign.structure.splay import Guys
 from netdesign.study.cases import CheckRun
 from netdesign.words.message import say
 from netdesign.words.names import as_given
@@ -42,7 +44,7 @@ def resist(value=STRONG, **special):
             type_id="T1",
             source="Anchors!B2",
         )
-        for member, mode in MEMBER_MODES
+        for member, mode in (*MEMBER_MODES, *DEPENDENT_MODES)
     )
 
 
@@ -60,6 +62,7 @@ def build_row(name, **changes):
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),
+        "guys": Guys(count=2, splay=math.radians(30.0)),
         "resistances": resist(),
         "inputs": (
             InputEcho(

@@ -165,7 +165,7 @@ def find_characteristic(
         value = resistance.value
         return value, say("check.resistance_not_usable", value=value, what=what)
     if resistance.tests is None:
-        return None, say("check.no_resistance", what=what)
+        return None, resistance.lack or say("check.no_resistance", what=what)
     factors = [
         table.find(resistance.tests.count) if table else None
         for table in map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))

@@ -5,10 +5,13 @@ from __future__ import annotations
 import difflib
 import hashlib
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from netdesign.checks.schema import (
+    ChoiceEntry,
     ChoicesFile,
     DocumentFile,
     Entry,
@@ -18,6 +21,7 @@ from netdesign.checks.schema import (
     Floor,
     LimitsFile,
     ModelFile,
+    TableEntry,
     TablesFile,
     check_table,
 )
@@ -34,6 +38,8 @@ from netdesign.units import radian_from_degree
 from netdesign.words.message import Message, say
 
 CONFIRM = "assumed: confirm in your copy of the standard"
+
+EntryT = TypeVar("EntryT", FactorEntry, TableEntry)
 
 _FILES = ("document.toml", "limits.toml", "factors.toml")
 _OPTIONAL = ("model.toml", "tables.toml", "choices.toml")
@@ -222,6 +228,7 @@ def _load_folder(folder: Path) -> Standard:
         return check_table(shape, *_parse(contents, name, folder))
 
     document = read(DocumentFile, "document.toml")
+    choice: ChoiceEntry | None = None
     limits = read(LimitsFile, "limits.toml")
     factors = read(FactorsFile, "factors.toml").factor
     if document.choice and "choices.toml" not in contents:
@@ -230,11 +237,14 @@ def _load_folder(folder: Path) -> Standard:
         )
     if "choices.toml" in contents:
         choices = read(ChoicesFile, "choices.toml")
-        factors = _choose(document.choice, factors, choices, folder)
+        choice = _find_choice(document.choice, choices, folder)
+        factors = _take_from_choice(factors, choice.factor, choice.without)
     entries: list[Entry] = [*limits.limit, *factors]
     if "model.toml" in contents:
         entries += read(ModelFile, "model.toml").value
     tables = read(TablesFile, "tables.toml").table if "tables.toml" in contents else []
+    if choice is not None:
+        tables = _take_from_choice(tables, choice.table)
     return Standard(
         **document.model_dump(exclude={"load"}),
         floor=document.load.floor,
@@ -250,10 +260,7 @@ def _load_folder(folder: Path) -> Standard:
     )
 
 
-def _choose(
-    name: str, factors: list[FactorEntry], choices: ChoicesFile, folder: Path
-) -> list[FactorEntry]:
-    """Factors with those of the chosen set in place of their namesakes."""
+def _find_choice(name: str, choices: ChoicesFile, folder: Path) -> ChoiceEntry:
     known = {choice.name: choice for choice in choices.choice}
     if name not in known:
         raise StandardError(
@@ -264,9 +271,17 @@ def _choose(
                 known=tuple(known),
             )
         )
-    chosen = {factor.id: factor for factor in known[name].factor}
-    kept = [factor for factor in factors if factor.id not in chosen]
-    return [*kept, *chosen.values()]
+    return known[name]
+
+
+def _take_from_choice(
+    given: list[EntryT], chosen: list[EntryT], without: Sequence[str] = ()
+) -> list[EntryT]:
+    """Entries with those of the chosen set in place of their namesakes."""
+    replaced = {entry.id for entry in chosen} | set(without)
+    kept: list[EntryT] = [entry for entry in given if entry.id not in replaced]
+    kept.extend(chosen)
+    return kept
 
 
 def _read_files(folder: Path) -> dict[str, bytes]:

@@ -71,6 +71,10 @@ class GivenResistance(Protocol):
     def tests(self) -> PullOutTests | None:
         """Pull-out tests in the place of a value [N]; None without."""
 
+    @property
+    def lack(self) -> Message | None:
+        """Reason for a missing value, where "none is given" does not say it."""
+
 
 def tell_proof(document: str, author: str, date: str, cell: str) -> Message:
     """Document, author, date ("" for none) and cell of a declaration as one phrase."""

@@ -35,7 +35,16 @@ LATERAL_SHARE = "lateral.share"
 CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
 GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
-MODES = ("tendon", "pull_out", "rope", "compression", "bearing")
+ROPE_ANGLE = "anchor.angle.rope"
+BAR_ANGLE = "anchor.angle.bar"
+POST_EFFICIENCY = "post.efficiency"
+ACCEPTANCE_TEST = "test.acceptance"  # of every anchor; proof load over design force
+MODES = (
+    *("tendon", "pull_out", "rope", "compression", "bearing"),
+    *("bending", "compression_bending", "sliding"),
+)
+# Checks of a member that compare no force with a resistance.
+MODES_WITHOUT_FORCE = ("direction", "lateral")
 BASES = ("tested", "computed", "declared")
 # What no demand lies below: the guideline's load, or nothing.
 Floor = Literal["guideline", "none"]
@@ -51,6 +60,8 @@ LIMIT_UNITS = {
     HEIGHT_RATIO: "-",
     MAX_GAP: "m",
     GROUND_FRICTION: "-",
+    ROPE_ANGLE: "deg",
+    BAR_ANGLE: "deg",
 }
 _PAIRS = (
     (MIN_INCLINATION, MAX_INCLINATION),
@@ -61,6 +72,7 @@ LIMIT_IDS = tuple(LIMIT_UNITS)
 # A factor of one mode, or of one mode on one basis: the closer one is used.
 FACTOR_IDS = (
     ACTION_FACTOR,
+    ACCEPTANCE_TEST,
     *(f"resistance.{mode}" for mode in MODES),
     *(f"resistance.{mode}.{basis}" for mode in MODES for basis in BASES),
 )
@@ -87,6 +99,7 @@ MODEL_UNITS = {
     "end.length_cap": "-",
     "end.isolated_gap": "m",
     LATERAL_SHARE: "-",
+    POST_EFFICIENCY: "-",
 }
 # Values by a count, such as the number of tests; the counts need no gap.
 TABLE_COUNTS = {
@@ -213,6 +226,7 @@ class TableEntry(_Table):
     """Values by a count: rows in order, without overlap and without a gap.
 
     A value below 1 needs a reason, as that of a factor does.
+    Counts below those of the first row have no value.
     """
 
     id: Annotated[str, AfterValidator(_table_id)]
@@ -232,7 +246,7 @@ class TableEntry(_Table):
         if self.over != TABLE_COUNTS[self.id]:
             needed = TABLE_COUNTS[self.id]
             raise ContentError(say("standard.over", over=self.over, needed=needed))
-        expected = 1.0
+        expected = float(self.rows[0].from_)
         for number, row in enumerate(self.rows, 1):
             if row.from_ != expected:
                 raise ContentError(_describe_gap(number, row.from_, expected))
@@ -246,11 +260,16 @@ class TableEntry(_Table):
 
 
 class ChoiceEntry(_Table):
-    """A named set of factors that takes the place of those in factors.toml."""
+    """A named set of factors and tables that take the place of their namesakes.
+
+    ``without`` names factors that the set does not have.
+    """
 
     name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]*$")]
     text: Text
     factor: list[FactorEntry]
+    table: list[TableEntry] = []
+    without: list[Annotated[str, AfterValidator(_factor_id)]] = []
 
 
 class LimitsFile(_Table):

@@ -15,6 +15,9 @@ from netdesign.guideline.comparison import (
 )
 from netdesign.guideline.load_model import LoadModel, SnowLoad
 from netdesign.guideline.net_pull import NetPull
+from netdesign.structure.anchors import AnchorForces
+from netdesign.structure.axis import measure_pull
+from netdesign.structure.members import Member
 from netdesign.words.message import Message, say
 
 # Distance of the inclinations that are tried. Between two of them a force rises above
@@ -65,11 +68,33 @@ class FloorForce:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class HeadSpan:
+    """Span of what the load cases bring at head and foot, over all that is tried.
+
+    Attributes
+    ----------
+    pull : float
+        Largest pull of the net on a head, of a support inside the row [N].
+    least_tension : float
+        Least tension of the guys at work [N].
+    foot_least, foot_largest : float
+        Inclination of the pull on the foot anchor, as `measure_pull` has it [rad].
+    """
+
+    pull: float
+    least_tension: float
+    foot_least: float
+    foot_largest: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Floor:
     """Forces that no demand of a row may lie below.
 
     Attributes
     ----------
+    head : HeadSpan or None
+        What acts at head and foot; None where the floor is not available.
     forces : tuple of FloorForce
         One a member; empty where the floor is not available.
     reason : Message or None
@@ -77,6 +102,7 @@ class Floor:
     """
 
     forces: tuple[FloorForce, ...] = ()
+    head: HeadSpan | None = None
     reason: Message | None = None
 
     def find(self, member: str) -> FloorForce | None:
@@ -118,11 +144,13 @@ def find_floor(
     tests/guideline/test_floor.py
     """
     largest: dict[str, FloorForce] = {}
+    head: HeadSpan | None = None
     for at in _list_tried(nets, inclinations):
         for case in list_load_cases(model, at.net, altitude):
             result = solve_load_case(model, at.net, case, at.glide_factor)
             if result.anchors is None or result.load is None or result.pull is None:
                 return Floor(reason=_explain(at, result))
+            head = _extend(head, result.anchors)
             for member, force in result.anchors.member_forces.items():
                 known = largest.get(member)
                 if known is None or force > known.force:
@@ -134,7 +162,25 @@ def find_floor(
                         load=result.load,
                         pull=result.pull,
                     )
-    return Floor(forces=tuple(largest.values()))
+    return Floor(forces=tuple(largest.values()), head=head)
+
+
+def _extend(known: HeadSpan | None, anchors: AnchorForces) -> HeadSpan:
+    """Span that a further case lies in, too."""
+    x, y = anchors.head_pull
+    foot = anchors.foot_anchor
+    turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
+    tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
+    if known is None:
+        known = HeadSpan(
+            pull=0.0, least_tension=tension, foot_least=turn, foot_largest=turn
+        )
+    return HeadSpan(
+        pull=max(known.pull, math.hypot(x, y)),
+        least_tension=min(known.least_tension, tension),
+        foot_least=min(known.foot_least, turn),
+        foot_largest=max(known.foot_largest, turn),
+    )
 
 
 def _list_tried(

@@ -1,4 +1,4 @@
-"""Post: buckling as a strut hinged at both ends, and its plate on the ground."""
+"""Post: strut hinged at both ends, with snow against it, and its plate on ground."""
 
 from __future__ import annotations
 
@@ -105,3 +105,125 @@ def compute_bearing_resistance(
     require_within("plate width", plate_width, 0.05, 5.0, "m")
     require_positive("bearing stress", bearing_stress, "Pa")
     return plate_length * plate_width * bearing_stress
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PostSection:
+    """Section of a post that bends, beside its resistance to buckling.
+
+    Attributes
+    ----------
+    width : float
+        That the snow presses on [m].
+    length : float
+        Between the hinges [m].
+    moment_resistance : float
+        W f_y [N m].
+    critical, buckling : float
+        N_cr and chi A f_y of `BucklingResistance` [N].
+    """
+
+    width: float
+    length: float
+    moment_resistance: float
+    critical: float
+    buckling: float
+
+    def __post_init__(self) -> None:
+        """Refuse impossible numbers."""
+        require_within("post width", self.width, 0.01, 1.0, "m")
+        require_positive("buckling length", self.length, "m")
+        require_positive("moment resistance", self.moment_resistance, "N m")
+        require_positive("critical load", self.critical, "N")
+        require_positive("buckling resistance", self.buckling, "N")
+
+
+def compute_post_moment(
+    section: PostSection, *, pressure: float, efficiency: float
+) -> float:
+    """Moment of the snow against a hinged post; resistance/THEORY.md, eq. (R10).
+
+    Parameters
+    ----------
+    section : PostSection
+        Of the post.
+    pressure : float
+        Of the snow on a plane across the slope, its mean over the thickness [Pa].
+    efficiency : float
+        eta, factor of a slender member [-].
+
+    Returns
+    -------
+    float
+        p l^2 / 8 [N m].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
+    require_positive("snow pressure", pressure, "Pa")
+    require_within("efficiency factor", efficiency, 0.1, 50.0)
+    return efficiency * pressure * section.width * section.length**2 / 8.0
+
+
+def compute_bent_post_resistance(
+    section: PostSection, *, moment: float, partial_factor: float
+) -> float | None:
+    """Compression that a post bears beside a moment; resistance/THEORY.md, (R11).
+
+    Parameters
+    ----------
+    section : PostSection
+        Of the post.
+    moment : float
+        Design moment of the load across it, before any amplification [N m].
+    partial_factor : float
+        gamma of the resistance [-].
+
+    Returns
+    -------
+    float or None
+        R_k: over the partial factor it is the design resistance [N]. None where the
+        moment alone is too much.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
+    require_within("design moment", moment, 0.0, math.inf, "N m")
+    require_within("partial factor", partial_factor, 0.1, 10.0)
+    used = partial_factor * moment / section.moment_resistance
+    if used >= 1.0:
+        return None
+    buckling, amplified = partial_factor / section.buckling, 1.0 / section.critical
+    root = math.sqrt((buckling - amplified) ** 2 + 4.0 * buckling * amplified * used)
+    # the smaller root, in the form that does not cancel
+    design = 2.0 * (1.0 - used) / (buckling + amplified + root)
+    return partial_factor * design
+
+
+def compute_sliding_resistance(pressing: float, friction: float) -> float:
+    """Resistance of a base plate to sliding; resistance/THEORY.md, eq. (R12).
+
+    Parameters
+    ----------
+    pressing : float
+        Force across the plate [N].
+    friction : float
+        Characteristic coefficient of plate on ground [-].
+
+    Returns
+    -------
+    float
+        mu V [N].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of its range.
+    """
+    require_within("pressing force", pressing, 0.0, math.inf, "N")
+    require_within("friction", friction, 0.05, 1.5)
+    return friction * pressing

@@ -9,9 +9,10 @@ from functools import lru_cache
 from netdesign.checks import Declaration
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.columns.fields import normalise
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.readings import Row, refuse
 from netdesign.site.tables import Table, read_rows
+from netdesign.structure.members import Member
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
 from netdesign.words.names import name_check
@@ -24,7 +25,17 @@ _OF_GEOMETRY = (
     ("net", "gap"),
     ("net", "ends"),
 )
-DECLARABLE: tuple[tuple[str, str], ...] = (*MEMBER_MODES, *_OF_GEOMETRY)
+_ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+_OF_DIRECTIONS = (
+    *((anchor, mode) for anchor in _ANCHORS for mode in ("bending", "direction")),
+    (Member.POST, "lateral"),
+)
+DECLARABLE: tuple[tuple[str, str], ...] = (
+    *MEMBER_MODES,
+    *DEPENDENT_MODES,
+    *_OF_DIRECTIONS,
+    *_OF_GEOMETRY,
+)
 
 _Check = tuple[str, str, str]  # net row ("" for all), member, mode
 

@@ -10,7 +10,9 @@ from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
+from netdesign.resistance.steel import RoundSection
 from netdesign.site.cells.findings import Finding
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import (
@@ -22,6 +24,7 @@ from netdesign.snow.snowpack import (
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
+from netdesign.structure.splay import Guys
 from netdesign.words.message import Message
 from netdesign.words.text_field import Text
 
@@ -40,13 +43,45 @@ MEMBER_MODES: tuple[tuple[Member, str], ...] = (
 )
 # Columns that name the type of a member without a type of its own.
 NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
+# Members whose resistance follows the demand; anchors that bend come in addition.
+DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
+    (Member.POST, "compression_bending"),
+    (Member.POST_BASE, "sliding"),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchorType:
+    """What an anchor is, beside its resistances along its axis.
+
+    Attributes
+    ----------
+    kind : str
+        "bar", "micropile", "rope anchor", or "" where none is given.
+    section : RoundSection or None
+        Of a bar or tube; None where its dimensions are not given.
+    lever : float or None
+        Free length over which it bends [m]; None where none is given.
+    """
+
+    kind: str
+    section: RoundSection | None
+    lever: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BaseFriction:
+    """Characteristic coefficient of friction of a base plate on the ground [-]."""
+
+    coefficient: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Resistance:
     """Characteristic resistance of one member in one mode.
 
-    ``value`` [N] is None where the workbook gives none; ``source`` is its cell.
+    ``value`` [N] is None where the workbook gives none, and where it follows the
+    demand, from ``dimensions``; ``source`` is its cell.
     """
 
     member: Member
@@ -57,6 +92,8 @@ class Resistance:
     source: str
     derivation: Message | None = None  # how it follows from dimensions
     tests: PullOutTests | None = None  # instead of a value
+    dimensions: AnchorType | PostSection | BaseFriction | None = None
+    lack: Message | None = None  # why there is no value, where that needs more words
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,8 +130,12 @@ class NetRow:
     gap: float = math.inf  # free distance beside the row [m]; infinite for none given
     altitude: float | None = None  # [m]
     glide_factor: float | None = None  # as typed, of sliding ground
+    guys: Guys = field(default_factory=Guys)
+    axes: tuple[tuple[Member, float], ...] = ()  # of anchors, where given [rad]
+    anchors: tuple[tuple[Member, AnchorType], ...] = ()  # those that have a type
     # of the first and last support; None: those of all others
     end_resistances: tuple[Resistance, ...] | None = None
+    end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -106,6 +147,17 @@ class NetRow:
         require_positive("net height", self.net_height, "m")
         require_positive("net stiffness", self.net_stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, 0.5)
+
+    def find_axis(self, anchor: Member) -> float | None:
+        """Given inclination of an anchor's axis [rad]."""
+        return dict(self.axes).get(anchor)
+
+    def find_anchor_type(
+        self, anchor: Member, position: Position = "intermediate"
+    ) -> AnchorType | None:
+        """What an anchor is; None where its type is not given."""
+        at_end = position == "edge" and self.end_anchors is not None
+        return dict(self.end_anchors or () if at_end else self.anchors).get(anchor)
 
     @property
     def has_end(self) -> bool:

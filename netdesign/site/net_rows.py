@@ -19,6 +19,7 @@ from netdesign.site.end_supports import (
 from netdesign.site.model import (
     MEMBER_MODES,
     NAMED_BY,
+    AnchorType,
     InputEcho,
     NetRow,
     Resistance,
@@ -31,6 +32,12 @@ from netdesign.site.snow_layers import (
     echo_layers,
     refuse_unknown_rows,
     settle_thickness,
+)
+from netdesign.site.support_types import (
+    list_dependent,
+    read_anchor_types,
+    read_axes,
+    read_guys,
 )
 from netdesign.site.tables import Table, read_rows
 from netdesign.site.type_resistances import find_tests
@@ -220,6 +227,9 @@ def _build_net_row(
         end_resistances=_find_resistances(replace_types(row, end), type_sheets)
         if end
         else None,
+        end_anchors=_find_anchors(replace_types(row, end), type_sheets)
+        if end
+        else None,
         inputs=(
             *_echo_inputs(line, thickness, ground),
             *echo_layers(lines),
@@ -228,6 +238,9 @@ def _build_net_row(
         gap=row["gap"].si if row["gap"].state == "given" else math.inf,
         altitude=row["altitude"].si if row["altitude"].state == "given" else None,
         glide_factor=_find_glide_factor(row),
+        guys=read_guys(row),
+        axes=tuple(read_axes(row).items()),
+        anchors=_find_anchors(row, type_sheets),
     )
 
 
@@ -350,12 +363,22 @@ def _build_layout(row: Row) -> SupportLayout:
     )
 
 
+def _find_anchors(
+    row: Row, type_sheets: TypeSheets
+) -> tuple[tuple[Member, AnchorType], ...]:
+    return tuple(read_anchor_types(row, type_sheets["Anchors"] or {}).items())
+
+
 def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ...]:
     """Resistance of every member in every mode, given or not."""
-    return tuple(
+    needed = (
         _find_resistance(row[NAMED_BY.get(member, member)], mode, member, type_sheets)
         for member, mode in MEMBER_MODES
     )
+    dependent = list_dependent(
+        row, type_sheets["Anchors"] or {}, type_sheets["Posts"] or {}
+    )
+    return (*needed, *dependent)
 
 
 def _find_resistance(

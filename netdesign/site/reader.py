@@ -34,6 +34,7 @@ from netdesign.site.ranged_columns import free_columns
 from netdesign.site.ranges import RangesSheet, build_ranges
 from netdesign.site.readings import Row, refuse
 from netdesign.site.snow_layers import check_layers, read_layers
+from netdesign.site.support_types import check_support_types
 from netdesign.site.tables import (
     Table,
     find_table,
@@ -197,6 +198,7 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] 
             rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
         check_tests(row, findings)
+        check_support_types(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
     by_id = index_by_id(filled, findings)
     return by_id if "id" in table.columns else None

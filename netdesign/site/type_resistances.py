@@ -22,6 +22,7 @@ from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bo
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
+from netdesign.site.support_types import read_inner
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -138,7 +139,15 @@ def _tell_origin(datum: Datum) -> Message:
 
 def _bar(row: Row) -> tuple[float, Message]:
     diameter, strength = row["bar_diameter"], row["bar_strength"]
-    value = compute_bar_resistance(diameter.si, strength.si)
+    value = compute_bar_resistance(diameter.si, strength.si, read_inner(row))
+    inner = row["inner_diameter"]
+    if inner.state == "given":
+        return value, say(
+            "derivation.tube",
+            outer=diameter.number,
+            inner=inner.number,
+            strength=strength.number,
+        )
     return value, say(
         "derivation.bar", diameter=diameter.number, strength=strength.number
     )
@@ -230,7 +239,7 @@ _RULES: tuple[_Rule, ...] = (
     _Rule(
         key="tendon",
         needed=("bar_diameter", "bar_strength"),
-        optional=(),
+        optional=("inner_diameter",),
         compute=_bar,
     ),
     _Rule(

@@ -79,6 +79,12 @@ class AnchorForces:
         }
 
     @property
+    def head_pull(self) -> Point:
+        """Pull of the net on the head: what its members bring to the ground [N]."""
+        brought = (self.post_base, self.uphill_anchor, self.downhill_anchor)
+        return sum(one.x for one in brought), sum(one.y for one in brought)
+
+    @property
     def member_forces(self) -> dict[str, float]:
         """Characteristic force that each member must resist, by its name [N].
 

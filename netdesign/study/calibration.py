@@ -24,7 +24,7 @@ def find_doubt(
     density : float
         Of the governing case [kg/m3]: no other counts.
     largest : float
-        Upper end of the force [N]; without a force nothing rests on the law.
+        Upper end of the force, any unit; without a force nothing rests on the law.
     """
     is_accepted = site.project.accepted_law == law.name
     if is_accepted or largest == 0.0 or is_calibrated(law, row, density):

@@ -10,6 +10,7 @@ from netdesign.guideline.floor import FloorForce
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.effects import RowEffects
 from netdesign.study.records import ActionRecord
+from netdesign.study.sideways import MemberLoad
 from netdesign.units import (
     given_degree_from_radian,
     kilonewton_from_newton,
@@ -35,22 +36,28 @@ class Demand:
         Of the support.
     on_support : float
         Force on the support over that inside the row, lateral load included [-].
+    load : MemberLoad
+        How the member's force follows from that of the section.
     """
 
     solved: Band
     floor: FloorForce | None
     width: LoadedWidth
     on_support: float
+    load: MemberLoad
 
     @property
     def coupled(self) -> Band:
         """Coupled force on the support [N]."""
-        return self.solved.times(self.on_support)
+        return self.load.apply(self.solved).times(self.on_support)
 
     @property
     def guideline(self) -> float | None:
         """The guideline's force on the support [N]; None where it is no floor."""
-        return None if self.floor is None else self.floor.force * self.on_support
+        if self.floor is None:
+            return None
+        on_member = self.load.share * self.floor.force + self.load.added.value
+        return on_member * self.on_support
 
     @property
     def governs(self) -> Governing:
@@ -88,6 +95,11 @@ class Demand:
             if floor
             else None,
             governs=self.governs,
+            share=self.load.share,
+            added_kN=kilonewton_from_newton(self.load.added.value),
+            added_low_kN=kilonewton_from_newton(self.load.added.low),
+            added_high_kN=kilonewton_from_newton(self.load.added.high),
+            sideways=self.load.sideways,
         )
 
 
@@ -97,10 +109,16 @@ def build_demand(
     width: LoadedWidth,
     solved: Band,
     floor: FloorForce | None,
+    load: MemberLoad,
 ) -> Demand:
     """Demand on a member of the support of that width; ``solved`` is inside the row."""
-    on_support = effects.factor(member, width)
-    return Demand(solved=solved, floor=floor, width=width, on_support=on_support)
+    return Demand(
+        solved=solved,
+        floor=floor,
+        width=width,
+        on_support=effects.factor(member, width),
+        load=load,
+    )
 
 
 def tell_governing(reason: Message, action: ActionRecord) -> Message:

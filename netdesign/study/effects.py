@@ -12,7 +12,7 @@ from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import read_end_effect
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.members import PUSHED_MEMBERS, Member
+from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
     compute_edge_width,
@@ -35,7 +35,9 @@ class RowEffects:
     supports : tuple of LoadedWidth
         One inside the row, and where the row has an end its first or last one.
     lateral_share : float
-        Share of a pulled member's force along the row [-].
+        Share of the load along the row [-].
+    is_foot_shared : bool
+        The uphill guy ends at the net's foot.
     missing : tuple of Message
         What the profile does not say.
     """
@@ -44,6 +46,7 @@ class RowEffects:
     supports: tuple[LoadedWidth, ...]
     lateral_share: float
     missing: tuple[Message, ...]
+    is_foot_shared: bool = False
 
     def factor(self, member: str, width: LoadedWidth) -> float:
         """Force on a support of that width over the solved one [-]."""
@@ -52,8 +55,9 @@ class RowEffects:
 
     def lateral_factor(self, member: str) -> float:
         """Part of the factor that the load along the row brings [-]."""
-        if member in PUSHED_MEMBERS:
-            return 1.0
+        is_foot = member == Member.FOOT_ANCHOR
+        if not (is_foot or (self.is_foot_shared and member == Member.UPHILL_ANCHOR)):
+            return 1.0  # what the load does at the head: study/sideways.py
         return compute_lateral_factor(self.lateral_share)
 
     def find_support(self, position: str) -> LoadedWidth:
@@ -98,6 +102,7 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
         supports=list_supports(spacing, edge),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
+        is_foot_shared=row.layout.uphill_anchor_distance == 0.0,
     )
 
 

@@ -47,12 +47,21 @@ class Target:
         Whose force.
     scale : float
         Utilisation for each N of the upper end of the solved force [1/N].
+    added : float
+        Utilisation by what is added to the largest force [-]. Another force brings it:
+        it stays where the member's falls, and grows in proportion.
+    largest : float
+        Largest force of the member over the solved cases [N].
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
         Of the whole grid, or of the search.
     use_floor : callable
-        Utilisation of a row by the guideline's load alone, 0 without a floor [-].
+        Utilisation of a row by the guideline's load alone on a support as wide as now,
+        0 without a floor [-].
+    widen : callable
+        Width that loads the support of a changed row [m]: the end effect grows with
+        the glide factor.
     """
 
     row: NetRow
@@ -62,17 +71,42 @@ class Target:
     governing: Case
     results: Sequence[CaseResult]
     use_floor: Callable[[NetRow], float] = lambda _: 0.0
+    widen: Callable[[NetRow], float] = lambda _: 1.0
+    added: float = 0.0
+    largest: float = 0.0
 
     @property
     def is_slack(self) -> bool:
         """Slackness: the member carries nothing in any solved case."""
         return all(not self.utilisation(result) for result in self.results)
 
-    def utilisation(self, result: CaseResult) -> float | None:
-        """Upper end of the utilisation in a case [-]; None if it has no result."""
+    def utilisation(
+        self, result: CaseResult, row: NetRow | None = None
+    ) -> float | None:
+        """Upper end of the utilisation in a case [-]; None if it has no result.
+
+        ``row`` is that of the case, where it was changed.
+        """
         if not result.is_converged:
             return None
-        return self.scale * result.member_forces[self.member].high
+        used = self.use(result.member_forces[self.member].high)
+        return used * self._compare_width(row or self.row)
+
+    def use_least(self, row: NetRow) -> float:
+        """Utilisation of a changed row by the guideline's load alone [-]."""
+        return self.use_floor(row) * self._compare_width(row)
+
+    def use(self, force: float) -> float:
+        """Utilisation by a force of the member [-]."""
+        growth = max(1.0, force / self.largest) if self.largest else 1.0
+        return self.scale * force + self.added * growth
+
+    def _compare_width(self, moved: NetRow) -> float:
+        """Width that loads the support of a moved row over that of the row as it is."""
+        row = self.row
+        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
+            return 1.0
+        return self.widen(moved) / self.widen(row)
 
 
 Build = Callable[[float, Case], tuple[NetRow, Case]]
@@ -115,7 +149,7 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 
     The guideline's load has densities of its own and stays.
     """
-    if target.use_floor(target.row) > 1.0:
+    if target.use_least(target.row) > 1.0:
         return _refuse_by_floor("snow_density", "kg/m3", target.ranges["density"].high)
 
     def build(value: float, case: Case) -> tuple[NetRow, Case]:
@@ -212,7 +246,8 @@ def _find_floor_height(target: Target, least: float, most: float) -> float | Non
     """
 
     def is_met(thickness: float) -> bool:
-        return target.use_floor(replace(target.row, snow_thickness=thickness)) <= 1.0
+        row = replace(target.row, snow_thickness=thickness)
+        return target.use_least(row) <= 1.0
 
     if is_met(most):
         return most
@@ -233,7 +268,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     does not.
     """
     now = degree_from_radian(target.governing.friction_angle)
-    if target.use_floor(target.row) > 1.0:
+    if target.use_least(target.row) > 1.0:
         return _refuse_by_floor("friction_angle", "deg", now)
     samples = _list_friction_angles(target)
     worst = [_worst_at(target, angle) for angle in samples]
@@ -371,7 +406,7 @@ def _find_violator(
     rivals = _list_rivals(target, build, value)
     results = probe.solve_all([(*build(value, case), probe.law) for case in rivals])
     for case, result in zip(rivals, results, strict=True):
-        utilisation = target.utilisation(result)
+        utilisation = target.utilisation(result, build(value, case)[0])
         if utilisation is None:
             reason = result.reason or result.outcome.message
             return say("change.rival_without_result", value=value, reason=reason)
@@ -437,7 +472,8 @@ def _find_root(
     known_pass, known_fail = False, False
     value, last = min(max(start, passes), fails), None
     for _ in range(_MOST_STEPS):
-        utilisation = target.utilisation(probe.solve(*build(value, case)))
+        row, at = build(value, case)
+        utilisation = target.utilisation(probe.solve(row, at), row)
         if utilisation is None:
             return say("change.case_without_result", value=value)
         if utilisation <= 0.0:

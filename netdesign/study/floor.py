@@ -30,14 +30,14 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
                 net=build_geometry(one, span.low),
                 glide_factor=find_row_glide_factor(one),
             )
-            for one in _list_corners(row, ranges)
+            for one in list_corners(row, ranges)
         ],
         inclinations=(span.low, span.high),
         altitude=row.altitude,
     )
 
 
-def _list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
+def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
     """Rows at all ends of what ranges beside the usual three and is in the load.
 
     The load knows no length of the snowpack.

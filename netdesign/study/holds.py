@@ -11,7 +11,7 @@ force is taken to be monotone.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS
@@ -60,13 +60,9 @@ class HeldCheck:
     ----------
     target : Target
         Check as a function of a solved case and of the row.
-    widen : callable
-        Width that loads the support of a changed row [m]: the end effect grows with
-        the glide factor.
     """
 
     target: Target
-    widen: Callable[[NetRow], float]
 
     @property
     def largest(self) -> float:
@@ -196,8 +192,8 @@ class _Line:
         carried = check.force(serving)
         self._lack = check.largest / carried if carried else 1.0
         self._near = list_near(self._target)[:2]
-        coupled = self._target.scale * check.largest
-        self._used = max(coupled, self._target.use_floor(self._target.row))
+        coupled = self._target.use(check.largest)
+        self._used = max(coupled, self._target.use_least(self._target.row))
         self._passes = self._used <= 1.0
         self._note: Message | None = None
 
@@ -243,20 +239,16 @@ class _Line:
             (self._target.row, move_case(case, self._span.name, value), self._probe.law)
             for case in cases
         ]
-        found = [self._target.utilisation(one) for one in self._probe.solve_all(wanted)]
+        moved = wanted[0][0].at(wanted[0][1])
+        found = [
+            self._target.utilisation(one, moved)
+            for one in self._probe.solve_all(wanted)
+        ]
         if any(one is None for one in found):
             self._note = say("hold.no_result", value=self._parameter.show(value))
             return None
-        moved = wanted[0][0].at(wanted[0][1])
         coupled = lack * max(one for one in found if one is not None)
-        return self._compare_width(moved) * max(coupled, self._target.use_floor(moved))
-
-    def _compare_width(self, moved: NetRow) -> float:
-        """Width that loads the support of a moved row over that of the row as it is."""
-        row = self._target.row
-        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
-            return 1.0
-        return self._check.widen(moved) / self._check.widen(row)
+        return max(coupled, self._target.use_least(moved))
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]

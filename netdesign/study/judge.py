@@ -14,16 +14,18 @@ from netdesign.outcome import merge_verdicts
 from netdesign.site.model import Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
-from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.floor import find_row_floor, record_floor
+from netdesign.study.member_loads import find_loads
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
     list_reasons,
     list_row_notes,
     list_site_notes,
+    list_test_notes,
 )
 from netdesign.study.probe import Probe
+from netdesign.study.pulls import record_pulls
 from netdesign.study.record_cases import record_case, record_extreme
 from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
@@ -107,9 +109,10 @@ def judge_site(
 def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     row, solved = task.row, task.solved
     extremes = solved.extremes
-    checks = check_row(task, extremes)
+    floor = find_row_floor(row, task.site.ranges, task.standard)
+    loads = find_loads(row, solved.results, extremes, task.standard, floor)
+    checks = check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
-    effects = find_effects(row, task.standard)
     governing = _governing_result(checks, extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
     head = record_head(row, governing)
@@ -127,36 +130,38 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         inputs=list(row.inputs),
         drawing=record_drawing(row, governing),
         reasons=list_reasons(checks, independent),
-        anchors=record_anchors(governing, effects),
+        anchors=record_anchors(governing, loads.effects),
+        pulls=record_pulls(loads.pulls),
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        floor=record_floor(find_row_floor(row, task.site.ranges, task.standard)),
+        floor=record_floor(floor),
         notes=[
-            *list_row_notes(row, effects),
+            *list_row_notes(row, loads.effects, loads.pulls),
+            *list_test_notes(checks, task.standard),
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
         envelope=(
-            record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks, effects))
+            record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
             if isinstance(solved, RowEnvelope)
             else None
         ),
     )
 
 
-def _list_levels(
-    checks: Sequence[CheckRecord], effects: RowEffects
-) -> dict[str, list[tuple[str, float]]]:
+def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, float]]]:
     """Solved force at which each check is just met, by member [N]."""
     levels: dict[str, list[tuple[str, float]]] = {}
     for check in checks:
-        if check.resistance_kN is not None and check.action_factor:
+        action = check.action
+        if check.resistance_kN is not None and check.action_factor and action:
             if _fails_by_floor(check):
                 continue  # no coupled force turns it
-            width = effects.find_support(check.position)
-            on_row = check.action_factor * effects.factor(check.member, width)
-            level = newton_from_kilonewton(check.resistance_kN / on_row)
+            on_row = check.action_factor * action.lateral_factor
+            on_row *= action.loaded_width_m / action.post_spacing_m
+            met = (check.resistance_kN / on_row - action.added_kN) / action.share
+            level = newton_from_kilonewton(met)
             levels.setdefault(check.member, []).append((check.id, level))
     return levels
 

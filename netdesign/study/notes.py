@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from netdesign.checks import Standard
+from netdesign.checks.schema import ACCEPTANCE_TEST
 from netdesign.coupling.solution import RELEASED
 from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
@@ -12,8 +14,9 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.effects import RowEffects
+from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
-from netdesign.units import kilonewton_from_newton
+from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say
 from netdesign.words.names import name, name_check, name_member
@@ -85,7 +88,9 @@ def _layer_notes(site: Site) -> list[Message]:
     ]
 
 
-def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
+def list_row_notes(
+    row: NetRow, effects: RowEffects, pulls: Sequence[AnchorPull]
+) -> list[Message]:
     """What was taken for granted about this row."""
     notes = []
     if not math.isfinite(row.gap):
@@ -97,7 +102,41 @@ def list_row_notes(row: NetRow, effects: RowEffects) -> list[Message]:
             notes.append(told)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
+    return [*notes, *_list_pull_notes(pulls)]
+
+
+def _list_pull_notes(pulls: Sequence[AnchorPull]) -> list[Message]:
+    """Axes and kinds of anchors that nobody has given."""
+    notes = [
+        say(
+            "row.axis_assumed",
+            member=name_member(one.anchor),
+            axis=degree_from_radian(one.axis),
+        )
+        for one in pulls
+        if not one.is_axis_given and one.position == "intermediate"
+    ]
+    unknown = {one.anchor: name_member(one.anchor) for one in pulls if not one.kind}
+    if unknown:
+        notes.append(say("row.kind_assumed", members=tuple(unknown.values())))
     return notes
+
+
+def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[Message]:
+    """Proof loads of acceptance tests, where the profile asks for them."""
+    factor = standard.find(ACCEPTANCE_TEST)
+    if factor is None:
+        return []
+    return [
+        say(
+            "row.acceptance_test",
+            member=name_member(check.member),
+            load=factor.value * check.demand_high_kN,
+            factor=factor.value,
+        )
+        for check in checks
+        if check.mode == "pull_out" and check.demand_high_kN
+    ]
 
 
 def list_case_notes(cases: Sequence[CaseRecord]) -> list[Message]:

@@ -24,7 +24,7 @@ def record_anchors(
     share = effects.lateral_share
     records = []
     for name, force in result.anchors.on_ground.items():
-        lateral = 0.0 if force.member == Member.POST else share * force.size
+        lateral = share * force.size if force.member == Member.NET else 0.0
         direction = force.direction
         records.append(
             AnchorRecord(

@@ -189,6 +189,17 @@ class EnvelopeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SidewaysRecord:
+    """Load along the row at the head, as one member has it: (S17), (S18)."""
+
+    part: float  # c of a guy, w of the post [-]
+    share: float  # of the pull on the head, along the row [-]
+    pull_kN: float  # largest on a head, of a support inside a row
+    splay_deg: float
+    least_tension_kN: float | None  # of the guys at work; None in a guy
+
+
+@dataclass(frozen=True, kw_only=True)
 class ActionRecord:
     """Steps from the solved force of a support to its characteristic force."""
 
@@ -206,6 +217,13 @@ class ActionRecord:
     floor_case: str = ""  # "load_case_1" or "load_case_2"
     floor_inclination_deg: float | None = None  # at which it is largest
     governs: str = "coupled"  # or "guideline": the larger of the two
+    share: float = 1.0  # of the solved force, in this member or along the slope
+    added_kN: float = 0.0  # by the load along the row at the head
+    added_low_kN: float = 0.0
+    added_high_kN: float = 0.0
+    sideways: SidewaysRecord | None = None  # what ``added_kN`` follows from
+    foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
+    guy_part_kN: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -370,6 +388,24 @@ class AnchorRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PullRecord:
+    """Directions of the pulls on one anchor over all solved cases, and its axis.
+
+    Counted from the slope surface, in the direction along the slope in which the anchor
+    is pulled; 90 is straight out of the ground.
+    """
+
+    anchor: str
+    position: str  # "intermediate", or "edge" of types of the row's end alone
+    kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
+    least_deg: float
+    largest_deg: float
+    axis_deg: float
+    is_axis_given: bool  # else the middle of the pulls
+    angle_deg: float  # largest between pull and axis, with the part along the row
+
+
+@dataclass(frozen=True, kw_only=True)
 class HeadForce:
     """One force on the post head; those of a head sum up to zero."""
 
@@ -470,6 +506,7 @@ class RowStudy:
     monitoring: list[MonitoringRecord] = field(default_factory=list)
     anchors: list[AnchorRecord] = field(default_factory=list)  # in the drawn case
     head: list[HeadForce] = field(default_factory=list)  # in the drawn case
+    pulls: list[PullRecord] = field(default_factory=list)  # over all solved cases
     guideline: GuidelineRecord | None = None
     floor: FloorRecord | None = None  # None under a profile without a floor
     notes: list[Text] = field(default_factory=list)

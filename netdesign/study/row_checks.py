@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 
 from netdesign.checks import (
+    Band,
     CheckResult,
     Declaration,
     RowGeometry,
@@ -22,12 +23,13 @@ from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
-from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.site.model import BaseFriction, NetRow, Resistance, Site
 from netdesign.snow.creep_law import CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
-from netdesign.structure.row_position import LoadedWidth
+from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.calibration import find_doubt
-from netdesign.study.demand import Demand, build_demand, tell_governing
+from netdesign.study.demand import Demand, tell_governing
+from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
@@ -39,7 +41,9 @@ from netdesign.study.flips import (
 )
 from netdesign.study.floor import find_row_floor
 from netdesign.study.holds import HeldCheck, find_holds
+from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.probe import Probe
+from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
     ChangeRecord,
@@ -48,8 +52,13 @@ from netdesign.study.records import (
     HoldRecord,
     SpreadRecord,
 )
+from netdesign.study.sideways import MemberLoad, check_sideways
 from netdesign.study.stronger_types import find_type_change
-from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+from netdesign.units import (
+    kilonewton_from_newton,
+    kilonewton_if_known,
+    newton_from_kilonewton,
+)
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -98,25 +107,56 @@ class MemberCheck:
         return used.high if used else -1.0
 
 
-def check_row(task: RowCheck, extremes: Mapping[str, Extreme]) -> list[CheckRecord]:
+def check_row(
+    task: RowCheck, extremes: Mapping[str, Extreme], loads: RowLoads
+) -> list[CheckRecord]:
     """Every check of a row: the members of both supports, then the geometry.
 
-    ``extremes`` are those of its solved cases.
+    ``extremes`` and ``loads`` are those of its solved cases.
     """
-    effects = find_effects(task.row, task.standard)
-    floor = _find_floor(task, task.row)
     judged = [
-        _judge_member(task, given, width, extremes, effects, floor)
-        for width, given in list_checked(task.row, effects)
+        _judge_member(task, given, width, extremes, loads)
+        for width, given in list_checked(task.row, loads.effects)
     ]
     checks = []
     for one in judged:
-        is_worst = _is_worst(one, judged)
-        checks.append(_record_member(task, one, effects, is_worst=is_worst))
+        checks.append(
+            _record_member(task, one, loads.effects, is_worst=_is_worst(one, judged))
+        )
         task.on_check()
     holds = _find_holds(task, judged, checks)
     checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
-    return [*checks, *record_geometry(task.site, task.row, task.standard)]
+    return [
+        *checks,
+        *_check_directions(task, loads, find_open(judged)),
+        *record_geometry(task.site, task.row, task.standard),
+    ]
+
+
+def find_open(judged: Sequence[MemberCheck]) -> Message | None:
+    """Gap of the forces, else a doubt about any of them; None if all is well."""
+    points = (one.gap or one.doubt for one in judged)
+    return next((one for one in points if one is not None), None)
+
+
+def _check_directions(
+    task: RowCheck, loads: RowLoads, gap: Message | None
+) -> list[CheckRecord]:
+    """Checks of a row that compare no force: load along it, directions of pulls."""
+    lateral = check_sideways(task.row, loads.sideways, gap)
+    directions = check_directions(loads.pulls, task.standard, gap)
+    return [
+        record_result(settle_check(task.site, task.row, lateral)),
+        *(
+            place_check(record_result(settle_check(task.site, task.row, one)), place)
+            for place, one in directions
+        ),
+    ]
+
+
+def find_gap(solved: Message | None, floor: Floor | None) -> Message | None:
+    """Gap of the cases, else of the floor; None where nothing is missing."""
+    return solved or (floor.reason if floor else None)
 
 
 def list_checked(
@@ -147,12 +187,9 @@ def _find_holds(
         return {}
     find = cache(partial(_find_floor, task))  # the same for all members
     held = {
-        check.id: HeldCheck(
-            target=_build_target(task, one, find),
-            widen=partial(_find_width, task.standard, one),
-        )
+        check.id: HeldCheck(target=_build_target(task, one, find))
         for one, check in zip(judged, checks, strict=True)
-        if one.ratio > 0.0 and _find_scale(one) and _is_worst(one, judged)
+        if one.ratio > 0.0 and _has_target(one) and _is_worst(one, judged)
     }
     return find_holds(held, task.probe)
 
@@ -211,22 +248,25 @@ def _judge_member(
     given: Resistance,
     width: LoadedWidth,
     extremes: Mapping[str, Extreme],
-    effects: RowEffects,
-    floor: Floor | None,
+    loads: RowLoads,
 ) -> MemberCheck:
     extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
-        least = floor.find(given.member) if floor else None
-        solved = extreme.widened
-        demand = build_demand(effects, given.member, width, solved, least)
-        doubt = find_doubt(
-            task.site,
-            task.row,
-            task.law,
-            density=extreme.governing.case.density,
-            largest=solved.high,
+        demand = loads.demand(given, extreme, width)
+        known = Circumstances(
+            row=task.row,
+            ranges=task.site.ranges,
+            standard=task.standard,
+            pull=find_pull(loads.pulls, given.member, width.position),
+            pressing=loads.press(extreme, width),
         )
-    gap = task.solved.gap or (floor.reason if floor else None)
+        given = settle_resistance(given, known)
+        brings = [extreme]
+        if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
+            brings.append(extremes[Member.POST])
+        doubts = (_find_doubt(task, one) for one in brings)
+        doubt = next((one for one in doubts if one), None)
+    gap = find_gap(task.solved.gap, loads.floor)
     action = demand.action if demand else None
     return MemberCheck(
         given=given,
@@ -235,8 +275,14 @@ def _judge_member(
         demand=demand,
         gap=gap,
         doubt=doubt,
-        result=check_member(action, given, task.standard, gap=gap, doubt=doubt),
+        result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
     )
+
+
+def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:
+    """Doubt that the creep law holds for the snow of a largest force."""
+    density, largest = extreme.governing.case.density, extreme.widened.high
+    return find_doubt(task.site, task.row, task.law, density=density, largest=largest)
 
 
 def _record_member(
@@ -245,12 +291,12 @@ def _record_member(
     given, result = one.given, one.result
     if one.extreme is None or one.demand is None:
         settled = settle_check(task.site, task.row, result)
-        return place_check(record_result(settled, given), one.width)
+        return place_check(record_result(settled, given), one.width.position)
     before = task.probe.faults if task.probe else 0
     spreads = _list_spreads(task, one, one.extreme)
     changes = _list_changes(task, one, effects, is_worst=is_worst)
     if task.probe and task.probe.faults > before and not one.gap:
-        result = check_member(
+        result = judge_forces(
             one.demand.action,
             given,
             task.standard,
@@ -258,9 +304,10 @@ def _record_member(
             doubt=one.doubt,
         )
     settled = settle_check(task.site, task.row, result)
-    action = one.demand.record(effects, given.member)
+    plain = one.demand.record(effects, given.member)
+    action = add_parts(plain, one.extreme.governing, given.member)
     return replace(
-        place_check(record_result(settled, given), one.width),
+        place_check(record_result(settled, given), one.width.position),
         case=record_point(one.extreme.governing.case),
         action=action,
         reason=tell_governing(settled.reason, action),
@@ -269,10 +316,26 @@ def _record_member(
     )
 
 
-def place_check(check: CheckRecord, width: LoadedWidth) -> CheckRecord:
+def judge_forces(
+    action: Band | None,
+    given: Resistance,
+    standard: Standard,
+    *,
+    gap: Message | None,
+    doubt: Message | None,
+) -> CheckResult:
+    """Check of forces; it fails where a moment alone is too much for a post."""
+    result = check_member(action, given, standard, gap=gap, doubt=doubt)
+    lack = given.lack
+    if lack is None or lack.key != "post_bending.too_much":
+        return result
+    return replace(result, verdict=Verdict.FAIL, reason=lack)
+
+
+def place_check(check: CheckRecord, position: Position) -> CheckRecord:
     """Check of a member, named by its support."""
-    name_of_end = ".end" if width.position == "edge" else ""
-    return replace(check, id=f"{check.id}{name_of_end}", position=width.position)
+    name_of_end = ".end" if position == "edge" else ""
+    return replace(check, id=f"{check.id}{name_of_end}", position=position)
 
 
 def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
@@ -339,7 +402,7 @@ def _list_spreads(
     if used is None or scale is None or used.value == 0.0:
         return []
     unknown = tuple(name("axis", axis) for axis in extreme.unknown)
-    numerical = max(used.value, extreme.force.high * scale)
+    numerical = max(used.value, _use_at_cases(one, extreme))
     spreads = [
         SpreadRecord(
             source=say("spread.numerical_error"),
@@ -361,12 +424,35 @@ def _list_spreads(
     return spreads
 
 
-def _find_scale(one: MemberCheck) -> float | None:
-    """Utilisation for each N of the solved force [1/N]; None without a resistance."""
-    result = one.result
-    if one.demand is None or not (result.action_factor and result.design_resistance):
+def _use_at_cases(one: MemberCheck, extreme: Extreme) -> float:
+    """Utilisation by the coupled force without what may hide between the cases [-]."""
+    result, demand = one.result, one.demand
+    if demand is None or not (result.action_factor and result.design_resistance):
+        return 0.0
+    force = demand.load.apply(extreme.force).high * demand.on_support
+    return force * result.action_factor / result.design_resistance
+
+
+def _find_use(one: MemberCheck) -> float | None:
+    """Utilisation for each N on a member inside the row; None without resistance."""
+    result, demand = one.result, one.demand
+    if demand is None or not (result.action_factor and result.design_resistance):
         return None
-    return one.demand.on_support * result.action_factor / result.design_resistance
+    return demand.on_support * result.action_factor / result.design_resistance
+
+
+def _find_scale(one: MemberCheck) -> float | None:
+    """Utilisation for each N of the solved force [1/N]; None without a resistance.
+
+    What the load along the row adds counts in proportion.
+    """
+    use, demand = _find_use(one), one.demand
+    if demand is None or use is None:
+        return None
+    solved = demand.solved.high
+    if solved == 0.0:
+        return use * demand.load.share
+    return use * demand.load.apply(demand.solved).high / solved
 
 
 def _note_floor(one: MemberCheck) -> Message | None:
@@ -409,6 +495,8 @@ def _list_changes(
         result.verdict is Verdict.PASS or (used and (gap or one.doubt))
     ):
         return []  # neither a missing result nor a doubt is mended by any change
+    if isinstance(one.given.dimensions, BaseFriction):
+        return []  # in proportion to what presses the base
     changes = _list_resistance_changes(task, one.given, result)
     if used is None or result.design_resistance is None:
         return changes
@@ -416,7 +504,7 @@ def _list_changes(
     if gap or one.doubt:
         note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
-    if task.probe is None or not is_worst:
+    if task.probe is None or not is_worst or not _has_target(one):
         return changes
     target = _build_target(task, one, partial(_find_floor, task))
     found = (
@@ -427,32 +515,59 @@ def _list_changes(
     return [*changes, *(change for change in found if change is not None)]
 
 
+def _has_target(one: MemberCheck) -> bool:
+    """The check follows from the member's force by numbers that stay as they are.
+
+    A resistance that follows the snow does not, nor what is added to no force at all.
+    """
+    demand = one.demand
+    if demand is None or one.given.dimensions or _find_use(one) is None:
+        return False
+    return demand.solved.high > 0.0 or demand.load.added.high == 0.0
+
+
 def _build_target(
     task: RowCheck, one: MemberCheck, find: Callable[[NetRow], Floor | None]
 ) -> Target:
-    """The check as a function of a solved case and of the snow height."""
-    extreme, scale = one.extreme, _find_scale(one)
-    if extreme is None or scale is None:
+    """The check as a function of a solved case and of the row."""
+    extreme, demand, use = one.extreme, one.demand, _find_use(one)
+    if extreme is None or demand is None or use is None:
         raise ValueError("a check without a demand has no target")
-    member, ranges = one.given.member, task.site.ranges
+    member, load = one.given.member, demand.load
 
     def use_floor(row: NetRow) -> float:
         floor = find(row)
         least = floor.find(member) if floor else None
         if floor is not None and least is None:
             return math.inf
-        return scale * least.force if least else 0.0
+        if floor is None or least is None:
+            return 0.0
+        return use * (load.share * least.force + _add_by_floor(load, floor))
 
     at_cases = find_extreme(member, task.solved.results).force.high
+    widened = extreme.widened.high / at_cases if at_cases else 1.0
     return Target(
         row=task.row,
-        ranges=ranges,
+        ranges=task.site.ranges,
         member=member,
-        scale=scale * (extreme.widened.high / at_cases if at_cases else 1.0),
+        scale=use * load.share * widened,
+        added=use * load.added.high,
+        largest=at_cases,
         governing=extreme.governing.case,
         results=task.solved.results,
         use_floor=use_floor,
+        widen=partial(_find_width, task.standard, one),
     )
+
+
+def _add_by_floor(load: MemberLoad, floor: Floor) -> float:
+    """Force added to a member where the guideline's pull on the head may be larger [N].
+
+    It grows with that pull, and never falls.
+    """
+    now = newton_from_kilonewton(load.sideways.pull_kN) if load.sideways else 0.0
+    pull = floor.head.pull if floor.head else 0.0
+    return load.added.value * max(1.0, pull / now if now else 1.0)
 
 
 def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:

@@ -35,6 +35,8 @@ NETS = {
     "uphill guy": "G",
     "downhill guy": "G",
     "post": "P",
+    "guys on each side of the post": 2,
+    "splay of the guys [deg]": 30,
 }
 ROPE = {
     "id": "G",
@@ -53,6 +55,9 @@ POST = {
     "plate length [m]": 0.6,
     "plate width [m]": 0.5,
     "bearing stress [kPa]": 900,
+    "post width [mm]": 120,
+    "section modulus [cm3]": 144,
+    "friction of the base": 0.6,
 }
 
 
@@ -62,7 +67,17 @@ def judge_row(tmp_path: Path, profile, **changes):
     return {check.id: check for check in row.checks}
 
 
-def study_row(tmp_path: Path, profile, *, anchor, foot, head, floor="none", **nets):
+def study_row(
+    tmp_path: Path,
+    profile,
+    *,
+    anchor,
+    foot,
+    head,
+    floor="none",
+    post=POST,
+    **nets,
+):
     """Study of the row under a profile, given by its id or its folder.
 
     Without a floor by the guideline's load the given pulls are the demand.
@@ -71,7 +86,7 @@ def study_row(tmp_path: Path, profile, *, anchor, foot, head, floor="none", **ne
         "Nets": NETS | {key.replace("_", " "): v for key, v in nets.items()},
         "Anchors": {"id": "A"} | anchor,
         "Ropes": ROPE,
-        "Posts": POST,
+        "Posts": post,
     }
     workbook = openpyxl.Workbook()
     workbook.remove(workbook.active)

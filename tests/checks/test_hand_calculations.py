@@ -55,7 +55,13 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         pytest.approx(109.86, **CLOSE),
         pytest.approx(54.39, **CLOSE),
     )
-    # Lateral load, 10 % of a pulling force across it: sqrt(1 + 0.01) = 1.00499.
+    # Load along the row, 10 %: at the foot sqrt(1 + 0.01) = 1.00499. At the head S =
+    # 0.1 sqrt(17.5^2 + 77^2) = 7.896 kN, in two guys splayed by 30 degrees. Downhill
+    # guy, head to anchor (2.1962, -3) / 3.7179 = (0.5907, -0.8069); with |u x p| =
+    # 0.6772 and |d x p| = 0.7794 kappa = 0.7794 / 1.4566 = 0.5351:
+    # N = 54.39 / (2 * 0.86603) + 0.5351 * 7.896 / 0.5 = 31.40 + 8.45 = 39.85 kN.
+    one_guy = guy / (2.0 * 0.86603) + 0.5351 * 7.896 / 0.5
+    assert one_guy == pytest.approx(39.85, **CLOSE)
     lateral = 1.00499
     # Foot anchor: 3.5 * sqrt(20^2 + 18^2) = 94.18 kN; 1.5 times with lateral load.
     foot = 1.5 * 94.18 * lateral  # 141.97 kN
@@ -79,9 +85,9 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
     # Rope 20 mm: 0.356 * 20^2 * 1770 = 252.0 kN, clips 0.8: 201.6 kN; 1.5.
     expect(
         checks["uphill_guy.rope"],
-        demand=1.5 * guy * lateral,
+        demand=1.5 * one_guy,
         resistance=201.64 / 1.5,
-        utilisation=0.6100,
+        utilisation=0.4447,
         verdict=Verdict.PASS,
     )
     # Post (EN 1993-1-1, 6.3.1.2): N_cr = pi^2 * 210 GPa * 318 cm4 / 3.1^2 = 685.8 kN,
@@ -102,7 +108,32 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
         utilisation=0.8253,
         verdict=Verdict.PASS,
     )
-    assert checks["downhill_guy.rope"].demand_kN == 0.0
+    # Sliding: 106.1 tan 15 = 28.43 kN; 0.6 * 1.5 * 106.1 = 95.51 kN; 1.1.
+    expect(
+        checks["post_base.sliding"],
+        demand=1.5 * 28.43,
+        resistance=95.51 / 1.1,
+        utilisation=0.4912,
+        verdict=Verdict.PASS,
+    )
+    # Snow on the post: the larger of load case 2, rho 0.4, H = 0.77 * 3.418 = 2.632 m:
+    # K = 0.8264 sin 70 = 0.7766, S'_N = 0.5 * 4 * 6.927 * 0.7766 = 10.76 kN/m over
+    # 2.156 m: 4.990 kPa, and the densest snow, 380 kg/m3: K = 0.8114 sin 70 = 0.7625,
+    # S'_N = 0.5 * 3.8 * 11.683 * 0.7625 = 16.93 kN/m over 2.8 m: 6.045 kPa.
+    # M = 2 * 6.045 * 0.12 * 3.1^2 / 8 = 1.7428 kN m; gamma_E 1.5: 2.614 kN m.
+    # M_Rk = 144 cm3 * 235 = 33.84 kN m; m = 1.05 * 2.614 / 33.84 = 0.08111.
+    # (1 - 1.05 C / 395.7) (1 - C / 685.8) = 0.08111: C = 319.7 kN.
+    # No compression comes on top: 54.39 kN exceeds S / tan 30 = 13.68 kN.
+    expect(
+        checks["post.compression_bending"],
+        demand=1.5 * post,
+        resistance=319.7,
+        utilisation=0.5155,
+        verdict=Verdict.PASS,
+    )
+    # The slack downhill guys: at most (1 - 0.5351 < 1/2) 0.5 * 7.896 / 0.5 = 7.896 kN.
+    assert checks["downhill_guy.rope"].demand_kN == pytest.approx(11.844, **CLOSE)
+    assert checks["post.lateral"].verdict is Verdict.PASS
     assert checks["foot_anchor.tendon"].action.position == "intermediate"
     assert checks["foot_anchor.tendon"].action.loaded_width_m == width
 
@@ -148,11 +179,12 @@ def test_row_2_free_end_with_bond_under_the_swiss_profile(tmp_path):
         utilisation=1.7744,
         verdict=Verdict.FAIL,
     )
+    # Head 5.5 m wide: S = 0.1 * 85.38 kN; geometry and kappa as in row 1.
     expect(
         checks["uphill_guy.rope.end"],
-        demand=1.5 * guy * 1.00499,
+        demand=1.5 * (guy / (2.0 * 0.86603) + 0.5351 * 8.538 / 0.5),
         resistance=201.64 / 1.35,  # recalled factor of ropes
-        utilisation=0.6350,
+        utilisation=0.4565,
         verdict=Verdict.PASS,
     )
     expect(
@@ -205,8 +237,10 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
     post = (-42.0 * 0.80692 - 0.59070 * 70.0) / -0.77942  # 96.53 kN
     guy = (0.25882 * 70.0 - 0.96593 * 42.0) / -0.77942  # 28.81 kN
     assert (post, guy) == (pytest.approx(96.53, **CLOSE), pytest.approx(28.81, **CLOSE))
-    assert checks["uphill_guy.rope"].demand_kN == 0.0
+    # S = 0.1 * 81.63 kN; the uphill guys have at most 0.5351 * 8.163 / 0.5 = 8.736 kN.
+    assert checks["uphill_guy.rope"].demand_kN == pytest.approx(13.104, **CLOSE)
     assert checks["uphill_guy.rope"].verdict is Verdict.PASS
+    one_guy = guy / (2.0 * 0.86603) + 0.5 * 8.163 / 0.5  # 24.80 kN
     # Gap 1 m, N = 1: f_R = 1.57 * 0.5 = 0.785 over 0.3 m, edge 1.985 m < 3.5 m.
     # Foot: 3.5 * sqrt(18^2 + 20^2) = 94.18 kN.
     foot = 1.5 * 94.18 * 1.00499
@@ -228,16 +262,16 @@ def test_row_3_head_drawn_upslope_under_the_onr_style_profile(tmp_path):
     )
     expect(
         checks["downhill_guy.rope"],
-        demand=1.5 * guy * 1.00499,
+        demand=1.5 * one_guy,
         resistance=201.64 / 1.5,
-        utilisation=0.3231,
+        utilisation=0.2767,
         verdict=Verdict.PASS,
     )
     expect(
         checks["downhill_anchor.pull_out"],
-        demand=1.5 * guy * 1.00499,
+        demand=1.5 * one_guy,
         resistance=128.57 / 1.2,
-        utilisation=0.4054,
+        utilisation=0.3472,
         verdict=Verdict.PASS,
     )
     # Post over gamma_M1 = 1.1.

@@ -58,8 +58,13 @@ def test_nf_style_profile_has_the_values_of_its_notes():
         "resistance.rope": 1.5,
         "resistance.compression": 1.05,
         "resistance.bearing": 1.4,
+        "resistance.bending": pytest.approx(1.15 * 1.3, rel=1e-15),
+        "resistance.compression_bending": 1.05,
+        "resistance.sliding": 1.1,
+        "anchor.angle.rope": 30.0,
+        "anchor.angle.bar": 10.0,
     }
-    borrowed = ("end.", "lateral.")
+    borrowed = ("end.", "lateral.", "post.")
     assert {k: v for k, v in values.items() if not k.startswith(borrowed)} == of_notes
 
 
@@ -91,7 +96,7 @@ def test_factor_of_the_basis_is_used_and_else_that_of_the_mode():
     assert found("pull_out", "") is None
     assert found("rope", "declared") == "resistance.rope"
     assert found("rope", "") == "resistance.rope"
-    assert found("bending", "tested") is None
+    assert found("crushing", "tested") is None
 
 
 def test_standard_is_frozen():
@@ -213,7 +218,7 @@ def test_choices_without_a_choice_are_refused_with_what_is_accepted(folder):
         load_standard(folder)
     assert str(caught.value) == (
         f"{folder / 'document.toml'}: 'choice' = '': must be one of recommended-da2, "
-        "anchors-da2, en-1537, denmark (choices.toml)"
+        "anchors-da2, en-1537, denmark, grouted-anchors-2013 (choices.toml)"
     )
 
 

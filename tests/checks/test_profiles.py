@@ -243,7 +243,8 @@ def test_missing_source_and_half_a_group_are_refused(folder):
     path = mine / "model.toml"
     text = path.read_text("utf-8")
     blocks = text.split("[[value]]")
-    path.write_text("[[value]]".join(blocks[:-2] + blocks[-1:]), "utf-8")
+    kept = [one for one in blocks if 'id = "end.isolated_gap"' not in one]
+    path.write_text("[[value]]".join(kept), "utf-8")
     with pytest.raises(
         StandardError, match=r"end\.\* are given all or none; lacks end"
     ):
@@ -270,7 +271,9 @@ def test_a_table_does_not_extrapolate():
 
 def test_edited_value_is_found_by_its_new_number(folder):
     mine = folder("nf-p-95-304-style")
-    edit(mine / "factors.toml", "value = 1.495\n", "value = 1.725\n")
+    path = mine / "factors.toml"
+    text = path.read_text("utf-8")
+    path.write_text(text.replace("value = 1.495\n", "value = 1.725\n", 1), "utf-8")
     standard = load_standard(mine)
     assert standard.find("resistance.tendon").value == 1.725
     shipped = load_standard("nf-p-95-304-style")

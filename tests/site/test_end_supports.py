@@ -2,7 +2,7 @@
 
 import pytest
 
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 
 HEADINGS = ["net row", "foot anchor", "uphill anchor", "uphill guy", "post"]
@@ -27,7 +27,7 @@ def test_named_types_are_those_of_the_end_and_blank_ones_those_of_the_row(
 ):
     first, second = read_site(save(with_ends)).rows
     inside, end = values(first.resistances), values(first.resistances_at("edge"))
-    assert tuple(end) == MEMBER_MODES
+    assert tuple(end) == (*MEMBER_MODES, *DEPENDENT_MODES)
     assert inside["foot_anchor", "tendon"] == 400e3
     assert end["foot_anchor", "tendon"] == 731e3
     assert end["foot_anchor", "pull_out"] == 617e3

@@ -83,6 +83,7 @@ def assert_german(site):
     types = {one.member: one.type_id for one in second.resistances}
     assert types == {
         **dict.fromkeys({member for member, _ in MEMBER_MODES}, "A2"),
+        "post_base": "P1",
         **{"foot_anchor": "A1", "uphill_guy": "S1", "downhill_guy": "S1"},
         **{"post": "P1", "post_base": "P1"},
     }

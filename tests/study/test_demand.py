@@ -26,9 +26,12 @@ from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
 from netdesign.study.record_provenance import record_profile
+from netdesign.study.sideways import MemberLoad
 from netdesign.words.message import say
 from tests.small_site import RUN, build_row, build_site, resist
 
+ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
+PLAIN = MemberLoad()  # the force of the section as it is
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
     density=Interval(low=200.0, high=270.0, count=2),
@@ -60,8 +63,7 @@ def solved():
 
 def judge(solved, standard=SWISS, **changes):
     """Study of the row; its site accepts the creep law for snow as light."""
-    accepted = Project(name="Combe", accepted_law=RUN.creep_law.name)
-    site = build_site(replace(ROW, **changes), ranges=RANGES, project=accepted)
+    site = build_site(replace(ROW, **changes), ranges=RANGES, project=ACCEPTED)
     return site, judge_site(site, solved, standard, RUN)
 
 
@@ -97,9 +99,11 @@ def test_every_demand_is_the_larger_of_both_and_says_which(solved):
         if action is None:
             continue
         on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
-        least = floor[check.member].force_kN * on_row
+        least = action.share * floor[check.member].force_kN + action.added_kN
+        least *= on_row
         assert action.guideline_kN == pytest.approx(least, rel=1e-12)
-        value = max(action.solved_kN * on_row, least)
+        solved_kN = action.share * action.solved_kN + action.added_kN
+        value = max(solved_kN * on_row, least)
         assert check.action_kN == pytest.approx(value, rel=1e-12)
         high = max(action.coupled_kN, least) * check.action_factor
         assert check.demand_high_kN == pytest.approx(high, rel=1e-12)
@@ -164,13 +168,13 @@ def test_band_is_cut_off_at_the_floor():
     for _ in range(200):
         ends = sorted(draw.uniform(0.3, 1.9) * scale for _ in range(3))
         solved = Band(low=ends[0], value=ends[1], high=ends[2])
-        demand = build_demand(effects, Member.POST, width, solved, least)
+        demand = build_demand(effects, Member.POST, width, solved, least, PLAIN)
         action = demand.action
         assert action.low == max(ends[0], scale)
         assert action.value == max(ends[1], scale)
         assert action.high == max(ends[2], scale)
         assert demand.governs == ("guideline" if scale >= ends[2] else "coupled")
-    free = build_demand(effects, Member.POST, width, solved, None)
+    free = build_demand(effects, Member.POST, width, solved, None, PLAIN)
     assert free.action == solved
     assert (free.governs, free.guideline) == ("coupled", None)
 
@@ -180,7 +184,7 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     least = a_floor().find(Member.FOOT_ANCHOR)
     force = Band(low=0.0, value=0.0, high=0.0)
     member = Member.FOOT_ANCHOR
-    demand = build_demand(effects, member, effects.supports[1], force, least)
+    demand = build_demand(effects, member, effects.supports[1], force, least, PLAIN)
     reason = say("check.passes")
     told = tell_governing(reason, demand.record(effects, member))
     assert str(told).endswith(
@@ -189,7 +193,8 @@ def test_reason_names_the_load_and_gives_back_its_own_part():
     assert leave_out_governing(told) == reason
     assert leave_out_governing(reason) == reason
     guy = Member.DOWNHILL_GUY
-    slack = build_demand(effects, guy, effects.supports[1], force, a_floor().find(guy))
+    none = a_floor().find(guy)
+    slack = build_demand(effects, guy, effects.supports[1], force, none, PLAIN)
     assert slack.action.high == 0.0
     assert tell_governing(reason, slack.record(effects, guy)) == reason
 
@@ -293,6 +298,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
     site = build_site(
         replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=400e3)),
         ranges=RANGES,
+        project=ACCEPTED,
     )
     probe = Probe(RUN.settings, RUN.creep_law)
     checks = checks_of(judge_site(site, solved, SWISS, RUN, probe))
@@ -320,5 +326,6 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
 def judge_end(solved, resistance):
     row = replace(ROW, gap=math.inf, resistances=resist(foot_anchor__tendon=resistance))
     probe = Probe(RUN.settings, RUN.creep_law)
-    study = judge_site(build_site(row, ranges=RANGES), solved, SWISS, RUN, probe)
+    site = build_site(row, ranges=RANGES, project=ACCEPTED)
+    study = judge_site(site, solved, SWISS, RUN, probe)
     return checks_of(study)

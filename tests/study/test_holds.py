@@ -108,7 +108,7 @@ def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
 
 
 def hold_of(target, quantity, probe=None, widen=alone):
-    held = HeldCheck(target=target, widen=widen)
+    held = HeldCheck(target=replace(target, widen=widen))
     found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
     return next(one for one in found if one.quantity == quantity)
 
@@ -204,7 +204,7 @@ def test_members_share_solves():
     probe, targets = MadeUpProbe(), {}
     for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
         target = a_target(used, ("foot_anchor", "post")[k % 2])
-        targets[str(k)] = HeldCheck(target=target, widen=alone)
+        targets[str(k)] = HeldCheck(target=target)
     find_holds(targets, probe)
     assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
 

@@ -7,11 +7,12 @@ from dataclasses import replace
 import pytest
 
 from netdesign.checks import load_standard
+from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.envelope.ranges import Interval, Ranges, build_cases
 from netdesign.envelope.rows import RowGrid
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome, Verdict
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.solving.runner import Runner
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.cases import count_cases, solve_site
@@ -75,11 +76,13 @@ def test_study_is_complete(results, standard):
     assert study.schema == "netdesign.study/2"
     assert study.project.name == "Combe"
     assert [row.id for row in study.rows] == ["R1", "R2"]
-    inside = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    modes = (*MEMBER_MODES, *DEPENDENT_MODES)
+    inside = [f"{member}.{mode}" for member, mode in modes]
     expected = [*inside, *(f"{one}.end" for one in inside)]
     for row in study.rows:
         assert [check.id for check in row.checks] == [
             *expected,
+            "post.lateral",
             "geometry.inclination",
             "geometry.slope",
             "geometry.height",
@@ -321,7 +324,7 @@ def test_a_net_overtopped_by_snow_fails_by_its_height_and_says_why(standard):
     assert {case.outcome for case in study.rows[0].cases} == {Outcome.CONVERGED}
     for check in study.rows[0].checks[:-3]:
         assert check.verdict == Verdict.NOT_PROVEN
-        assert check.utilisation is not None
+        assert (check.utilisation is None) is (check.mode in MODES_WITHOUT_FORCE)
         assert "overtops the net" in str(check.reason)
         assert check.changes == []
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 from html.parser import HTMLParser
 
+from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.study.audit.comparing import tell_value, tell_verdict
@@ -73,7 +74,7 @@ def _require_sound(place: Message, check: CheckRecord) -> None:
     _require_sizes(place, check)
     if (check.verdict is Verdict.DECLARED) and check.declared is None:
         raise NetDesignError(say("audit.declared_by_nobody", place=place))
-    if check.verdict is Verdict.PASS and not _is_of_geometry(check):
+    if check.verdict is Verdict.PASS and not _is_without_force(check):
         _, high = check.utilisation_band
         if high is None or not high <= 1:
             raise NetDesignError(
@@ -131,8 +132,9 @@ def _require_parts(place: Message, check: CheckRecord) -> None:
         raise NetDesignError(say("audit.without_parts", place=place))
 
 
-def _is_of_geometry(check: CheckRecord) -> bool:
-    return check.id.startswith("geometry.") and check.action is None
+def _is_without_force(check: CheckRecord) -> bool:
+    is_geometry = check.id.startswith("geometry.")
+    return check.action is None and (is_geometry or check.mode in MODES_WITHOUT_FORCE)
 
 
 def _product(left: float | None, right: float | None) -> float | None:

@@ -33,12 +33,14 @@ from netdesign.study.records import (
     ChangeRecord,
     CheckRecord,
     GuidelineCase,
+    PullRecord,
     RowStudy,
     SpreadRecord,
 )
 from netdesign.words.names import name
 
 _FORCES = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN", "direction_deg")
+_PULLS = ("least_deg", "largest_deg", "axis_deg", "angle_deg")
 _GUIDELINE = (
     "height_vertical_m",
     "creep_factor",
@@ -78,6 +80,37 @@ def _name_bringer(anchor: AnchorRecord, words: Words) -> str:
     """Member that brings a force, and whether it is slack."""
     member = show_member(words, anchor.member)
     return member if anchor.size_kN else words("show.slack", member=member)
+
+
+def build_pulls(row: RowStudy, words: Words) -> Table:
+    """Directions of the pulls on each anchor over all solved cases, and its axis."""
+    return Table(
+        caption=words("caption.pulls"),
+        columns=(
+            text_column(words("heading.anchor")),
+            text_column(words("heading.kind_of_anchor")),
+            *(quantity_column(words, key) for key in _PULLS),
+            text_column(words("heading.axis_from")),
+        ),
+        rows=tuple(
+            (
+                text_cell(show_member(words, pull.anchor)),
+                text_cell(_name_kind(pull, words)),
+                *(number_cell(key, getattr(pull, key)) for key in _PULLS),
+                text_cell(
+                    words("show.axis_given" if pull.is_axis_given else "show.axis_mean")
+                ),
+            )
+            for pull in row.pulls
+        ),
+        empty=words("heading.no_case_converged"),
+    )
+
+
+def _name_kind(pull: PullRecord, words: Words) -> str:
+    if not pull.kind:
+        return MISSING
+    return words(f"choice.kind.{pull.kind.replace(' ', '')}")
 
 
 def build_head(row: RowStudy, words: Words) -> Table:
@@ -291,10 +324,16 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
                 show_with_unit("loaded_width_m", action.loaded_width_m),
             )
         )
+    steps += _describe_parts(action)
+    if check.mode == "sliding":  # both parts of the post's force on the ground
+        tilt = show_with_unit("share", action.share)
+        steps.append(("g", "|F_x / F_y|", tilt))
     solved = show_with_unit("solved_kN", action.solved_kN)
     if action.floor_kN is None:
         force = show_with_unit("action_kN", check.action_kN)
-        steps.append(("E_k = E_s · b_e / b · k_q", _widen(solved, action), force))
+        symbols, numbers = _load_member("E_s", solved, action)
+        line = (f"E_k = {symbols} · b_e / b · k_q", _widen(numbers, action), force)
+        steps.append(line)
     else:
         steps += _describe_floor(check, action, solved)
     if action.other_width_m is not None and check.action_kN is not None:
@@ -310,18 +349,58 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
     return tuple(steps)
 
 
+def _describe_parts(action: ActionRecord) -> list[tuple[str, str, str]]:
+    """Sum of two members on one anchor; what the load along the row adds."""
+    steps = []
+    if action.foot_part_kN is not None and action.guy_part_kN is not None:
+        parts = (
+            show_with_unit("solved_kN", one)
+            for one in (action.foot_part_kN, action.guy_part_kN)
+        )
+        solved = show_with_unit("solved_kN", action.solved_kN)
+        steps.append(("E_s = |F_foot| + |F_uphill|", " + ".join(parts), solved))
+    load = action.sideways
+    if load is None:
+        return steps
+    part, share, pull, splay, tension = (
+        show_with_unit(key, getattr(load, key))
+        for key in ("part", "share", "pull_kN", "splay_deg", "least_tension_kN")
+    )
+    added = show_with_unit("added_kN", action.added_kN)
+    if load.least_tension_kN is None:
+        symbols = "g = 1 / (2 cos β), A = c · k · P / sin β"
+        numbers = f"{part} · {share} · {pull} / sin {splay}"
+    else:
+        symbols = "A = w · (k · P / tan β − T_min)"
+        numbers = f"{part} · ({share} · {pull} / tan {splay} − {tension})"
+    return [*steps, (symbols, numbers, added)]
+
+
+def _load_member(symbol: str, force: str, action: ActionRecord) -> tuple[str, str]:
+    """Force of the section with its share and what is added, symbols and numbers."""
+    if action.share == 1.0 and not action.added_kN:
+        return symbol, force
+    share, added = (
+        show_with_unit(key, getattr(action, key)) for key in ("share", "added_kN")
+    )
+    return f"(g · {symbol} + A)", f"({share} · {force} + {added})"
+
+
 def _describe_floor(
     check: CheckRecord, action: ActionRecord, solved: str
 ) -> list[tuple[str, str, str]]:
     """The coupled force and the guideline's, of which the larger one counts."""
     on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
-    coupled = show_with_unit("coupled_kN", action.solved_kN * on_row)
+    on_member = action.share * action.solved_kN + action.added_kN
+    coupled = show_with_unit("coupled_kN", on_member * on_row)
     floor = show_with_unit("floor_kN", action.floor_kN)
     least = show_with_unit("guideline_kN", action.guideline_kN)
     force = show_with_unit("action_kN", check.action_kN)
+    by_solve, solved_numbers = _load_member("E_s", solved, action)
+    by_floor, floor_numbers = _load_member("E_g0", floor, action)
     return [
-        ("E_c = E_s · b_e / b · k_q", _widen(solved, action), coupled),
-        ("E_g = E_g0 · b_e / b · k_q", _widen(floor, action), least),
+        (f"E_c = {by_solve} · b_e / b · k_q", _widen(solved_numbers, action), coupled),
+        (f"E_g = {by_floor} · b_e / b · k_q", _widen(floor_numbers, action), least),
         ("E_k = max(E_c; E_g)", f"max({coupled}; {least})", force),
     ]
 

@@ -45,7 +45,7 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.document import compute_digest
-from netdesign.study.records import ProfileRecord, RowStudy, Study
+from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"
@@ -73,6 +73,7 @@ class RowView:
     failed: Table
     inputs: Table
     anchors: Table
+    pulls: Table
     head: Table
     spreads: Table
     changes: Table
@@ -148,7 +149,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         counts=_count_all(study, words),
         declared=_list_declared(study, words),
         assumed=assumed,
-        assumed_line=_list_assumed(study.profile),
+        assumed_line=_list_assumed(study, words),
         defaults_line=basis_tables.list_defaults(study, words),
         scope=basis_tables.list_scope(words),
         assumptions=basis_tables.build_assumptions(study, words),
@@ -208,6 +209,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
             row.inputs, words("heading.inputs_with_cells"), words
         ),
         anchors=row_tables.build_anchors(row, words),
+        pulls=row_tables.build_pulls(row, words),
         head=row_tables.build_head(row, words),
         spreads=row_tables.build_spreads(shown, words),
         changes=row_tables.build_changes(row, words),
@@ -331,7 +333,13 @@ def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
     )
 
 
-def _list_assumed(profile: ProfileRecord) -> str:
-    assumed = [v for v in profile.values if v.status == tables.ASSUMED]
+def _list_assumed(study: Study, words: Words) -> str:
+    """Values of the profile and axes of anchors that nobody has confirmed."""
+    assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
     names = [f"{v.id} = {show_quantity(v.value, v.unit)}" for v in assumed]
+    axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
+    kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
+    for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):
+        if rows:
+            names.append(words(key, rows=tuple(rows)))
     return ", ".join(show_text(name) for name in names)

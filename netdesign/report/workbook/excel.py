@@ -29,6 +29,7 @@ SHEETS = (
     "changes",
     "holds",
     "support",
+    "directions",
     "guideline",
     "quality",
     "assumptions",
@@ -128,6 +129,11 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
             "support",
             "heading.forces_on_ground",
             _list_parts(view, "anchors"),
+        ),
+        (
+            "directions",
+            "heading.directions_of_pulls",
+            _list_parts(view, "pulls"),
         ),
         (
             "guideline",

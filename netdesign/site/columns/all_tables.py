@@ -17,6 +17,11 @@ from netdesign.site.columns.dimension_columns import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
+from netdesign.site.columns.support_columns import (
+    ANCHOR_BENDING,
+    GUYS_AND_AXES,
+    POST_BENDING,
+)
 from netdesign.site.columns.unit_names import (
     ANGLES,
     DENSITIES,
@@ -204,6 +209,7 @@ NETS = word_plan(
             _reference("downhill_guy", "Ropes"),
             _reference("post", "Posts"),
             *ROW_POSITION,
+            *GUYS_AND_AXES,
         ),
     )
 )
@@ -313,6 +319,7 @@ ANCHORS = word_plan(
                 note="how the pull-out resistance is known",
             ),
             *ANCHOR_DIMENSIONS,
+            *ANCHOR_BENDING,
         ),
     )
 )
@@ -334,6 +341,7 @@ POSTS = word_plan(
             _TYPE_ID,
             _resistance("compression", "compression"),
             *POST_DIMENSIONS,
+            *POST_BENDING,
         ),
     )
 )

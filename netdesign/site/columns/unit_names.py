@@ -10,6 +10,7 @@ import unicodedata
 from collections.abc import Callable
 
 from netdesign.units import (
+    cubic_meter_from_cubic_centimeter,
     degree_from_radian,
     fourth_meter_from_fourth_centimeter,
     kelvin_from_celsius,
@@ -29,6 +30,7 @@ LENGTHS = ("m", "cm", "mm")
 DIAMETERS = ("mm", "cm", "m")
 AREAS = ("cm2", "mm2")
 SECOND_MOMENTS = ("cm4", "mm4")
+SECTION_MODULI = ("cm3", "mm3")
 STRENGTHS = ("MPa",)
 GROUND_STRESSES = ("kPa", "MPa")
 FORCES = ("kN", "N", "MN")
@@ -104,6 +106,7 @@ _FACTORS = {
     ("m", "mm"): 1e3,
     ("mm2", "cm2"): 1e-2,
     ("mm4", "cm4"): 1e-4,
+    ("mm3", "cm3"): 1e-3,
     ("kPa", "MPa"): 1e-3,
     ("MPa", "kPa"): 1e3,
     ("h", "d"): 1 / 24,
@@ -123,6 +126,7 @@ _CONVERSIONS: dict[tuple[str, str], Callable[[float], float]] = {
 _TO_SI = {
     "mm": meter_from_millimeter,
     "cm2": square_meter_from_square_centimeter,
+    "cm3": cubic_meter_from_cubic_centimeter,
     "cm4": fourth_meter_from_fourth_centimeter,
     "kPa": pascal_from_kilopascal,
     "MPa": pascal_from_megapascal,
@@ -135,7 +139,8 @@ _TO_SI = {
 
 # Every unit that some column may be given in, and what is refused as one.
 KNOWN_UNITS: frozenset[str] = frozenset(UNCLEAR_UNITS).union(
-    *(LENGTHS, AREAS, SECOND_MOMENTS, STRENGTHS, GROUND_STRESSES, FORCES),
+    *(LENGTHS, AREAS, SECOND_MOMENTS, SECTION_MODULI, STRENGTHS),
+    *(GROUND_STRESSES, FORCES),
     *(FORCES_PER_LENGTH, ANGLES, SLOPES, SHARES, DENSITIES, TEMPERATURES, TIMES),
 )
 

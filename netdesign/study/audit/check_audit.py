@@ -6,13 +6,18 @@ from collections import Counter
 from collections.abc import Iterator
 
 from netdesign.checks.check import judge
-from netdesign.checks.schema import ACTION_FACTOR, LATERAL_SHARE
+from netdesign.checks.schema import (
+    ACTION_FACTOR,
+    BAR_ANGLE,
+    LATERAL_SHARE,
+    MODES_WITHOUT_FORCE,
+    ROPE_ANGLE,
+)
 from netdesign.outcome import Verdict
-from netdesign.site.model import MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.structure.members import (
     BROUGHT_BY,
     CARRYING_MEMBERS,
-    PUSHED_MEMBERS,
     Member,
 )
 from netdesign.structure.row_position import compute_lateral_factor
@@ -44,8 +49,8 @@ from netdesign.words.names import name_check
 _REASONS = {
     Verdict.PASS: ("check.passes", "check.slack"),
     Verdict.FAIL: (
-        *("check.fails", "check.fails_besides"),
-        "check.fails_though_declared",
+        *("check.fails", "check.fails_besides", "check.fails_though_declared"),
+        "post_bending.too_much",
     ),
     Verdict.NOT_PROVEN: ("check.not_proven",),
     Verdict.DECLARED: ("check.declared",),
@@ -66,9 +71,11 @@ def audit_checks(
         for name, count in counts.items()
         if count > 1
     )
-    wanted = [f"{member}.{mode}" for member, mode in MEMBER_MODES]
+    modes = (*MEMBER_MODES, *DEPENDENT_MODES)
+    wanted = [f"{member}.{mode}" for member, mode in modes]
     if _has_end(row, profile):
         wanted += [f"{name}.end" for name in wanted]
+    wanted.append(f"{Member.POST}.lateral")
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
         yield say("audit.no_check", place=place, checks=tuple(lost))
@@ -82,7 +89,9 @@ def audit_checks(
         if not is_own and check.member != Member.NET:
             what = name_check(check.member, check.mode, check.position)
             yield say("audit.check_of_other", place=where, what=what)
-        if check.member != Member.NET:
+        if check.mode in MODES_WITHOUT_FORCE:
+            yield from _audit_direction(where, check, row, factors)
+        elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
             yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, row)
@@ -146,13 +155,14 @@ def _audit_action(
             yield say("audit.action_or_force", place=place)
         return
     is_part = check.member == Member.POST_BASE
-    lateral = 1.0
-    if check.member not in PUSHED_MEMBERS:
-        lateral = compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
+    lateral = _find_lateral(check, row, factors)
     on_row = record.loaded_width_m / record.post_spacing_m * record.lateral_factor
     least = _find_floor(check, row)
-    on_support = None if least is None else least.force_kN * on_row
+    on_support = None
+    if least is not None:
+        on_support = (record.share * least.force_kN + record.added_kN) * on_row
     factor, floor = check.action_factor or 0.0, on_support or 0.0
+    solved = (record.share * record.solved_kN + record.added_kN) * on_row
     pairs: list[Pair] = [
         ("lateral_factor", record.lateral_factor, lateral),
         ("floor_kN", record.floor_kN, least.force_kN if least else None),
@@ -162,7 +172,7 @@ def _audit_action(
             record.floor_inclination_deg,
             least.inclination_deg if least else None,
         ),
-        ("action_kN", check.action_kN, max(record.solved_kN * on_row, floor)),
+        ("action_kN", check.action_kN, max(solved, floor)),
     ]
     if check.action_factor is not None:
         high = max(record.coupled_kN, floor) * factor
@@ -170,16 +180,17 @@ def _audit_action(
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         if check.action_factor is not None:
-            low = max(extreme.low_kN * on_row, floor) * factor
+            low = (record.share * extreme.low_kN + record.added_low_kN) * on_row
+            low = max(low, floor) * factor
             pairs.append(("demand_low_kN", check.demand_low_kN, low))
         yield from _audit_high_end(place, record, extreme, on_row)
         if not same_point(check.case, extreme.case):
             yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
         yield say("audit.more_on_base", place=place)
-    elif record.coupled_kN < record.solved_kN * on_row * (1.0 - SAME):
-        told, force = show_value(record.coupled_kN), record.solved_kN * on_row
-        yield say("audit.too_low_end", place=place, high=told, least=force)
+    elif record.coupled_kN < solved * (1.0 - SAME):
+        told = show_value(record.coupled_kN)
+        yield say("audit.too_low_end", place=place, high=told, least=solved)
     yield from tell_unequal(place, pairs)
     yield from _audit_governing(place, check, record, least)
     yield from _audit_width(place, check, record)
@@ -225,7 +236,8 @@ def _audit_high_end(
     place: Message, record: ActionRecord, extreme: ExtremeRecord, on_row: float
 ) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
-    high, least = record.coupled_kN, extreme.high_kN * on_row
+    high = record.coupled_kN
+    least = (record.share * extreme.high_kN + record.added_high_kN) * on_row
     if extreme.upper_bound_kN is not None:
         yield from tell_unequal(place, [("coupled_kN", high, least)])
     elif high < least * (1.0 - SAME):
@@ -234,13 +246,68 @@ def _audit_high_end(
 
 def _find_extreme(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
     extremes = {extreme.quantity: extreme for extreme in row.extremes}
-    drawing = row.drawing
-    is_shared = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
-    if check.member == Member.UPHILL_ANCHOR and is_shared:
+    if _is_shared(check, row):
         return extremes.get(Member.FOOT_ANCHOR)  # one anchor carries both, (S7)
     if check.member in extremes:
         return extremes[check.member]
     return extremes.get(BROUGHT_BY.get(check.member, Member.NET))  # its guy's or post's
+
+
+def list_bringing(check: CheckRecord, row: RowStudy) -> list[ExtremeRecord]:
+    """Largest forces that a check rests on: its member's, and what adds to it.
+
+    The net's pull on the head brings what is added, as it does the post's force.
+    """
+    own = _find_extreme(check, row)
+    found = [own] if own else []
+    if check.action is not None and check.action.added_high_kN > 0.0:
+        found += [one for one in row.extremes if one.quantity == Member.POST]
+    return found
+
+
+def _find_lateral(
+    check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> float:
+    """Factor of the load along the row at the net's foot; 1 elsewhere."""
+    if check.member == Member.FOOT_ANCHOR or _is_shared(check, row):
+        return compute_lateral_factor(factors.get(LATERAL_SHARE, 0.0))
+    return 1.0
+
+
+def _is_shared(check: CheckRecord, row: RowStudy) -> bool:
+    """True of a check of an uphill anchor that lies at the net's foot."""
+    drawing = row.drawing
+    is_at_foot = drawing is not None and drawing.uphill_anchor_m == (0.0, 0.0)
+    return check.member == Member.UPHILL_ANCHOR and is_at_foot
+
+
+def _audit_direction(
+    place: Message, check: CheckRecord, row: RowStudy, factors: dict[str, float]
+) -> Iterator[Message]:
+    """Directions against the limits of the profile; where they pass, all is solved."""
+    if check.verdict is Verdict.PASS and not is_complete(row):
+        yield tell_verdict(place, check.verdict, Verdict.NOT_PROVEN)
+    if check.mode != "direction":
+        return
+    own = [one for one in row.pulls if one.anchor == check.member]
+    at_end = [one for one in own if one.position == check.position]
+    pull = next(iter(at_end or own), None)
+    if pull is None:
+        yield say("audit.action_or_force", place=place)
+        return
+    is_rope = pull.kind == "rope anchor"
+    most = factors.get(ROPE_ANGLE if is_rope else BAR_ANGLE)
+    beyond = Verdict.FAIL if is_rope and most is not None else Verdict.NOT_PROVEN
+    is_kept = most is not None and pull.angle_deg <= most * (1.0 + SAME)
+    is_declared = check.verdict is Verdict.DECLARED and check.declared is not None
+    if _is_information(check, row) or (
+        is_declared and (is_kept or beyond is not Verdict.FAIL)
+    ):
+        return
+    if is_kept and check.verdict is Verdict.FAIL:
+        yield tell_verdict(place, check.verdict, Verdict.PASS)
+    if not is_kept and check.verdict is not beyond:
+        yield tell_verdict(place, check.verdict, beyond)
 
 
 def _audit_verdict(
@@ -254,6 +321,8 @@ def _audit_verdict(
     is_known = low is not None and high is not None and check.demand_kN is not None
     if resistance and used_low is not None and used_high is not None:
         verdict = judge(used_low, used_high, least=0.0, most=1.0, is_complete=complete)
+    if _find_own_reason(check).key == "post_bending.too_much":
+        verdict = Verdict.FAIL
     if bool(resistance and is_known) and check.utilisation is None:
         yield say("audit.no_utilisation", place=place)
     is_open = is_held_back(check) or _is_information(check, row)
@@ -267,6 +336,14 @@ def _audit_verdict(
         yield say("audit.other_reason", place=place, verdict=told)
 
 
+def _find_own_reason(check: CheckRecord) -> Message:
+    """The reason of a check without the load that governs and without declarations."""
+    reason = leave_out_governing(check.reason)
+    alone = reason.arguments.get("reason")
+    is_declared = reason.key == "check.fails_though_declared"
+    return alone if is_declared and isinstance(alone, Message) else reason
+
+
 def _is_information(check: CheckRecord, row: RowStudy) -> bool:
     """The check is left open since the net stands below its snow."""
     too_low = any(
@@ -278,13 +355,11 @@ def _is_information(check: CheckRecord, row: RowStudy) -> bool:
 
 def _audit_snow(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[Message]:
     """No pass on a force of snow for which the creep law is not given."""
-    if (
-        check.verdict is Verdict.PASS
-        and check.demand_high_kN
-        and any(
-            same_point(check.case, case.case) and not case.is_calibrated
-            for case in row.cases
-        )
+    points = [one.case for one in list_bringing(check, row) if one.high_kN]
+    if check.verdict is Verdict.PASS and any(
+        same_point(point, case.case) and not case.is_calibrated
+        for point in points
+        for case in row.cases
     ):
         yield say("audit.extrapolated_pass", place=place)
 

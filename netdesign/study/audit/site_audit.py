@@ -2,33 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Band, Standard, check_member
+from netdesign.checks import Band, CheckResult, Standard
+from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.ranges import build_cases
 from netdesign.guideline.floor import Floor
+from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.audit.check_audit import is_held_back
-from netdesign.study.audit.comparing import is_of_steady_states, is_same, tell_value
+from netdesign.study.audit.check_audit import is_held_back, list_bringing
+from netdesign.study.audit.comparing import (
+    Pair,
+    is_of_steady_states,
+    is_same,
+    tell_unequal,
+    tell_value,
+)
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
 from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
+from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
 from netdesign.study.floor import find_row_floor, record_floor
-from netdesign.study.notes import list_case_notes, list_row_notes, list_site_notes
+from netdesign.study.notes import (
+    list_case_notes,
+    list_row_notes,
+    list_site_notes,
+    list_test_notes,
+)
+from netdesign.study.pulls import (
+    AnchorPull,
+    build_pull,
+    check_directions,
+    find_pull,
+    read_pulls,
+    record_pulls,
+)
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_checks import (
+    judge_forces,
     list_checked,
     place_check,
     record_geometry,
     record_result,
     settle_check,
+)
+from netdesign.study.sideways import (
+    GUYS,
+    MemberLoad,
+    Sideways,
+    check_sideways,
+    find_lack,
 )
 from netdesign.study.values import compare_values
 from netdesign.units import (
@@ -133,13 +164,25 @@ def _audit_judgement(
     given, standard = basis.row, basis.standard
     effects = find_effects(given, standard)
     floor = find_row_floor(given, basis.site.ranges, standard)
-    members = [
-        _judge_again(row, check, width, resistance, basis)
-        for check, (width, resistance) in zip(
-            row.checks, list_checked(given, effects), strict=False
+    pulls = read_pulls(given, row.pulls)
+    members = []
+    for check, (width, one) in zip(
+        row.checks, list_checked(given, effects), strict=False
+    ):
+        known = Circumstances(
+            row=given,
+            ranges=basis.site.ranges,
+            standard=standard,
+            pull=find_pull(pulls, one.member, width.position),
+            pressing=_find_pressing(check),
         )
+        settled = settle_resistance(one, known)
+        members.append(_judge_again(row, check, width, settled, basis))
+    expected = [
+        *members,
+        *_expect_directions(row, pulls, basis),
+        *record_geometry(basis.site, given, standard),
     ]
-    expected = [*members, *record_geometry(basis.site, given, basis.standard)]
     stored, again = (
         [_leave_out_solves(check) for check in checks]
         for checks in (row.checks, expected)
@@ -147,7 +190,12 @@ def _audit_judgement(
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.judged_otherwise", place=place, value=found.message)
-    notes = [*list_row_notes(given, effects), *list_case_notes(row.cases)]
+    notes = [
+        *list_row_notes(given, effects, pulls),
+        *list_test_notes(row.checks, standard),
+        *list_case_notes(row.cases),
+    ]
+    yield from _audit_pulls(row, given, effects.lateral_share)
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
@@ -156,11 +204,123 @@ def _audit_judgement(
         yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
+            yield from _audit_share(check, given, effects.lateral_share, place)
             action = _act_again(check, check.action, effects, floor)
             for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
+
+
+def _find_pressing(check: CheckRecord) -> float:
+    """Characteristic force across the base plate, from what slides it [N]."""
+    action = check.action
+    if check.mode != "sliding" or action is None or not action.share:
+        return 0.0
+    return newton_from_kilonewton((check.action_kN or 0.0) / action.share)
+
+
+def _expect_directions(
+    row: RowStudy, pulls: Sequence[AnchorPull], basis: _Basis
+) -> list[CheckRecord]:
+    """Checks of the load along the row and of directions, from what is stored."""
+    given, standard = basis.row, basis.standard
+    gap = _find_open(row, basis)
+    stored = {check.id: check for check in row.checks}
+    lateral = stored.get(f"{Member.POST}.lateral")
+    value = standard.find(LATERAL_SHARE)
+    lack = find_lack(given) if value else say("check.no_case_solved")
+    is_open = lateral is not None and lateral.verdict in (
+        Verdict.NOT_PROVEN,
+        Verdict.DECLARED,
+    )
+    sideways = Sideways(
+        share=value.value if value else 0.0,
+        # only a solve can tell why else it is not held
+        gap=_UNKNOWN_GAP if lack is None and is_open else lack,
+    )
+
+    def settle(result: CheckResult) -> CheckRecord:
+        return record_result(settle_check(basis.site, given, result))
+
+    found = [
+        settle(check_sideways(given, sideways, gap)),
+        *(
+            place_check(settle(one), position)
+            for position, one in check_directions(pulls, standard, gap)
+        ),
+    ]
+    if value is None or is_open or gap is not None:  # a gap in its own words is one
+        return [
+            replace(one, reason=stored[one.id].reason) if one.id in stored else one
+            for one in found
+        ]
+    return found
+
+
+def _find_open(row: RowStudy, basis: _Basis) -> Message | None:
+    """Gap of the forces, else a doubt about the governing snow of any check."""
+    if not is_complete(row):
+        return _UNKNOWN_GAP
+    doubts = (_find_doubt(one, row, basis) for one in row.checks)
+    return next((one for one in doubts if one is not None), None)
+
+
+def _find_doubt(check: CheckRecord, row: RowStudy, basis: _Basis) -> Message | None:
+    """Doubt that the creep law holds for the snow that a check rests on."""
+    if check.action is None:
+        return None
+    doubts = (
+        find_doubt(
+            basis.site,
+            basis.row,
+            basis.law,
+            density=one.case.density_kg_m3,
+            largest=max(one.high_kN, one.upper_bound_kN or 0.0),
+        )
+        for one in list_bringing(check, row)
+    )
+    return next((one for one in doubts if one is not None), None)
+
+
+def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message]:
+    """Axes, kinds and angles of the anchors, from the ranges of their pulls."""
+    place = say("audit.row", row=row.id)
+    expected = record_pulls(
+        [
+            build_pull(given, one.anchor, one.pulls, share, one.position)
+            for one in read_pulls(given, row.pulls)
+        ]
+    )
+    for found in compare_values(row.pulls, expected)[:_MOST]:
+        yield say("audit.judged_otherwise", place=place, value=found.message)
+
+
+def _audit_share(
+    check: CheckRecord, given: NetRow, along_row: float, row: Message
+) -> Iterator[Message]:
+    """Share and addition of a force by the splay of the guys, from what is stored."""
+    action, splay = check.action, given.guys.splay
+    if action is None or check.member == Member.POST_BASE:
+        return
+    place = say("audit.check", place=row, check=check.id)
+    is_guy = check.member in (*GUYS, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+    load, share, added = action.sideways, 1.0, 0.0
+    if load is not None and splay is not None:
+        loaded = load.part * along_row * load.pull_kN
+        if is_guy:
+            share, added = 0.5 / math.cos(splay), loaded / math.sin(splay)
+        else:
+            held = load.part * (load.least_tension_kN or 0.0)
+            added = loaded / math.tan(splay) - held
+    pairs: list[Pair] = [
+        ("share", action.share, share),
+        ("added_kN", action.added_kN, max(added, 0.0)),
+    ]
+    if action.foot_part_kN is not None and action.guy_part_kN is not None:
+        both = action.foot_part_kN + action.guy_part_kN
+        pairs.append(("solved_kN", action.solved_kN, both))
+    yield from tell_unequal(place, pairs)
 
 
 def _judge_again(
@@ -183,18 +343,11 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    doubt = None
-    if action is not None and check.case is not None:
-        doubt = find_doubt(
-            basis.site,
-            basis.row,
-            basis.law,
-            density=check.case.density_kg_m3,
-            largest=action.high,
-        )
-    result = check_member(action, given, basis.standard, gap=gap, doubt=doubt)
-    again = record_result(settle_check(basis.site, basis.row, result), given)
-    again = place_check(again, width)
+    gap = None if is_whole else _UNKNOWN_GAP
+    doubt = _find_doubt(check, row, basis) if action else None
+    result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
+    settled = settle_check(basis.site, basis.row, result)
+    again = place_check(record_result(settled, given), width.position)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)
     if check.action is None:
@@ -210,10 +363,28 @@ def _act_again(
     value = newton_from_kilonewton(stored.solved_kN)
     high = newton_from_kilonewton(stored.coupled_kN)
     high /= effects.factor(check.member, width)
+    load = _read_load(stored)
+    high = (high - load.added.high) / load.share if load.share else value
     solved = Band(low=0.0, value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
-    demand = build_demand(effects, check.member, width, solved, least)
-    return demand.record(effects, check.member)
+    demand = build_demand(effects, check.member, width, solved, least, load)
+    return replace(
+        demand.record(effects, check.member),
+        foot_part_kN=stored.foot_part_kN,
+        guy_part_kN=stored.guy_part_kN,
+    )
+
+
+def _read_load(stored: ActionRecord) -> MemberLoad:
+    low, value, high = sorted(
+        newton_from_kilonewton(one)
+        for one in (stored.added_low_kN, stored.added_kN, stored.added_high_kN)
+    )
+    return MemberLoad(
+        share=stored.share,
+        added=Band(low=max(low, 0.0), value=max(value, 0.0), high=max(high, 0.0)),
+        sideways=stored.sideways,
+    )
 
 
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:

@@ -96,7 +96,7 @@ def _audit_anchors(
         return
     for one, arrow, point in zip(anchors, drawing.arrows, points, strict=True):
         where = say("audit.part", place=place, part=name_member(one.anchor))
-        lateral = 0.0 if one.member == Member.POST else share * one.size_kN
+        lateral = share * one.size_kN if one.member == Member.NET else 0.0
         size = math.hypot(one.force_x_kN, one.force_y_kN)
         turn = math.degrees(math.atan2(one.force_y_kN, one.force_x_kN))
         if arrow.member != _name_arrow(one.anchor):

@@ -31,16 +31,39 @@ def forces(study):
 def scale_demand(check, factor):
     """Scale the coupled part; the guideline's load stays below the demand."""
     action, safety = check["action"], check["action_factor"]
-    scale_all(action, ("solved_kN", "coupled_kN"), factor)
-    least = action["guideline_kN"] or 0.0
+    parts = ("added_kN", "added_low_kN", "added_high_kN")
+    scale_all(action, ("solved_kN", "coupled_kN", *parts), factor)
+    if action["sideways"]:
+        scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
     on_row = action["loaded_width_m"] / action["post_spacing_m"]
-    solved = action["solved_kN"] * on_row * action["lateral_factor"]
+    on_row *= action["lateral_factor"]
+    solved, least = (
+        (action["share"] * (action[key] or 0.0) + action["added_kN"]) * on_row
+        for key in ("solved_kN", "floor_kN")
+    )
+    if action["floor_kN"] is not None:
+        action["guideline_kN"] = least
+    else:
+        least = 0.0
     check["action_kN"] = max(solved, least)
     check["demand_kN"] = check["action_kN"] * safety
     low = check["demand_low_kN"] * factor
     check["demand_low_kN"] = max(low, least * safety)
     check["demand_high_kN"] = max(action["coupled_kN"], least) * safety
+    settle_friction(check)
     settle_spreads(check, factor)
+
+
+def settle_friction(check):
+    """A base slides on what presses it, in proportion to its demand."""
+    derivation = check["resistance_derivation"]
+    if derivation is None or derivation["key"] != "derivation.sliding":
+        return
+    told, share = derivation["arguments"], check["action"]["share"]
+    pressing = check["action_kN"] / share
+    told["pressing"], before = pressing, told["pressing"]
+    keys = ("resistance_characteristic_kN", "resistance_kN")
+    scale_all(check, keys, pressing / before)
 
 
 def settle_spreads(check, factor):

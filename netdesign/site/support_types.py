@@ -1,0 +1,191 @@
+"""Dimensions of anchors, guys and posts, where a resistance follows the demand.
+
+How an anchor bends depends on where the pull points, how much compression a post bears
+on the snow against it, how its base slides on what presses it: what is read here is
+what the study needs to work such a resistance out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from netdesign.errors import ModelError
+from netdesign.resistance.catalogue import find_imperfection, load_catalogue
+from netdesign.resistance.post import PostSection, compute_buckling_resistance
+from netdesign.resistance.steel import RoundSection
+from netdesign.site.cells.findings import Finding
+from netdesign.site.model import AnchorType, BaseFriction, Resistance
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.structure.members import Member
+from netdesign.structure.splay import Guys
+from netdesign.words.message import Message, say
+
+_AXES = {
+    Member.FOOT_ANCHOR: "foot_axis",
+    Member.UPHILL_ANCHOR: "uphill_axis",
+    Member.DOWNHILL_ANCHOR: "downhill_axis",
+}
+_BENT = ("bar", "micropile")
+_DEFAULT_CURVE = "d"
+_SECTION = ("area", "second_moment", "buckling_length", "yield_strength")
+_BENT_POST = ("post_width", "section_modulus", *_SECTION)
+
+
+def read_guys(row: Row) -> Guys:
+    """Number of guys on each side of a post, and their splay."""
+    count, splay = row["guy_count"], row["guy_splay"]
+    return Guys(
+        count=int(count.number) if count.state == "given" else 1,
+        splay=splay.si if splay.state == "given" else None,
+    )
+
+
+def read_axes(row: Row) -> dict[Member, float]:
+    """Inclinations of those anchors that have one given [rad]."""
+    return {m: row[key].si for m, key in _AXES.items() if row[key].state == "given"}
+
+
+def read_anchor_types(row: Row, types: Mapping[str, Row]) -> dict[Member, AnchorType]:
+    """Kind and steel of each anchor whose type is in its sheet."""
+    return {m: _read_anchor(types[row[m].word]) for m in _AXES if row[m].word in types}
+
+
+def _read_anchor(line: Row) -> AnchorType:
+    outer, strength = line["bar_diameter"], line["bar_strength"]
+    lever = line["lever_arm"]
+    return AnchorType(
+        kind=line["kind"].word,
+        section=_build_section(line)
+        if outer.state == strength.state == "given"
+        else None,
+        lever=lever.si if lever.state == "given" else None,
+    )
+
+
+def _build_section(line: Row) -> RoundSection | None:
+    """Steel of an anchor; None of dimensions that ``check_support_types`` refused."""
+    try:
+        return RoundSection(
+            outer=line["bar_diameter"].si,
+            inner=read_inner(line),
+            strength=line["bar_strength"].si,
+        )
+    except ModelError:
+        return None
+
+
+def read_inner(line: Row) -> float:
+    """Inner diameter of an anchor's steel [m]; 0 of a solid bar."""
+    inner = line["inner_diameter"]
+    return inner.si if inner.state == "given" else 0.0
+
+
+def list_dependent(
+    row: Row, anchors: Mapping[str, Row], posts: Mapping[str, Row]
+) -> tuple[Resistance, ...]:
+    """Resistances of a net row that follow the demand, their values still open.
+
+    Parameters
+    ----------
+    row : mapping of str to Reading
+        Line of sheet Nets.
+    anchors, posts : mapping of str to mapping of str to Reading
+        Lines of the type sheets by id.
+    """
+    types = read_anchor_types(row, anchors)
+    bent = [
+        _open(row[member], member, "bending", types[member])
+        for member in _AXES
+        if member in types
+        and types[member].kind in _BENT
+        and types[member].lever is not None
+    ]
+    post = row[Member.POST]
+    line = posts.get(post.word)
+    return (*bent, _read_bent_post(post, line), _read_sliding(post, line))
+
+
+def _open(
+    named: Reading,
+    member: Member,
+    mode: str,
+    dimensions: AnchorType | PostSection | BaseFriction | None,
+    lack: Message | None = None,
+    source: str = "",
+) -> Resistance:
+    """Resistance of which only the dimensions are known."""
+    return Resistance(
+        member=member,
+        mode=mode,
+        value=None,
+        basis="computed" if dimensions else "",
+        type_id=named.word,
+        source=source or named.place or "Nets",
+        dimensions=dimensions,
+        lack=lack,
+    )
+
+
+def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
+    mode = "compression_bending"
+    if line is None:
+        return _open(named, Member.POST, mode, None)
+    blank = [key for key in _BENT_POST if line[key].state != "given"]
+    if blank:
+        names = tuple(line[key].field.name for key in blank)
+        lack = say("check.bent_post_needs", names=names)
+        return _open(named, Member.POST, mode, None, lack)
+    buckling = compute_buckling_resistance(
+        area=line["area"].si,
+        second_moment=line["second_moment"].si,
+        length=line["buckling_length"].si,
+        yield_strength=line["yield_strength"].si,
+        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+        imperfection=find_imperfection(
+            line["buckling_curve"].word or _DEFAULT_CURVE
+        ).value,
+    )
+    section = PostSection(
+        width=line["post_width"].si,
+        length=line["buckling_length"].si,
+        moment_resistance=line["section_modulus"].si * line["yield_strength"].si,
+        critical=buckling.critical,
+        buckling=buckling.value,
+    )
+    place = line["post_width"].place
+    return _open(named, Member.POST, mode, section, source=place)
+
+
+def _read_sliding(named: Reading, line: Row | None) -> Resistance:
+    friction = line["base_friction"] if line else None
+    given = line["sliding"] if line else None
+    if friction is not None and friction.state == "given":
+        base = BaseFriction(coefficient=friction.si)
+        place = friction.place
+        return _open(named, Member.POST_BASE, "sliding", base, source=place)
+    lack = say("check.no_sliding_resistance")
+    found = _open(named, Member.POST_BASE, "sliding", None, lack)
+    if given is None or given.state != "given":
+        return found
+    return Resistance(
+        member=found.member,
+        mode=found.mode,
+        value=given.si,
+        basis="declared",
+        type_id=found.type_id,
+        source=given.place,
+    )
+
+
+def check_support_types(row: Row, findings: list[Finding]) -> None:
+    """Refuse a type that gives one thing twice, or the inside of no tube."""
+    if "base_friction" in row and row["base_friction"].state == "given":
+        beside = row["sliding"]
+        if beside.state == "given":
+            rule = say("type.beside", name=beside.field.name, place=beside.place)
+            refuse(row["base_friction"], rule, say("accepted.one_of_two"), findings)
+    if "inner_diameter" in row and row["inner_diameter"].state == "given":
+        outer, inner = row["bar_diameter"], row["inner_diameter"]
+        if outer.state == "blank":  # a tube without a wall has no tendon resistance
+            rule = say("type.needs_more", names=(outer.field.name,))
+            refuse(inner, rule, say("type.all_or_none"), findings)

@@ -1,0 +1,151 @@
+"""Pull on an anchor against its axis: angle, and parts of the force."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from netdesign.guards import require_within
+from netdesign.structure.members import Member
+
+LEAST_AXIS, MOST_AXIS = math.radians(-30.0), math.radians(90.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AxisParts:
+    """A force on the ground against an anchor's axis.
+
+    Attributes
+    ----------
+    angle : float
+        Between force and axis, 0 to pi [rad].
+    along, across : float
+        Parts of the force; along is negative where it pushes the anchor [N].
+    """
+
+    angle: float
+    along: float
+    across: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PullRange:
+    """Directions of the pulls on one anchor.
+
+    Attributes
+    ----------
+    least, largest : float
+        As `measure_pull` counts them [rad].
+    """
+
+    least: float
+    largest: float
+
+    @property
+    def mean(self) -> float:
+        """Middle of the two, the axis of an anchor that has none given [rad]."""
+        return 0.5 * (self.least + self.largest)
+
+    def find_largest_angle(self, axis: float) -> float:
+        """Largest angle between a pull of the range and an axis.
+
+        Parameters
+        ----------
+        axis : float
+            Inclination of the anchor [rad].
+
+        Returns
+        -------
+        float
+            [rad].
+        """
+        return max(abs(self.least - axis), abs(self.largest - axis))
+
+
+def measure_pull(x: float, y: float, anchor: str) -> float:
+    """Inclination of a pull on an anchor; structure/THEORY.md, eq. (S12).
+
+    Parameters
+    ----------
+    x, y : float
+        Force on the ground, X downslope and Y out of it [N].
+    anchor : str
+        Which of the three it is; it says which way along the slope counts as 0.
+
+    Returns
+    -------
+    float
+        Against the slope surface, pi/2 straight out of the ground [rad].
+    """
+    facing = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
+    return math.atan2(y, facing * x)
+
+
+def resolve_on_axis(x: float, y: float, axis: float, anchor: str) -> AxisParts:
+    """Parts of a force along and across an anchor; structure/THEORY.md, eq. (S13).
+
+    Parameters
+    ----------
+    x, y : float
+        Force on the ground, X downslope and Y out of it [N].
+    axis : float
+        Inclination of the anchor, counted as `measure_pull` does [rad].
+    anchor : str
+        Which of the three it is.
+
+    Raises
+    ------
+    ModelError
+        If the axis is out of its range.
+    """
+    require_within("axis inclination", axis, LEAST_AXIS, MOST_AXIS, "rad")
+    size = math.hypot(x, y)
+    turn = measure_pull(x, y, anchor) - axis
+    angle = abs(math.remainder(turn, 2.0 * math.pi))
+    return AxisParts(
+        angle=angle, along=size * math.cos(angle), across=size * math.sin(angle)
+    )
+
+
+def find_pull_range(directions: Iterable[float]) -> PullRange | None:
+    """Least and largest of some directions.
+
+    Parameters
+    ----------
+    directions : iterable of float
+        As `measure_pull` counts them [rad].
+
+    Returns
+    -------
+    PullRange or None
+        None of none.
+    """
+    found = sorted(directions)
+    return PullRange(least=found[0], largest=found[-1]) if found else None
+
+
+def turn_sideways(angle: float, share: float) -> float:
+    """Angle between a force and an axis in the section, with a part along the row.
+
+    Theory: structure/THEORY.md, eq. (S14).
+
+    Parameters
+    ----------
+    angle : float
+        Of the part in the section, 0 to pi [rad].
+    share : float
+        Part along the row over that in the section [-].
+
+    Returns
+    -------
+    float
+        [rad].
+
+    Raises
+    ------
+    ModelError
+        If the share is out of its range.
+    """
+    require_within("lateral share", share, 0.0, 1.0)
+    return math.acos(math.cos(angle) / math.hypot(1.0, share))

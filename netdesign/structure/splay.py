@@ -1,0 +1,207 @@
+"""Post head that a load along the row acts on too: two splayed guys on each side.
+
+The section's equilibrium (head.py) stays as it is; what the sideways load adds to it
+is found here. Theory: structure/THEORY.md, eqs. (S15) to (S19).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from netdesign.guards import require_within
+from netdesign.outcome import Outcome
+from netdesign.structure.head import FailedSupport, compute_head_forces
+from netdesign.structure.layout import Point, SupportPoints
+from netdesign.words.message import say
+
+LEAST_SPLAY, MOST_SPLAY = math.radians(5.0), math.radians(60.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Guys:
+    """Guys on each side of a post, uphill and downhill alike.
+
+    Attributes
+    ----------
+    count : int
+        1 or 2.
+    splay : float or None
+        beta, between each of two guys and the section [rad]; None if not given.
+    """
+
+    count: int = 1
+    splay: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what the model does not know."""
+        require_within("guys", self.count, 1, 2)
+        if self.splay is not None:
+            require_within("splay", self.splay, LEAST_SPLAY, MOST_SPLAY, "rad")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SplayedHead:
+    """Forces at a head held by two splayed guys on each side of the post.
+
+    Attributes
+    ----------
+    post_compression : float
+        [N].
+    uphill_guy_tension, downhill_guy_tension : float
+        Of the more loaded guy of each side [N].
+    is_one_sided : bool
+        One guy of each side is slack, the two on the loaded side share the load.
+    """
+
+    post_compression: float
+    uphill_guy_tension: float
+    downhill_guy_tension: float
+    is_one_sided: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SplayWeights:
+    """Geometry of a head, as the bounds (S17) and (S18) need it.
+
+    Attributes
+    ----------
+    uphill : float
+        kappa, part that the uphill guy takes of what both guys hold together [-].
+    post : float
+        Compression of the post for each N that both guys hold together [-].
+    """
+
+    uphill: float
+    post: float
+
+    @property
+    def largest_uphill(self) -> float:
+        """Largest part of S / sin(beta) in one uphill guy [-]."""
+        return max(0.5, self.uphill)
+
+    @property
+    def largest_downhill(self) -> float:
+        """Largest part of S / sin(beta) in one downhill guy [-]."""
+        return max(0.5, 1.0 - self.uphill)
+
+
+def compute_splayed_head(
+    pull: Point, points: SupportPoints, *, sideways: float, splay: float
+) -> SplayedHead | FailedSupport:
+    """Find the forces of post and guys under a pull and a load along the row.
+
+    Parameters
+    ----------
+    pull : tuple of float, shape (2,)
+        Force of the net on the head in the section, (x, y) [N].
+    points : SupportPoints
+        Head, post base and anchors, in the section [m].
+    sideways : float
+        S, load on the head along the row [N].
+    splay : float
+        beta, between a guy and the plane of the section [rad].
+
+    Returns
+    -------
+    SplayedHead or FailedSupport
+        Forces at least 0 [N], or why ropes and post cannot hold the head.
+
+    Raises
+    ------
+    ModelError
+        If the splay is out of its range.
+
+    Verified by
+    -----------
+    tests/structure/test_splay.py
+    """
+    require_within("splay", splay, LEAST_SPLAY, MOST_SPLAY, "rad")
+    flat = compute_head_forces(pull, points)
+    if isinstance(flat, FailedSupport):
+        return flat
+    held = sideways / math.tan(splay)
+    tension = flat.uphill_guy_tension + flat.downhill_guy_tension  # one of them is 0
+    if tension >= held:
+        larger = 0.5 * (tension + held) / math.cos(splay)
+        is_uphill = flat.uphill_guy_tension > 0.0
+        return SplayedHead(
+            post_compression=flat.post_compression,
+            uphill_guy_tension=larger if is_uphill else 0.0,
+            downhill_guy_tension=0.0 if is_uphill else larger,
+            is_one_sided=False,
+        )
+    return _share_on_loaded_side(pull, points, held, splay)
+
+
+def weigh_splay(points: SupportPoints) -> SplayWeights | None:
+    """Parts that two guys on one side take; None unless the post stands between them.
+
+    Theory: structure/THEORY.md, eqs. (S17) and (S18).
+
+    Parameters
+    ----------
+    points : SupportPoints
+        Head, post base and anchors, in the section [m].
+    """
+    post, uphill, downhill = _list_directions(points)
+    above, below = _cross(uphill, post), _cross(downhill, post)
+    if not above * below < 0.0:
+        return None
+    share = abs(below) / (abs(above) + abs(below))
+    return SplayWeights(
+        uphill=share,
+        post=share * _dot(uphill, post) + (1 - share) * _dot(downhill, post),
+    )
+
+
+def _share_on_loaded_side(
+    pull: Point, points: SupportPoints, held: float, splay: float
+) -> SplayedHead | FailedSupport:
+    """Eq. (S16): one guy uphill, one downhill and the post, all in force."""
+    post, uphill, downhill = _list_directions(points)
+    above, below = _cross(uphill, post), _cross(downhill, post)
+    if not above * below < 0.0:
+        return _fail()
+    in_uphill = (-_cross(pull, post) - held * below) / (above - below)
+    in_downhill = held - in_uphill
+    compression = (
+        _dot(pull, post)
+        + in_uphill * _dot(uphill, post)
+        + in_downhill * _dot(downhill, post)
+    )
+    if min(in_uphill, in_downhill, compression) < 0.0:
+        return _fail()
+    return SplayedHead(
+        post_compression=compression,
+        uphill_guy_tension=in_uphill / math.cos(splay),
+        downhill_guy_tension=in_downhill / math.cos(splay),
+        is_one_sided=True,
+    )
+
+
+def _fail() -> FailedSupport:
+    return FailedSupport(
+        outcome=Outcome.NO_EQUILIBRIUM, reason=say("support.not_held_sideways")
+    )
+
+
+def _list_directions(points: SupportPoints) -> tuple[Point, Point, Point]:
+    """Unit vectors from the head along post, uphill and downhill guy."""
+    ends = (points.post_base, points.uphill_anchor, points.downhill_anchor)
+    post, uphill, downhill = (_point_to(points.head, end) for end in ends)
+    return post, uphill, downhill
+
+
+def _point_to(start: Point, end: Point) -> Point:
+    x, y = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(x, y)
+    return (x / length, y / length) if length > 0.0 else (0.0, 0.0)
+
+
+def _cross(a: Point, b: Point) -> float:
+    return a[0] * b[1] - a[1] * b[0]
+
+
+def _dot(a: Point, b: Point) -> float:
+    return a[0] * b[0] + a[1] * b[1]

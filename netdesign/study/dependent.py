@@ -1,0 +1,212 @@
+"""Resistances that follow the demand: bent anchors, posts under snow, sliding bases.
+
+Theory: resistance/THEORY.md, (R7) to (R12).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from netdesign.checks import Standard
+from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
+from netdesign.envelope.ranges import Ranges
+from netdesign.errors import ModelError
+from netdesign.guideline.load_model import (
+    LoadModel,
+    compute_altitude_factor,
+    compute_snow_load,
+    read_load_model,
+)
+from netdesign.resistance.post import (
+    PostSection,
+    compute_bent_post_resistance,
+    compute_post_moment,
+    compute_sliding_resistance,
+)
+from netdesign.resistance.steel import (
+    BentBar,
+    RoundSection,
+    compute_bent_bar_resistance,
+)
+from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
+from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.floor import list_corners
+from netdesign.study.pulls import AnchorPull
+from netdesign.units import degree_from_radian, kilonewton_from_newton
+from netdesign.words.message import Message, say
+
+_LARGEST_ANGLE = math.radians(89.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Circumstances:
+    """Surroundings that a resistance may depend on.
+
+    Attributes
+    ----------
+    row, ranges, standard
+        Net row, its envelope's ranges, the profile.
+    pull : AnchorPull or None
+        On the anchor.
+    pressing : float
+        Characteristic force across the base plate [N].
+    """
+
+    row: NetRow
+    ranges: Ranges
+    standard: Standard
+    pull: AnchorPull | None
+    pressing: float
+
+
+def settle_resistance(given: Resistance, known: Circumstances) -> Resistance:
+    """Resistance with the value that its circumstances give it; others as they are."""
+    match given.dimensions:
+        case AnchorType():
+            return _settle_bending(given, given.dimensions, known.pull)
+        case PostSection():
+            return _settle_post(given, given.dimensions, known)
+        case BaseFriction():
+            return _settle_base(given, given.dimensions, known)
+        case _:
+            return given
+
+
+def _settle_bending(
+    given: Resistance, anchor: AnchorType, pull: AnchorPull | None
+) -> Resistance:
+    section, lever = anchor.section, anchor.lever
+    if section is None or lever is None:
+        return replace(given, lack=say("bending.no_section"))
+    if pull is None:
+        return given
+    if pull.angle > _LARGEST_ANGLE:
+        angle = degree_from_radian(pull.angle)
+        return replace(given, lack=say("bending.too_far", angle=angle))
+    worst = min(
+        (
+            compute_bent_bar_resistance(section, angle=angle, lever=lever)
+            for angle in (pull.angle, _find_weakest(section, lever, pull.angle))
+        ),
+        key=lambda one: one.value,
+    )
+    return replace(given, value=worst.value, derivation=_tell_bending(section, worst))
+
+
+def _find_weakest(section: RoundSection, lever: float, largest: float) -> float:
+    """Angle up to the largest at which axial force and bending use most [rad]."""
+    bending = lever * section.axial_resistance / section.moment_resistance
+    return min(math.atan(bending), largest)
+
+
+def _tell_bending(section: RoundSection, bent: BentBar) -> Message:
+    is_sheared = bent.shear_ratio > 0.5
+    return say(
+        "bending.with_shear" if is_sheared else "bending.without_shear",
+        angle=degree_from_radian(bent.angle),
+        lever=1e3 * bent.lever,
+        outer=1e3 * section.outer,
+        inner=1e3 * section.inner,
+        strength=section.strength / 1e6,
+        axial=kilonewton_from_newton(section.axial_resistance),
+        moment=kilonewton_from_newton(section.moment_resistance),
+        shear=kilonewton_from_newton(section.shear_resistance),
+    )
+
+
+def _settle_post(
+    given: Resistance, section: PostSection, known: Circumstances
+) -> Resistance:
+    efficiency = known.standard.find(POST_EFFICIENCY)
+    on_action = known.standard.find(ACTION_FACTOR)
+    on_post = known.standard.find_resistance_factor(given.mode, given.basis)
+    if efficiency is None:
+        lack = say("check.no_factor", factor=POST_EFFICIENCY)
+        return replace(given, lack=lack)
+    if on_action is None or on_post is None:
+        return given
+    try:
+        pressure = find_snow_pressure(known.row, known.ranges)
+    except ModelError as error:  # outside the guideline's closed forms
+        return replace(given, lack=error.message)
+    moment = compute_post_moment(
+        section, pressure=pressure, efficiency=efficiency.value
+    )
+    value = compute_bent_post_resistance(
+        section, moment=on_action.value * moment, partial_factor=on_post.value
+    )
+    told = {
+        "efficiency": efficiency.value,
+        "pressure": pressure / 1e3,
+        "width": 1e3 * section.width,
+        "length": section.length,
+        "moment": moment / 1e3,
+        "resistance": section.moment_resistance / 1e3,
+        "buckling": kilonewton_from_newton(section.buckling),
+        "critical": kilonewton_from_newton(section.critical),
+        "action": on_action.value,
+        "factor": on_post.value,
+    }
+    if value is None:
+        return replace(given, lack=say("post_bending.too_much", **told))
+    return replace(given, value=value, derivation=say("post_bending.beside", **told))
+
+
+def find_snow_pressure(row: NetRow, ranges: Ranges) -> float:
+    """Largest mean pressure of the snow on a plane across the slope [Pa].
+
+    The guideline's S'_N over the snow's thickness, of its two load cases and of the
+    densest snow, over the ranges of height and glide factor. Theory:
+    resistance/THEORY.md, (R10).
+    """
+    model = read_load_model(load_guideline())
+    pressures = (
+        _find_pressure(model, one, ranges["density"].high)
+        for one in list_corners(row, ranges)
+    )
+    return max(pressures)
+
+
+def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> float:
+    height = row.held_thickness / math.cos(row.slope_angle)
+    on_density = (
+        1.0 if row.altitude is None else compute_altitude_factor(model, row.altitude)
+    )
+    cases = (
+        (densest, height),
+        (on_density * model.density, height),
+        (model.case_2_density, model.case_2_height * height),
+    )
+    return max(
+        compute_snow_load(
+            model,
+            density=density,
+            height_vertical=vertical,
+            slope_angle=row.slope_angle,
+            glide_factor=find_row_glide_factor(row),
+            net_height=row.net_height,
+            inclination=0.0,
+        ).rigid
+        / (vertical * math.cos(row.slope_angle))
+        for density, vertical in cases
+    )
+
+
+def _settle_base(
+    given: Resistance, base: BaseFriction, known: Circumstances
+) -> Resistance:
+    on_action = known.standard.find(ACTION_FACTOR)
+    if on_action is None or known.pressing == 0.0:
+        return given
+    pressing = on_action.value * known.pressing
+    return replace(
+        given,
+        value=compute_sliding_resistance(pressing, base.coefficient),
+        derivation=say(
+            "derivation.sliding",
+            friction=base.coefficient,
+            factor=on_action.value,
+            pressing=kilonewton_from_newton(known.pressing),
+        ),
+    )

@@ -1,0 +1,285 @@
+"""Directions in which anchors are pulled over the whole envelope, and their axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import CheckResult, Standard
+from netdesign.checks.check import judge, list_assumed, not_proven
+from netdesign.checks.schema import BAR_ANGLE, ROPE_ANGLE
+from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import HeadSpan
+from netdesign.outcome import Verdict
+from netdesign.site.model import AnchorType, NetRow
+from netdesign.structure.axis import (
+    PullRange,
+    find_pull_range,
+    measure_pull,
+    turn_sideways,
+)
+from netdesign.structure.layout import SupportPoints
+from netdesign.structure.members import Member
+from netdesign.structure.row_position import Position
+from netdesign.study.records import PullRecord
+from netdesign.study.sideways import place_row
+from netdesign.units import degree_from_radian, radian_from_degree
+from netdesign.words.message import Message, say
+
+ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchorPull:
+    """Pull on one anchor over all solved cases, against its axis.
+
+    Attributes
+    ----------
+    anchor : Member
+        Which.
+    position : str
+        "intermediate", or "edge" of an anchor of the row's end alone.
+    pulls : PullRange
+        Directions in the section [rad].
+    axis : float
+        Inclination of the anchor; the middle of the pulls where none is given [rad].
+    is_axis_given : bool
+        The workbook has it.
+    kind : str
+        Of the anchor, or "".
+    lever : float or None
+        Its free length [m].
+    angle : float
+        Largest between pull and axis, with the part along the row at the foot [rad].
+    """
+
+    anchor: Member
+    position: Position
+    pulls: PullRange
+    axis: float
+    is_axis_given: bool
+    kind: str
+    lever: float | None
+    angle: float
+
+    @property
+    def is_checked(self) -> bool:
+        """A limit of the direction is checked: what bends has its own check."""
+        bends = self.kind in ("bar", "micropile") and self.lever is not None
+        return not bends and bool(self.kind or self.is_axis_given)
+
+
+def list_pulls(
+    row: NetRow,
+    results: Sequence[CaseResult],
+    share: float,
+    floor: HeadSpan | None = None,
+) -> list[AnchorPull]:
+    """Pull on every anchor over the converged cases and under the floor's load.
+
+    ``share`` acts along the row. The anchors of the row's end come last, where they
+    are of types of their own.
+    """
+    solved = [one for one in results if one.is_converged]
+    points = [place_row(row, one) for one in solved]
+    feet = [one.anchors.foot_anchor for one in solved if one.anchors is not None]
+    directions = {
+        anchor: [_measure_guy(place, anchor) for place in points] for anchor in ANCHORS
+    }
+    directions[Member.FOOT_ANCHOR] = [
+        measure_pull(force.x, force.y, Member.FOOT_ANCHOR) for force in feet
+    ]
+    if floor is not None and feet:
+        directions[Member.FOOT_ANCHOR] += [floor.foot_least, floor.foot_largest]
+    if row.layout.uphill_anchor_distance == 0.0:  # one anchor, pulled both ways
+        both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
+        directions[Member.FOOT_ANCHOR] = directions[Member.UPHILL_ANCHOR] = both
+    ranges = {anchor: find_pull_range(found) for anchor, found in directions.items()}
+    return [
+        build_pull(row, anchor, pulls, share, position)
+        for position in list_positions(row)
+        for anchor, pulls in ranges.items()
+        if pulls is not None
+    ]
+
+
+def list_positions(row: NetRow) -> tuple[Position, ...]:
+    """Supports whose anchors are of types of their own."""
+    if row.end_anchors is None or not row.has_end:
+        return ("intermediate",)
+    return ("intermediate", "edge")
+
+
+def find_pull(
+    pulls: Sequence[AnchorPull], anchor: str, position: Position
+) -> AnchorPull | None:
+    """Pull on an anchor of a support; that inside the row where it has no other."""
+    found = [one for one in pulls if one.anchor == anchor]
+    own = [one for one in found if one.position == position]
+    return next(iter(own or found), None)
+
+
+def _measure_guy(points: SupportPoints, anchor: Member) -> float:
+    """Direction of a guy's line at its anchor, slack or not."""
+    is_uphill = anchor == Member.UPHILL_ANCHOR
+    end = points.uphill_anchor if is_uphill else points.downhill_anchor
+    x, y = points.head[0] - end[0], points.head[1] - end[1]
+    return measure_pull(x, y, anchor)
+
+
+def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:
+    """Record the directions in degrees."""
+    return [
+        PullRecord(
+            anchor=one.anchor,
+            position=one.position,
+            kind=one.kind,
+            least_deg=degree_from_radian(one.pulls.least),
+            largest_deg=degree_from_radian(one.pulls.largest),
+            axis_deg=degree_from_radian(one.axis),
+            is_axis_given=one.is_axis_given,
+            angle_deg=degree_from_radian(one.angle),
+        )
+        for one in pulls
+    ]
+
+
+def read_pulls(row: NetRow, records: Sequence[PullRecord]) -> list[AnchorPull]:
+    """Pulls on a row's anchors from their records; the levers are the row's."""
+    return [_read_pull(row, one) for one in records]
+
+
+def _read_pull(row: NetRow, one: PullRecord) -> AnchorPull:
+    anchor, position = Member(one.anchor), _read_position(one.position)
+    return AnchorPull(
+        anchor=anchor,
+        position=position,
+        pulls=PullRange(
+            least=radian_from_degree(one.least_deg),
+            largest=radian_from_degree(one.largest_deg),
+        ),
+        axis=radian_from_degree(one.axis_deg),
+        is_axis_given=one.is_axis_given,
+        kind=one.kind,
+        lever=_find_lever(row.find_anchor_type(anchor, position)),
+        angle=radian_from_degree(one.angle_deg),
+    )
+
+
+def _read_position(text: str) -> Position:
+    return "edge" if text == "edge" else "intermediate"
+
+
+def _find_lever(kind: AnchorType | None) -> float | None:
+    return kind.lever if kind else None
+
+
+def build_pull(
+    row: NetRow,
+    anchor: Member,
+    pulls: PullRange,
+    share: float,
+    position: Position = "intermediate",
+) -> AnchorPull:
+    """Pull on an anchor from the range of its directions.
+
+    Parameters
+    ----------
+    row : NetRow
+        With axes and kinds of its anchors.
+    anchor : Member
+        Which.
+    pulls : PullRange
+        [rad].
+    share : float
+        Part of the foot's pull along the row [-].
+    position : str
+        Of the support.
+    """
+    given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
+    axis = pulls.mean if given is None else given
+    is_shared = row.layout.uphill_anchor_distance == 0.0
+    is_foot = anchor == Member.FOOT_ANCHOR or (
+        is_shared and anchor == Member.UPHILL_ANCHOR
+    )
+    turned = turn_sideways(pulls.find_largest_angle(axis), share if is_foot else 0.0)
+    return AnchorPull(
+        anchor=anchor,
+        position=position,
+        pulls=pulls,
+        axis=axis,
+        is_axis_given=given is not None,
+        kind=kind.kind if kind else "",
+        lever=_find_lever(kind),
+        angle=turned,
+    )
+
+
+def check_directions(
+    pulls: Sequence[AnchorPull], standard: Standard, gap: Message | None
+) -> list[tuple[Position, CheckResult]]:
+    """Check the angles of rope anchors, and of bars whose lever arm is not given.
+
+    Each with the support that it belongs to.
+    """
+    return [
+        (
+            one.position,
+            _check_rope(one, standard, gap)
+            if one.kind == "rope anchor"
+            else _check_bar(one, standard, gap),
+        )
+        for one in pulls
+        if one.is_checked
+    ]
+
+
+def _check_rope(
+    pull: AnchorPull, standard: Standard, gap: Message | None
+) -> CheckResult:
+    limit = standard.find(ROPE_ANGLE)
+    most = limit.value_si if limit else math.nan
+    verdict = judge(
+        pull.angle, pull.angle, least=0.0, most=most, is_complete=gap is None
+    )
+    if limit is None:
+        return _result(
+            pull, verdict, not_proven(say("check.no_limit", limit=ROPE_ANGLE))
+        )
+    key = (
+        "direction.rope_beyond" if verdict is Verdict.FAIL else "direction.rope_within"
+    )
+    told = say(key, angle=degree_from_radian(pull.angle), most=limit.value)
+    if verdict is Verdict.NOT_PROVEN and gap is not None:
+        told = not_proven(gap)
+    found = _result(pull, verdict, told)
+    return replace(found, assumed=list_assumed(limit))
+
+
+def _check_bar(
+    pull: AnchorPull, standard: Standard, gap: Message | None
+) -> CheckResult:
+    """Small angles pass; beyond, nothing is known without a lever arm."""
+    limit = standard.find(BAR_ANGLE)
+    most = limit.value if limit else 0.0
+    angle = degree_from_radian(pull.angle)
+    if limit is None or angle > most:
+        lack = say("direction.no_lever", angle=angle, most=most)
+        return _result(pull, Verdict.NOT_PROVEN, not_proven(lack))
+    if gap is not None:
+        return _result(pull, Verdict.NOT_PROVEN, not_proven(gap))
+    told = say("direction.bar_within", angle=angle, most=most)
+    found = _result(pull, Verdict.PASS, told)
+    return replace(found, assumed=list_assumed(limit))
+
+
+def _result(pull: AnchorPull, verdict: Verdict, reason: Message) -> CheckResult:
+    return CheckResult(
+        id=f"{pull.anchor}.direction",
+        clause="-",
+        member=pull.anchor,
+        mode="direction",
+        verdict=verdict,
+        reason=reason,
+    )

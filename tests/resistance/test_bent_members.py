@@ -1,0 +1,103 @@
+"""Bent bars and posts: each resistance put back into the rule it comes from."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.resistance.post import (
+    PostSection,
+    compute_bent_post_resistance,
+    compute_post_moment,
+    compute_sliding_resistance,
+)
+from netdesign.resistance.steel import (
+    RoundSection,
+    compute_bar_resistance,
+    compute_bent_bar_resistance,
+)
+
+POST = PostSection(
+    width=0.12, length=3.1, moment_resistance=31e3, critical=6.9e5, buckling=3.96e5
+)
+
+
+def test_resistance_of_a_bent_bar_uses_all_of_the_section():
+    """(R8) holds as an equation at the resistance, with shear and without."""
+    draw, sheared = random.Random(7), 0
+    for _ in range(500):
+        outer = draw.uniform(0.016, 0.11)
+        inner = draw.choice([0.0, draw.uniform(0.1, 0.9) * outer])
+        bar = RoundSection(outer=outer, inner=inner, strength=draw.uniform(2e8, 9e8))
+        angle, lever = draw.uniform(0.0, 1.5), draw.choice([0.0, draw.uniform(0, 0.3)])
+        pull = compute_bent_bar_resistance(bar, angle=angle, lever=lever).value
+        area = math.pi / 4 * (outer**2 - inner**2)
+        modulus = math.pi / 32 * (outer**4 - inner**4) / outer
+        shear_area = area * (2 / math.pi if inner else 0.75)
+        shear = pull * math.sin(angle) / (shear_area * bar.strength / math.sqrt(3))
+        rho = (2 * shear - 1) ** 2 if shear > 0.5 else 0.0
+        sheared += shear > 0.5
+        used = pull * math.cos(angle) / area + lever * pull * math.sin(angle) / modulus
+        assert used / bar.strength == pytest.approx(1.0 - rho, rel=1e-9)
+        assert shear <= 1.0
+    assert 100 < sheared < 400
+
+
+def test_along_the_axis_a_bar_has_its_tendon():
+    bar = RoundSection(outer=0.028, inner=0.011, strength=5e8)
+    found = compute_bent_bar_resistance(bar, angle=0.0, lever=0.4)
+    assert found.value == compute_bar_resistance(0.028, 5e8, 0.011)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("angle of the pull", {"angle": math.radians(90)}),
+        ("angle of the pull", {"angle": math.nan}),
+        ("lever arm", {"lever": -0.01}),
+        ("lever arm", {"lever": 2.1}),
+    ],
+)
+def test_impossible_pull_on_a_bar_is_named(name, changes):
+    bar = RoundSection(outer=0.03, strength=5e8)
+    with pytest.raises(ModelError, match=name):
+        compute_bent_bar_resistance(bar, **({"angle": 0.1, "lever": 0.02} | changes))
+
+
+def test_tube_thinner_than_its_wall_allows_is_refused():
+    with pytest.raises(ModelError, match="inner diameter"):
+        RoundSection(outer=0.05, inner=0.0491, strength=5e8)
+
+
+@pytest.mark.parametrize("moment", [0.0, 3.3e3, 17.9e3, 29.0e3])
+def test_compression_beside_a_moment_uses_all_of_the_post(moment):
+    factor = 1.05
+    design = compute_bent_post_resistance(POST, moment=moment, partial_factor=factor)
+    design /= factor
+    amplified = moment / (1.0 - design / POST.critical)
+    used = factor * (design / POST.buckling + amplified / POST.moment_resistance)
+    assert used == pytest.approx(1.0, rel=1e-12)
+    assert design < POST.critical
+
+
+def test_without_a_moment_it_is_the_buckling_resistance():
+    found = compute_bent_post_resistance(POST, moment=0.0, partial_factor=1.1)
+    assert found == pytest.approx(POST.buckling, rel=1e-14)
+
+
+@pytest.mark.parametrize("share", [1.0, 1.7])
+def test_moment_that_is_too_much_alone_leaves_no_compression(share):
+    moment = share * POST.moment_resistance / 1.1 * (1.0 + 1e-12)
+    assert compute_bent_post_resistance(POST, moment=moment, partial_factor=1.1) is None
+
+
+def test_moment_of_snow_on_a_hinged_post():
+    found = compute_post_moment(POST, pressure=11e3, efficiency=1.7)
+    assert found == pytest.approx(1.7 * 11e3 * 0.12 * 3.1**2 / 8, rel=1e-14)
+
+
+@pytest.mark.parametrize("friction", [0.0, 1.6, math.nan])
+def test_friction_of_a_base_out_of_range_is_refused(friction):
+    with pytest.raises(ModelError, match="friction"):
+        compute_sliding_resistance(1e5, friction)

@@ -1,0 +1,308 @@
+"""Checks beyond axial force on a row with given pulls: what they need and say."""
+
+import math
+
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.outcome import Verdict
+from tests.checks.given_pulls import POST, judge_row, study_row
+
+SWISS = "swiss-guideline-2007"
+GUYS, SPLAY = "guys on each side of the post", "splay of the guys [deg]"
+FOOT_AXIS = "foot anchor axis [deg]"
+BAR = {
+    "bar diameter [mm]": 32,
+    "bar strength [MPa]": 500,
+    "pull-out resistance [kN]": 380,
+    "basis": "tested",
+}
+ROW = {
+    "anchor": BAR,
+    "foot": (20.0, 18.0),  # 41.99 degrees out of the ground
+    "head": (5.0, -22.0),
+    "gap to next work [m]": 0.5,
+}
+FOOT = math.degrees(math.atan2(18.0, 20.0))
+ALONG_ROW = math.acos(1.0 / math.hypot(1.0, 0.1))  # turn by the load along the row
+
+
+def judge(tmp_path, profile=SWISS, **changes):
+    return judge_row(tmp_path, profile, **(ROW | changes))
+
+
+def told(check):
+    return check.verdict, str(check.reason)
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({GUYS: None, SPLAY: None}, "one guy in the plane of the section"),
+        ({GUYS: 1}, "one guy in the plane of the section"),
+        ({SPLAY: None}, "the splay of the two guys is not given"),
+        ({"uphill anchor distance [m]": 0.0}, "do not end at the net's foot"),
+        ({"downhill anchor distance [m]": 0.0, "head": (0.4, -22.0)}, "cannot hold"),
+    ],
+)
+def test_load_along_the_row_that_nothing_holds_is_not_proven(tmp_path, changes, reason):
+    checks = judge(tmp_path, **changes)
+    verdict, text = told(checks["post.lateral"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert reason in text
+    guy = checks["uphill_guy.rope"].action
+    assert (guy.share, guy.added_kN, guy.lateral_factor) == (1.0, 0.0, 1.0)
+
+
+def test_each_of_two_guys_has_its_part_and_its_anchor_the_same(tmp_path):
+    checks = judge(tmp_path)
+    assert checks["post.lateral"].verdict is Verdict.PASS
+    guy, anchor = checks["uphill_guy.rope"], checks["uphill_anchor.tendon"]
+    assert guy.action.share == pytest.approx(0.5 / math.cos(math.radians(30)))
+    pull = 3.5 * math.hypot(5.0, 22.0)
+    load = guy.action.sideways
+    assert (load.share, load.pull_kN) == (0.1, pytest.approx(pull, rel=1e-12))
+    assert guy.action.added_kN == pytest.approx(load.part * 0.1 * pull / 0.5, rel=1e-12)
+    assert anchor.demand_kN == pytest.approx(guy.demand_kN, rel=1e-14)
+    foot = checks["foot_anchor.tendon"].action
+    assert (foot.share, foot.lateral_factor) == (1.0, pytest.approx(1.00499, rel=1e-5))
+
+
+def test_pull_along_the_post_loads_guys_of_both_sides_and_the_post(tmp_path):
+    """Nothing in the guys of the section: (S16) brings both, and the post more."""
+    tilt = math.radians(15)
+    head = (-23.0 * math.sin(tilt), -23.0 * math.cos(tilt))
+    checks = judge(tmp_path, head=head)
+    assert checks["post.lateral"].verdict is Verdict.PASS
+    post = checks["post.compression"].action
+    held = 0.1 * 3.5 * 23.0 / math.tan(math.radians(30))
+    assert post.sideways.least_tension_kN == pytest.approx(0.0, abs=1e-9)
+    assert post.added_kN == pytest.approx(post.sideways.part * held, rel=1e-9)
+    assert 0.5 < post.sideways.part < 1.0
+    assert (
+        checks["uphill_guy.rope"].demand_kN
+        > 0.0
+        < checks["downhill_guy.rope"].demand_kN
+    )
+
+
+def test_anchor_of_net_and_guy_names_both_parts(tmp_path):
+    checks = judge(tmp_path, **{"uphill anchor distance [m]": 0.0})
+    action = checks["foot_anchor.tendon"].action
+    assert action.foot_part_kN == pytest.approx(3.5 * math.hypot(20, 18), rel=1e-12)
+    both = action.foot_part_kN + action.guy_part_kN
+    assert action.solved_kN == pytest.approx(both, rel=1e-12)
+    assert action.guy_part_kN > 10.0
+    assert checks["uphill_anchor.tendon"].action.guy_part_kN == action.guy_part_kN
+    assert judge(tmp_path)["foot_anchor.tendon"].action.guy_part_kN is None
+
+
+@pytest.mark.parametrize(
+    ("axis", "verdict"),
+    [(FOOT, Verdict.PASS), (14.0, Verdict.PASS), (10.0, Verdict.FAIL)],
+)
+def test_rope_anchor_turns_up_to_the_angle_of_the_profile(tmp_path, axis, verdict):
+    anchor = BAR | {"kind of anchor": "rope anchor"}
+    checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: axis})
+    found = checks["foot_anchor.direction"]
+    turn = math.radians(abs(FOOT - axis))
+    angle = math.degrees(math.acos(math.cos(turn) * math.cos(ALONG_ROW)))
+    assert found.verdict is verdict
+    assert f"up to {angle:.1f} degrees" in str(found.reason)
+    assert "foot_anchor.bending" not in checks
+
+
+@pytest.mark.parametrize("kind", ["bar", "micropile", None])
+def test_bar_off_its_axis_without_a_lever_arm_is_not_proven(tmp_path, kind):
+    anchor = BAR | ({"kind of anchor": kind} if kind else {})
+    near = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 7.0})
+    far = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 9.0})
+    assert near["foot_anchor.direction"].verdict is Verdict.PASS
+    verdict, text = told(far["foot_anchor.direction"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no lever arm is given" in text
+
+
+def test_anchor_without_axis_and_kind_is_an_assumption_that_is_told(tmp_path):
+    study = study_row(tmp_path, SWISS, **ROW)
+    (row,) = study.rows
+    assert not [one for one in row.checks if one.mode == "direction"]
+    notes = " ".join(map(str, row.notes))
+    assert (
+        f"Foot anchor: no axis is given; it is taken along the mean pull, {FOOT:.1f}"
+        in notes
+    )
+    assert "no kind of anchor is given" in notes
+    foot, uphill, downhill = row.pulls
+    assert (foot.axis_deg, foot.is_axis_given) == (pytest.approx(FOOT), False)
+    assert uphill.least_deg == pytest.approx(
+        math.degrees(math.atan2(3.0, 3 + 3 * math.tan(math.radians(30))))
+    )
+    assert 0.0 < downhill.least_deg < 90.0
+
+
+@pytest.mark.parametrize(("lever", "verdict"), [(5, Verdict.PASS), (30, Verdict.FAIL)])
+def test_bar_with_a_lever_arm_bends(tmp_path, lever, verdict):
+    """20 degrees off and k = 0.1: cos d = cos 20 / 1.00499, by (R7) to (R9)."""
+    anchor = BAR | {"kind of anchor": "bar", "lever arm [mm]": lever}
+    checks = judge(tmp_path, anchor=anchor, **{FOOT_AXIS: FOOT - 20.0})
+    angle = math.acos(math.cos(math.radians(20)) * math.cos(ALONG_ROW))
+    area, modulus = math.pi * 16.0**2, math.pi * 32.0**3 / 32.0
+    used = math.cos(angle) / area + lever * math.sin(angle) / modulus
+    sheared = 2.0 * math.sin(angle) * math.sqrt(3.0) / (0.75 * area)
+    value = 1.0 / used
+    if lever == 5:  # more than half of the shear resistance
+        assert sheared > used
+        value = (2.0 * sheared - used) / sheared**2
+    found = checks["foot_anchor.bending"]
+    assert found.resistance_characteristic_kN == pytest.approx(0.5 * value, rel=1e-9)
+    assert found.verdict is verdict
+    assert found.demand_kN == checks["foot_anchor.tendon"].demand_kN
+    assert f"{lever} mm · sin" in str(found.resistance_derivation)
+    assert "foot_anchor.direction" not in checks
+
+
+def test_bar_that_bends_without_dimensions_is_not_proven(tmp_path):
+    anchor = {"tendon resistance [kN]": 402, "pull-out resistance [kN]": 380}
+    anchor |= {"basis": "tested", "kind of anchor": "bar", "lever arm [mm]": 5}
+    verdict, text = told(judge(tmp_path, anchor=anchor)["foot_anchor.bending"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "diameter and strength of the bar are not given" in text
+
+
+def test_post_without_width_or_friction_is_not_proven(tmp_path):
+    lost = ("post width [mm]", "friction of the base")
+    post = {key: value for key, value in POST.items() if key not in lost}
+    checks = judge(tmp_path, post=post)
+    verdict, text = told(checks["post.compression_bending"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "lacks post width for the snow against the post" in text
+    verdict, text = told(checks["post_base.sliding"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no sliding resistance or friction" in text
+
+
+def test_moment_of_the_snow_that_is_too_much_alone_fails(tmp_path):
+    post = POST | {"section modulus [cm3]": 6, "post width [mm]": 300}
+    verdict, text = told(judge(tmp_path, post=post)["post.compression_bending"])
+    assert verdict is Verdict.FAIL
+    assert "alone is too much" in text
+
+
+def test_declared_sliding_resistance_is_compared_with_the_force_along_the_slope(
+    tmp_path,
+):
+    lost = "friction of the base"
+    post = {key: value for key, value in POST.items() if key != lost}
+    post["sliding resistance of the base [kN]"] = 51.5
+    found = judge(tmp_path, post=post)["post_base.sliding"]
+    across = judge(tmp_path, post=post)["post_base.bearing"].demand_kN
+    assert found.demand_kN == pytest.approx(
+        across * math.tan(math.radians(15)), rel=1e-12
+    )
+    assert found.resistance_kN == pytest.approx(51.5 / 1.1, rel=1e-12)
+    assert found.resistance_basis == "declared"
+
+
+def test_profile_without_snow_on_posts_proves_none_of_them(tmp_path, folder_without):
+    mine = folder_without("model.toml", "post.efficiency")
+    verdict, text = told(judge(tmp_path, mine)["post.compression_bending"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no factor post.efficiency" in text
+
+
+def test_profile_without_a_limit_of_angles_proves_none(tmp_path, folder_without):
+    mine = folder_without("limits.toml", "anchor.angle.rope")
+    anchor = BAR | {"kind of anchor": "rope anchor"}
+    verdict, text = told(judge(tmp_path, mine, anchor=anchor)["foot_anchor.direction"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no limit anchor.angle.rope" in text
+
+
+@pytest.fixture
+def folder_without(tmp_path):
+    """Copy of the Swiss profile without one of its values."""
+    import shutil
+
+    from netdesign.edge.resources import find_resource
+
+    def copy(file, value_id):
+        mine = shutil.copytree(find_resource("standards") / SWISS, tmp_path / "mine")
+        blocks = (mine / file).read_text("utf-8").split("\n\n")
+        kept = [one for one in blocks if f'id = "{value_id}"' not in one]
+        assert len(kept) == len(blocks) - 1
+        (mine / file).write_text("\n\n".join(kept), "utf-8")
+        return mine
+
+    return copy
+
+
+@pytest.mark.parametrize(
+    ("cell", "value", "accepted"),
+    [
+        (FOOT_AXIS, -31, "-30 to 90 deg"),
+        (FOOT_AXIS, 91, "-30 to 90 deg"),
+        (SPLAY, 0, "5 to 60 deg"),
+        (GUYS, 3, "whole numbers, 1 to 2"),
+    ],
+)
+def test_impossible_axis_splay_and_count_are_one_finding_each(
+    tmp_path, cell, value, accepted
+):
+    with pytest.raises(SiteDataError) as caught:
+        judge(tmp_path, **{cell: value})
+    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
+    assert finding.sheet == "Nets"
+    assert accepted in str(finding.accepted)
+
+
+@pytest.mark.parametrize(
+    ("post", "anchor", "place"),
+    [
+        ({"sliding resistance of the base [kN]": 60}, {}, "Posts"),
+        ({}, {"inner diameter of a tube [mm]": 32}, "Anchors"),
+    ],
+)
+def test_what_is_given_twice_or_is_no_tube_is_one_finding(
+    tmp_path, post, anchor, place
+):
+    with pytest.raises(SiteDataError) as caught:
+        judge(tmp_path, post=POST | post, anchor=BAR | anchor)
+    (finding,) = [one for one in caught.value.findings if one.severity == "error"]
+    assert finding.sheet == place
+
+
+def test_section_8_of_2013_wants_tests_of_the_site_and_of_every_anchor(tmp_path):
+    import shutil
+
+    from netdesign.edge.resources import find_resource
+
+    mine = shutil.copytree(find_resource("standards") / "eurocode", tmp_path / "ec")
+    path = mine / "document.toml"
+    text = path.read_text("utf-8")
+    path.write_text(
+        text.replace('"recommended-da2"', '"grouted-anchors-2013"'), "utf-8"
+    )
+    bond = {
+        "bar diameter [mm]": 32,
+        "bar strength [MPa]": 500,
+        "drill diameter [mm]": 110,
+        "bond length [m]": 9.0,
+        "ground": "gravel",
+    }
+    computed = judge(tmp_path, mine, anchor=bond)["foot_anchor.pull_out"]
+    assert computed.verdict is Verdict.NOT_PROVEN
+    assert "basis 'computed'" in str(computed.reason)
+    tests = {"number of tests": 3, "least tested resistance [kN]": 270}
+    tests["mean tested resistance [kN]"] = 290
+    steel = {key: bond[key] for key in ("bar diameter [mm]", "bar strength [MPa]")}
+    study = study_row(tmp_path, mine, **(ROW | {"anchor": steel | tests}))
+    checks = {check.id: check for check in study.rows[0].checks}
+    found = checks["foot_anchor.pull_out"]
+    assert found.resistance_kN == pytest.approx(270.0 / 1.1, rel=1e-12)
+    proof = f"acceptance test to {1.1 * found.demand_high_kN:.1f} kN"
+    assert proof in " ".join(map(str, study.rows[0].notes))
+    few = steel | tests | {"number of tests": 2}
+    verdict, text = told(judge(tmp_path, mine, anchor=few)["foot_anchor.pull_out"])
+    assert verdict is Verdict.NOT_PROVEN
+    assert "no correlation factors for 2 tests" in text
