@@ -361,7 +361,8 @@ def test_layers_give_the_mean_density(tables):
 def test_layers_that_do_not_add_up(tables):
     del tables["snow"]["density_kg_m3"]
     tables["snow"]["layers"] = LAYERS[:1]
-    with pytest.raises(ModelError, match=r"thicknesses: the layers give 1 m, .* has 4 m"):
+    told = r"thicknesses: the layers give 1 m, .* has 4 m"
+    with pytest.raises(ModelError, match=told):
         build(tables)
 
 
