@@ -401,7 +401,7 @@ def _find_resistance(
     is_derived = is_given and resistance.derivation is not None
     # A pull-out resistance says how it is known; the others are makers' values.
     basis = kind["basis"].word if mode == "pull_out" else "declared"
-    if is_derived and mode == "pull_out":
+    if is_derived:
         basis = "computed"
     place = kind["test_least"].place if tests else resistance.place
     return Resistance(
