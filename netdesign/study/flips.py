@@ -47,9 +47,10 @@ class Target:
         Whose force.
     scale : float
         Utilisation for each N of the upper end of the solved force [1/N].
-    added : float
-        Utilisation by what is added to the largest force [-]. Another force brings it:
-        it stays where the member's falls, and grows in proportion.
+    added, rise : float
+        Utilisation by what is added to the largest force [-], and what that grows by
+        for each such force more. Another force brings it: it is taken to stay where
+        the member's falls, and to grow as the member's does.
     largest : float
         Largest force of the member over the solved cases [N].
     governing : Case
@@ -73,6 +74,7 @@ class Target:
     use_floor: Callable[[NetRow], float] = lambda _: 0.0
     widen: Callable[[NetRow], float] = lambda _: 1.0
     added: float = 0.0
+    rise: float = 0.0
     largest: float = 0.0
 
     @property
@@ -98,8 +100,8 @@ class Target:
 
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""
-        growth = max(1.0, force / self.largest) if self.largest else 1.0
-        return self.scale * force + self.added * growth
+        growth = max(0.0, force / self.largest - 1.0) if self.largest else 0.0
+        return self.scale * force + self.added + self.rise * growth
 
     def _compare_width(self, moved: NetRow) -> float:
         """Width that loads the support of a moved row over that of the row as it is."""

@@ -552,6 +552,7 @@ def _build_target(
         member=member,
         scale=use * load.share * widened,
         added=use * load.added.high,
+        rise=use * _find_rise(load),
         largest=at_cases,
         governing=extreme.governing.case,
         results=task.solved.results,
@@ -567,7 +568,18 @@ def _add_by_floor(load: MemberLoad, floor: Floor) -> float:
     """
     now = newton_from_kilonewton(load.sideways.pull_kN) if load.sideways else 0.0
     pull = floor.head.pull if floor.head else 0.0
-    return load.added.value * max(1.0, pull / now if now else 1.0)
+    growth = max(0.0, pull / now - 1.0) if now else 0.0
+    return load.added.value + growth * _find_rise(load)
+
+
+def _find_rise(load: MemberLoad) -> float:
+    """Growth of what is added, for each pull on the head more [N].
+
+    Of the post what the least tension of the guys holds is added again: it stays.
+    """
+    record = load.sideways
+    held = record.part * (record.least_tension_kN or 0.0) if record else 0.0
+    return load.added.high + newton_from_kilonewton(held)
 
 
 def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:

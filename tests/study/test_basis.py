@@ -220,5 +220,5 @@ def test_checks_with_one_reason_are_told_in_one_sentence(judge):
     assert all("overtops the net" in reason for reason in reasons)
     assert len(set(reasons)) == len(reasons)
     named = sum(1 + titles.count(";") for titles, _, _ in parts)
-    assert named == 2 * len(MEMBER_MODES)
+    assert named == 2 * (len(MEMBER_MODES) + len(DEPENDENT_MODES)) + 1
     assert height_told.startswith("Net, height: The net height 2.2 m")

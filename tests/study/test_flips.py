@@ -291,3 +291,15 @@ def test_floor_that_no_height_meets_leaves_no_bound():
     change = find_height_change(with_floor(0.3, 4.1), MadeUpProbe())
     assert change.bound is None
     assert change.note.key == "change.not_even"
+
+
+def test_what_is_added_stays_below_the_largest_force_and_grows_beyond_it():
+    """As the post's: A = w (k P / tan beta - T), of which only the first part grows."""
+    largest, scale, first, held = 173.0, 0.0041, 0.37, 0.15
+    target = replace(a_target(scale), largest=largest, added=first - held, rise=first)
+    for share in (0.0, 0.31, 1.0):
+        expected = scale * share * largest + first - held
+        assert target.use(share * largest) == pytest.approx(expected, rel=1e-12)
+    for share in (1.07, 2.3):
+        expected = scale * share * largest + share * first - held
+        assert target.use(share * largest) == pytest.approx(expected, rel=1e-12)

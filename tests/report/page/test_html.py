@@ -86,7 +86,7 @@ def test_empty_parts_say_none():
         verdict=Verdict.NOT_PROVEN,
     )
     page = html.render_html(study)
-    assert page.count('<p class="none">none') == 18
+    assert page.count('<p class="none">none') == 19
     assert "NOT PROVEN" in page
 
 
