@@ -290,7 +290,8 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
     ]
     for quantity in ("characteristic resistance at least", "post spacing", "density"):
         assert any(quantity in line for line in told), quantity
-    assert all("Foot anchor" in line or "Uphill anchor" in line for line in told)
+    assert all("anchor, tendon" in line for line in told)
+    assert any("Downhill" in line for line in told)  # by the load along the row alone
 
 
 # --- check: outputs ----------------------------------------------------------------
