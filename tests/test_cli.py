@@ -47,8 +47,13 @@ SHEETS = {
             "uphill guy",
             "downhill guy",
             "post",
+            "guys on each side of the post",
+            "splay of the guys [deg]",
         ],
-        ["R1", 38, 2.5, 6, "free", 2.5, 8000, 3, *["A1"] * 3, *["G1"] * 2, "P1"],
+        [
+            *("R1", 38, 2.5, 6, "free", 2.5, 8000, 3),
+            *("A1", "A1", "A1", "G1", "G1", "P1", 2, 30),
+        ],
     ],
     "Ranges": [
         ["quantity", "low", "high", "samples"],
@@ -62,8 +67,13 @@ SHEETS = {
     ],
     "Ropes": [["id", "minimum breaking force [kN]"], ["G1", 2500]],
     "Posts": [
-        ["id", "compression resistance [kN]", "bearing resistance [kN]"],
-        ["P1", 3800, 3600],
+        [
+            *("id", "section area [cm2]", "bearing resistance [kN]"),
+            *("second moment of area [cm4]", "buckling length [m]"),
+            *("yield strength [MPa]", "post width [mm]", "section modulus [cm3]"),
+            "sliding resistance of the base [kN]",
+        ],
+        ["P1", 180, 3600, 25000, 2.6, 355, 300, 1600, 2900],
     ],
 }
 
@@ -280,7 +290,8 @@ def test_explain_tells_what_would_make_a_weak_anchor_pass(tmp_path):
     ]
     for quantity in ("characteristic resistance at least", "post spacing", "density"):
         assert any(quantity in line for line in told), quantity
-    assert all("Foot anchor" in line or "Uphill anchor" in line for line in told)
+    assert all("anchor, tendon" in line for line in told)
+    assert any("Downhill" in line for line in told)  # by the load along the row alone
 
 
 # --- check: outputs ----------------------------------------------------------------
@@ -715,7 +726,7 @@ def test_standards_validates_a_folder(tmp_path):
     shutil.copytree(find_resource("standards") / PROFILE, own)
     result = run("standards", "validate", "mine", cwd=tmp_path)
     assert result.returncode == 0
-    assert result.stdout.startswith(f"{PROFILE}: version 3, 20 values, 2 tables")
+    assert result.stdout.startswith(f"{PROFILE}: version 3, 26 values, 2 tables")
     factors = own / "factors.toml"
     text = factors.read_text(encoding="utf-8").replace("value = 1.35", "value = -1.35")
     factors.write_text(text + "colour = 1\n", encoding="utf-8")

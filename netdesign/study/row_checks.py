@@ -124,8 +124,12 @@ def check_row(
             _record_member(task, one, loads.effects, is_worst=_is_worst(one, judged))
         )
         task.on_check()
+    before = task.probe.faults if task.probe else 0
     holds = _find_holds(task, judged, checks)
     checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
+    if task.probe and task.probe.faults > before:
+        told = zip(judged, checks, strict=True)
+        checks = [_distrust(task, one, check) for one, check in told]
     return [
         *checks,
         *_check_directions(task, loads, find_open(judged)),
@@ -314,6 +318,18 @@ def _record_member(
         spreads=spreads,
         changes=changes,
     )
+
+
+def _distrust(task: RowCheck, one: MemberCheck, check: CheckRecord) -> CheckRecord:
+    """Check of a row beside whose cases the program failed."""
+    if one.demand is None or one.gap or check.action is None:
+        return check
+    result = judge_forces(
+        one.demand.action, one.given, task.standard, gap=_FAULT_BESIDE, doubt=one.doubt
+    )
+    settled = settle_check(task.site, task.row, result)
+    reason = tell_governing(settled.reason, check.action)
+    return replace(check, verdict=settled.verdict, reason=reason)
 
 
 def judge_forces(
