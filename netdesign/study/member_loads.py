@@ -68,6 +68,8 @@ class RowLoads:
         return MemberLoad(
             share=self.tilt * load.share,
             added=load.added.times(self.tilt),
+            pull=load.pull,
+            rise=self.tilt * load.rise,
             sideways=load.sideways
             and replace(load.sideways, part=self.tilt * load.sideways.part),
         )

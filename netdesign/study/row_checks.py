@@ -57,7 +57,6 @@ from netdesign.study.stronger_types import find_type_change
 from netdesign.units import (
     kilonewton_from_newton,
     kilonewton_if_known,
-    newton_from_kilonewton,
 )
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
@@ -568,7 +567,7 @@ def _build_target(
         member=member,
         scale=use * load.share * widened,
         added=use * load.added.high,
-        rise=use * _find_rise(load),
+        rise=use * load.rise,
         largest=at_cases,
         governing=extreme.governing.case,
         results=task.solved.results,
@@ -582,20 +581,9 @@ def _add_by_floor(load: MemberLoad, floor: Floor) -> float:
 
     It grows with that pull, and never falls.
     """
-    now = newton_from_kilonewton(load.sideways.pull_kN) if load.sideways else 0.0
     pull = floor.head.pull if floor.head else 0.0
-    growth = max(0.0, pull / now - 1.0) if now else 0.0
-    return load.added.value + growth * _find_rise(load)
-
-
-def _find_rise(load: MemberLoad) -> float:
-    """Growth of what is added, for each pull on the head more [N].
-
-    Of the post what the least tension of the guys holds is added again: it stays.
-    """
-    record = load.sideways
-    held = record.part * (record.least_tension_kN or 0.0) if record else 0.0
-    return load.added.high + newton_from_kilonewton(held)
+    growth = max(0.0, pull / load.pull - 1.0) if load.pull else 0.0
+    return load.added.value + growth * load.rise
 
 
 def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:

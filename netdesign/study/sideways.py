@@ -45,11 +45,23 @@ _NOTHING = Band(low=0.0, value=0.0, high=0.0)
 class MemberLoad:
     """Way from the force of the section to that of one member.
 
-    ``share`` of it [-], and a force ``added`` [N], which follows from ``sideways``.
+    Attributes
+    ----------
+    share : float
+        Part of the section's force in this member [-].
+    added : Band
+        Force that the load along the row adds [N].
+    pull, rise : float
+        Largest pull on a head, which brings it, and what it grows by at most where
+        that pull is twice as large; also where nothing is added yet [N].
+    sideways : SidewaysRecord or None
+        Numbers that ``added`` follows from; None where nothing is added.
     """
 
     share: float = 1.0
     added: Band = _NOTHING
+    pull: float = 0.0
+    rise: float = 0.0
     sideways: SidewaysRecord | None = None
 
     def apply(self, force: Band) -> Band:
@@ -106,6 +118,8 @@ class Sideways:
         return MemberLoad(
             share=0.5 / math.cos(self.splay),
             added=self.pull.times(across),
+            pull=self.pull.value,
+            rise=self.pull.high * across,
             sideways=self._record(part, None),
         )
 
@@ -115,11 +129,11 @@ class Sideways:
             self.post * max(one - self.least_tension, 0.0)
             for one in (held.low, held.value, held.high)
         )
-        if high == 0.0:
-            return MemberLoad()
         return MemberLoad(
             added=Band(low=low, value=value, high=high),
-            sideways=self._record(self.post, self.least_tension),
+            pull=self.pull.value,
+            rise=self.post * held.high,  # the guys' least tension does not grow
+            sideways=self._record(self.post, self.least_tension) if high else None,
         )
 
     def _record(self, part: float, tension: float | None) -> SidewaysRecord:
