@@ -21,6 +21,7 @@ PAIRS = [
         (units.meter_from_millimeter, 28.0, 0.028),
         (units.square_meter_from_square_centimeter, 34.0, 0.0034),
         (units.fourth_meter_from_fourth_centimeter, 318.0, 318e-8),
+        (units.cubic_meter_from_cubic_centimeter, 144.1, 144.1e-6),
         (units.pascal_from_kilopascal, 95.0, 95_000.0),
         (units.pascal_from_megapascal, 500.0, 500e6),
         (units.radian_from_degree, 180.0, math.pi),
