@@ -39,6 +39,7 @@ _LEAST_USED = 1e-3  # of a member that is slack at one end
 _MOST_STEPS = 4
 _BACK = 0.75
 _DIGITS = 3  # of a limit that is told
+_FINEST = 1e-3  # of the search's length: no limit is told finer than its decade
 _DECIMALS = 9  # of the ends of a search
 
 
@@ -291,7 +292,14 @@ class _Line:
         else:
             value = (math.sqrt(good) * (1.0 - share) + math.sqrt(bad) * share) ** 2
         shown = self._parameter.show(value)
-        step = 10.0 ** (math.floor(math.log10(abs(shown))) - _DIGITS + 1)
         rounding = math.ceil if good > bad else math.floor
+        step = self._find_step(shown)
         told = self._parameter.read(round(rounding(shown / step) * step, 12))
         return told if min(good, bad) < told < max(good, bad) else None
+
+    def _find_step(self, shown: float) -> float:
+        """Power of ten to whose multiples a limit is rounded."""
+        show = self._parameter.show
+        finest = _FINEST * abs(show(self._span.high) - show(self._span.low))
+        of_digits = math.floor(math.log10(abs(shown))) - _DIGITS + 1
+        return 10.0 ** max(of_digits, math.floor(math.log10(finest)))

@@ -144,6 +144,14 @@ def test_limits_are_rounded_to_the_passing_side():
     assert hold.now == 7300.0
 
 
+@pytest.mark.parametrize("exact", [4.4e-6, 2.3e-5, 0.00113])
+def test_no_limit_is_told_finer_than_a_thousandth_of_its_search(exact):
+    """A slack of 4e-6 is no number that anybody builds."""
+    hold = hold_of(a_target(_loosen(exact) ** 0.21), "slack")
+    assert exact <= hold.least == round(hold.least, 4)
+    assert hold.least == pytest.approx(exact, abs=0.003)
+
+
 @pytest.mark.parametrize("used", [1.04, 1.2])
 def test_a_fail_would_pass_below_a_thickness_and_above_a_slack(used):
     target = a_target(used)
