@@ -395,7 +395,8 @@ def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
 def _describe_derivation(
     given: Resistance | None, result: CheckResult
 ) -> Message | None:
-    if given is None or given.tests is None or result.resistance is None:
+    factors = result.correlation
+    if given is None or given.tests is None or factors is None:
         return given.derivation if given else None
     tests = given.tests
     return say(
@@ -403,6 +404,8 @@ def _describe_derivation(
         mean=kilonewton_from_newton(tests.mean),
         least=kilonewton_from_newton(tests.least),
         count=tests.count,
+        on_mean=factors[0],
+        on_least=factors[1],
     )
 
 
