@@ -60,7 +60,9 @@ def _record_cases(
     row: NetRow, solved: Sequence[CaseResult], extremes: Mapping[str, Extreme]
 ) -> Iterable[StaticsRecord]:
     found = [
-        (key, one.governing) for key, one in extremes.items() if one.force.value > 0.0
+        (key, _find_state(key, one.governing))
+        for key, one in extremes.items()
+        if one.force.value > 0.0
     ]
     if solved:
         found += [
@@ -77,6 +79,14 @@ def _record_cases(
             anchors=anchors,
         )
         yield _record_state(keys, pulls, case=record_point(result.case), load=None)
+
+
+def _find_state(member: str, result: CaseResult) -> CaseResult:
+    """The case at rest or followed in time, whichever brings the member's force."""
+    both = result.compared
+    if both is None:
+        return result
+    return both.history if both.exceeds(member) else both.steady
 
 
 def _measure(result: CaseResult) -> dict[str, float]:
