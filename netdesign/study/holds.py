@@ -19,9 +19,9 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.study.flips import Target, list_near
 from netdesign.study.probe import Probe
 from netdesign.study.records import HoldRecord
+from netdesign.study.target import Move, Target, list_near
 from netdesign.words.message import Message, say
 
 # Ends of a search; half and twice the given value where nothing else is said.
@@ -100,7 +100,7 @@ def find_holds(
     shared = list(dict.fromkeys(case.case for case in serving.values()))
     probe.solve_all(
         [
-            (one.row, move_case(case, span.name, value), probe.law)
+            (one.row, case.with_value(span.name, value), probe.law)
             for span in spans
             for case in shared
             for value in (span.low, span.high)
@@ -158,13 +158,6 @@ def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
     return now / _FACTOR, now * _FACTOR
 
 
-def move_case(case: Case, name: str, value: float) -> Case:
-    """Case with a quantity of its own; another name of the same one goes."""
-    twins = {one for pair in ONE_QUANTITY if name in pair for one in pair}
-    kept = {k: v for k, v in case.values.items() if k not in twins}
-    return Case.of({**kept, name: value})
-
-
 def _choose_cases(checks: Mapping[str, HeldCheck]) -> dict[str, CaseResult]:
     """For each check a case in which its member carries about its largest force.
 
@@ -194,7 +187,7 @@ class _Line:
         self._lack = check.largest / carried if carried else 1.0
         self._near = list_near(self._target)[:2]
         coupled = self._target.use(check.largest)
-        self._used = max(coupled, self._target.use_least(self._target.row))
+        self._used = max(coupled, self._target.use_least())
         self._passes = self._used <= 1.0
         self._note: Message | None = None
 
@@ -236,20 +229,14 @@ class _Line:
         self, cases: Sequence[Case], value: float, lack: float = 1.0
     ) -> float | None:
         """Largest utilisation in some cases with a value; None without a result."""
-        wanted = [
-            (self._target.row, move_case(case, self._span.name, value), self._probe.law)
-            for case in cases
-        ]
-        moved = wanted[0][0].at(wanted[0][1])
-        found = [
-            self._target.utilisation(one, moved)
-            for one in self._probe.solve_all(wanted)
-        ]
+        move = Move(name=self._span.name, value=value)
+        results = self._target.solve(self._probe, cases, move)
+        found = [self._target.utilisation(one, move) for one in results]
         if any(one is None for one in found):
             self._note = say("hold.no_result", value=self._parameter.show(value))
             return None
         coupled = lack * max(one for one in found if one is not None)
-        return max(coupled, self._target.use_least(moved))
+        return max(coupled, self._target.use_least(move))
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]

@@ -33,7 +33,6 @@ from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, check_ends, find_effects
 from netdesign.study.flips import (
     CLOSE,
-    Target,
     find_density_change,
     find_friction_change,
     find_height_change,
@@ -54,6 +53,7 @@ from netdesign.study.records import (
 )
 from netdesign.study.sideways import MemberLoad, check_sideways
 from netdesign.study.stronger_types import find_type_change
+from netdesign.study.target import Target
 from netdesign.units import (
     kilonewton_from_newton,
     kilonewton_if_known,
@@ -197,9 +197,9 @@ def _find_holds(
     return find_holds(held, task.probe)
 
 
-def _find_floor(task: RowCheck, row: NetRow) -> Floor | None:
-    """Floor of a row that may be changed."""
-    return find_row_floor(row, task.site.ranges, task.standard)
+def _find_floor(task: RowCheck, ranges: Ranges) -> Floor | None:
+    """Floor of the row over ranges in which something was moved."""
+    return find_row_floor(task.row, ranges, task.standard)
 
 
 def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:
@@ -542,7 +542,7 @@ def _has_target(one: MemberCheck) -> bool:
 
 
 def _build_target(
-    task: RowCheck, one: MemberCheck, find: Callable[[NetRow], Floor | None]
+    task: RowCheck, one: MemberCheck, find: Callable[[Ranges], Floor | None]
 ) -> Target:
     """The check as a function of a solved case and of the row."""
     extreme, demand, use = one.extreme, one.demand, _find_use(one)
@@ -550,8 +550,8 @@ def _build_target(
         raise ValueError("a check without a demand has no target")
     member, load = one.given.member, demand.load
 
-    def use_floor(row: NetRow) -> float:
-        floor = find(row)
+    def use_floor(ranges: Ranges) -> float:
+        floor = find(ranges)
         least = floor.find(member) if floor else None
         if floor is not None and least is None:
             return math.inf
