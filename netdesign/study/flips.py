@@ -18,12 +18,11 @@ from netdesign.snow.snowpack import compute_thickness
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
-from netdesign.study.target import Move, Target, list_near
+from netdesign.study.target import TRIED_DENSITIES, Move, Target, list_near
 from netdesign.units import degree_from_radian, radian_from_degree
 from netdesign.words.message import Message, say
 
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
-_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
@@ -74,7 +73,7 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
         probe,
         "density",
         start=target.ranges["density"].high,
-        limits=_DENSITIES,
+        limits=TRIED_DENSITIES,
         step=_STEPS["density"],
         power=1.5,
     )

@@ -15,6 +15,7 @@ from netdesign.site.model import NetRow
 from netdesign.structure.members import Member
 from netdesign.study.probe import Probe
 
+TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 _RIVAL = 0.9  # share of the governing force from which a case may take over
 _BESIDE = 0.13  # of every range: an eighth, and its rounding
 
@@ -43,8 +44,6 @@ class Target:
         Utilisation by what is added to the largest force [-], and what that grows by
         for each such force more. Another force brings it: it is taken to stay where
         the member's falls, and to grow as the member's does.
-    largest : float
-        Largest force of the member over the solved cases [N].
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
@@ -67,7 +66,15 @@ class Target:
     widen: Callable[[NetRow], float] = lambda _: 1.0
     added: float = 0.0
     rise: float = 0.0
-    largest: float = 0.0
+
+    @property
+    def largest(self) -> float:
+        """Largest force of the member over the solved cases [N]."""
+        return max(self.force(one) for one in self.results if one.is_converged)
+
+    def force(self, result: CaseResult) -> float:
+        """Upper end of the member's force in a case [N]."""
+        return result.member_forces[self.member].high
 
     @property
     def is_slack(self) -> bool:
@@ -88,7 +95,7 @@ class Target:
         """
         if not result.is_converged:
             return None
-        used = self.use(result.member_forces[self.member].high)
+        used = self.use(self.force(result))
         return used * self._compare_width(move)
 
     def use_least(self, move: Move | None = None) -> float:
@@ -100,8 +107,10 @@ class Target:
 
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""
-        growth = max(0.0, force / self.largest - 1.0) if self.largest else 0.0
-        return self.scale * force + self.added + self.rise * growth
+        added = self.added
+        if self.rise and self.largest:
+            added += self.rise * max(0.0, force / self.largest - 1.0)
+        return self.scale * force + added
 
     def _compare_width(self, move: Move | None) -> float:
         """Width that loads the support of the moved row over that of the row as is."""
@@ -117,7 +126,7 @@ class Target:
 def list_near(target: Target) -> list[Case]:
     """Cases whose force is near the largest, that first; of a search some of them."""
     forces = {
-        result.case: result.member_forces[target.member].high
+        result.case: target.force(result)
         for result in target.results
         if result.is_converged
     }

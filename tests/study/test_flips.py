@@ -299,8 +299,9 @@ def test_floor_that_no_height_meets_leaves_no_bound():
 
 def test_what_is_added_stays_below_the_largest_force_and_grows_beyond_it():
     """As the post's: A = w (k P / tan beta - T), of which only the first part grows."""
-    largest, scale, first, held = 173.0, 0.0041, 0.37, 0.15
-    target = replace(a_target(scale), largest=largest, added=first - held, rise=first)
+    scale, first, held = 0.0041, 0.37, 0.15
+    target = replace(a_target(scale), added=first - held, rise=first)
+    largest = target.largest
     for share in (0.0, 0.31, 1.0):
         expected = scale * share * largest + first - held
         assert target.use(share * largest) == pytest.approx(expected, rel=1e-12)

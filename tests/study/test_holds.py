@@ -13,7 +13,7 @@ from netdesign.outcome import Outcome
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.holds import HeldCheck, find_holds, list_spans
+from netdesign.study.holds import find_holds, list_spans
 from netdesign.study.target import Target
 from tests.small_site import build_row
 
@@ -108,7 +108,7 @@ def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
 
 
 def hold_of(target, quantity, probe=None, widen=alone):
-    held = HeldCheck(target=replace(target, widen=widen))
+    held = replace(target, widen=widen)
     found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
     return next(one for one in found if one.quantity == quantity)
 
@@ -215,7 +215,7 @@ def test_members_share_solves():
     probe, targets = MadeUpProbe(), {}
     for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
         target = a_target(used, ("foot_anchor", "post")[k % 2])
-        targets[str(k)] = HeldCheck(target=target)
+        targets[str(k)] = target
     find_holds(targets, probe)
     assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
 
