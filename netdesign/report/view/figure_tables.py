@@ -211,7 +211,7 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
 def build_widths(row: RowStudy, words: Words) -> Table:
     """Loaded width of each support, with what it follows from."""
     found = {
-        check.position: check.action for check in row.checks if check.action is not None
+        check.action.position: check.action for check in row.checks if check.action
     }
     return Table(
         caption=words("caption.widths"),
@@ -250,7 +250,7 @@ def _list_actions(row: RowStudy) -> list[tuple[CheckRecord, ActionRecord]]:
     found: dict[tuple[str, str, bool], tuple[CheckRecord, ActionRecord]] = {}
     for check in row.checks:
         if check.action is not None:
-            key = (check.position, check.member, check.mode == "sliding")
+            key = (check.action.position, check.member, check.mode == "sliding")
             found.setdefault(key, (check, check.action))
     return list(found.values())
 
@@ -265,7 +265,7 @@ def _list_action(
         )
     return (
         text_cell(member),
-        text_cell(words(f"position.{check.position}")),
+        text_cell(words(f"position.{action.position}")),
         *(_short(getattr(action, key)) for key, _ in _ACTIONS),
         _short(compute_coupled(action)),
         _short(action.coupled_kN),
@@ -517,6 +517,26 @@ FORMULAS = (
     ("height", "D_K ≥ max(1; r_h) d"),
     ("spacing", "L ≤ f_L D_K / cos ψ, f_L = 2 tan ψ / (tan ψ − tan φ)"),
 )
+
+
+_HOLDING = (
+    *("statics", "floor_statics", "held_sideways", "actions", "check_figures"),
+    "turns",
+)
+
+
+def build_holding(words: Words) -> Table:
+    """Contents of the tables of a row, once for all rows."""
+    return Table(
+        caption=words("caption.figure_tables"),
+        columns=tuple(
+            text_column(words(f"heading.{key}")) for key in ("table", "table_holds")
+        ),
+        rows=tuple(
+            (text_cell(words(f"caption.{key}")), text_cell(words(f"holding.{key}")))
+            for key in _HOLDING
+        ),
+    )
 
 
 def build_formulas(words: Words) -> Table:

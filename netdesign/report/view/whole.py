@@ -131,6 +131,7 @@ class ReportView:
     profile: Table
     notes: tuple[str, ...]
     formulas: Table
+    figure_tables: Table  # what each of a row's tables of figures holds
     quality: Table
     outcomes: Table
     provenance: Table
@@ -183,6 +184,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
             *tables.list_below_one(study.profile, words),
         ),
         formulas=figure_tables.build_formulas(words),
+        figure_tables=figure_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),

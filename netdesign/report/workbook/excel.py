@@ -100,7 +100,7 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     _add_figures(book, view)
     _add_row_tables(book, study, view)
     formulas = book.words("heading.formulas")
-    book.add_table_sheet("formulas", formulas, [view.formulas])
+    book.add_table_sheet("formulas", formulas, [view.formulas, view.figure_tables])
     for name, title, parts in (
         ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
         ("assumptions", "heading.assumptions", [view.assumptions]),
