@@ -111,7 +111,7 @@ def _line_up(table):
 def _keep(head, cell):
     text_heads = ("No.", "Type", "Cell", "Rk=", "Mode", "Basis", "Verdict", "Case")
     value = read_number(cell)
-    return cell if head in text_heads or value is None and cell != "-" else value
+    return cell if head in text_heads or (value is None and cell != "-") else value
 
 
 def _turn(table):
@@ -156,7 +156,11 @@ class Again:
 
 
 def work_out_page(page):
-    printed, again = read_page(page), Again()
+    return work_out(read_page(page))
+
+
+def work_out(printed):
+    again = Again()
     for name, row in printed.rows.items():
         RowAgain(name, row, printed, again).work_out()
     return again
@@ -590,7 +594,7 @@ class RowAgain:
         sheared = (2 / math.pi if inner else 0.75) * area * strength / math.sqrt(3)
         users = [c["Check"].split(",")[0] for c in self.row.checks
                  if c["No."] == given["No."]]  # fmt: skip
-        (largest,) = {one["δ'"] for one in self.row.turns if one["Anchor"] in users}
+        largest = max(t["δ'"] for t in self.row.turns if t["Anchor"] in users)
         largest = math.radians(largest)
         weakest = min(math.atan(lever * axial / moment), largest)
 
