@@ -46,7 +46,7 @@ from netdesign.study.pulls import (
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import (
+from netdesign.study.settle import (
     judge_forces,
     list_checked,
     place_check,
@@ -342,7 +342,6 @@ def _judge_again(
         low, middle, high = map(newton_from_kilonewton, sizes)
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
-    gap = None if is_whole else _UNKNOWN_GAP
     gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
