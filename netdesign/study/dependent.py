@@ -180,7 +180,7 @@ class SnowPressure:
     density: float
     gravity: float
     height_vertical: float
-    load: SnowLoad
+    load: SnowLoad[float]
 
 
 def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
@@ -200,9 +200,7 @@ def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
 
 def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> SnowPressure:
     height = row.held_thickness / math.cos(row.slope_angle)
-    on_density = (
-        1.0 if row.altitude is None else compute_altitude_factor(model, row.altitude)
-    )
+    on_density = compute_altitude_factor(model, row.altitude)
     cases = (
         (densest, height),
         (on_density * model.density, height),

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Literal
 
 from netdesign.checks import Standard
-from netdesign.envelope.ranges import USUAL, Case, Interval, Ranges
+from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.guideline.comparison import NetGeometry
-from netdesign.guideline.floor import Floor, FloorForce, LoadedNet, find_floor
+from netdesign.guideline.floor import Floor, FloorForce, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
-from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.effects import find_glide_factors, load_guideline
 from netdesign.study.records import FloorForceRecord, FloorRecord
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
@@ -22,19 +23,29 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
     """
     if standard.floor == "none":
         return None
-    span: Interval = ranges["inclination"]
+    low, high = (_place_at(row, ranges, end) for end in ("low", "high"))
+    span = ranges["inclination"]
     return find_floor(
         read_load_model(load_guideline()),
-        [
-            LoadedNet(
-                net=build_geometry(one, span.low),
-                glide_factor=find_row_glide_factor(one),
-            )
-            for one in list_corners(row, ranges)
-        ],
-        inclinations=(span.low, span.high),
-        altitude=row.altitude,
+        NetRanges(
+            net=build_geometry(row, span.low),
+            inclinations=(span.low, span.high),
+            thicknesses=(low.snow_thickness, high.snow_thickness),
+            stiffnesses=(low.net_stiffness_per_m, high.net_stiffness_per_m),
+            slacks=(low.slack, high.slack),
+            find_glide_factors=lambda thickness: (
+                find_glide_factors(low, thickness),
+                find_glide_factors(high, thickness),
+            ),
+        ),
+        row.altitude,
     )
+
+
+def _place_at(row: NetRow, ranges: Ranges, end: Literal["low", "high"]) -> NetRow:
+    """Row at one end of all ranges; the load rises with each, or falls."""
+    values = {name: getattr(span, end) for name, span in ranges.intervals}
+    return row.at(Case.of(values))
 
 
 def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
@@ -50,7 +61,7 @@ def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
     ]
 
 
-def build_geometry(row: NetRow, inclination: float) -> NetGeometry:
+def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
     """Net row as the guideline needs it, at an inclination [rad]."""
     return NetGeometry(
         slope_angle=row.slope_angle,

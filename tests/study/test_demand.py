@@ -8,10 +8,11 @@ import pytest
 
 from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
-from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.study.audit import audit_study
 from netdesign.study.cases import solve_site
@@ -47,6 +48,7 @@ LIGHT = {
     "net_stiffness_per_m": 2e7,
     "slack": 0.08,
     "gap": 1.0,
+    "altitude": 1450.0,
 }
 ROW = build_row("R1", **LIGHT)
 
@@ -287,6 +289,65 @@ def test_altitude_of_the_row_counts_in_its_floor():
     low = a_floor().find(Member.UPHILL_GUY)
     assert high.case.density == pytest.approx(270.0 * (1.0 + 0.02 * 9.7))
     assert high.force > 1.1 * low.force
+    unknown = a_floor(replace(ROW, altitude=None))
+    assert unknown == a_floor(replace(ROW, altitude=3000.0))
+    assert unknown.find(Member.UPHILL_GUY).case.density == pytest.approx(351.0)
+
+
+@pytest.mark.parametrize(
+    "ground", [GroundLaw(kind="no-slip"), GroundLaw(kind="sliding", slip_length=0.01)]
+)
+def test_rough_ground_has_the_least_factor_of_the_guideline(ground):
+    """As if the least of its tables had been typed, and if less is typed."""
+    rough = a_floor(replace(ROW, ground=ground))
+    for glide in (1.0, 1.1, 1.2):
+        assert a_floor(replace(ROW, glide_factor=glide)) == rough
+    assert {one.load.glide_factor for one in rough.forces} == {1.2}
+
+
+def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
+    further = {
+        "snow_height": Interval(low=2.1 * math.sqrt(2.0), high=4.0 * math.sqrt(2.0)),
+        "slack": Interval(low=0.03, high=0.08),
+        "net_stiffness": Interval(low=9e6, high=2e7),
+        "slip_length": Interval(low=0.3, high=5.1),
+        "upslope_length": Interval(low=4.0, high=9.0),
+    }
+    draw, inside = random.Random(6), 0
+    row = replace(ROW, glide_factor=None)
+    wide = find_row_floor(row, widen_ranges(further), SWISS)
+    for _ in range(40):
+        point = {name: draw.uniform(one.low, one.high) for name, one in further.items()}
+        single = {k: Interval(low=v, high=v) for k, v in point.items()}
+        lean = draw.uniform(RANGES["inclination"].low, RANGES["inclination"].high)
+        single["inclination"] = Interval(low=lean, high=lean)
+        one = find_row_floor(row, widen_ranges(single), SWISS)
+        for force in one.forces:
+            at = force.at
+            assert at.net.inclination == lean
+            assert (at.net.slack, at.net.stiffness) == (
+                point["slack"],
+                point["net_stiffness"],
+            )
+            thickness = point["snow_height"] * math.cos(ROW.slope_angle)
+            assert at.net.snow_thickness == pytest.approx(thickness, rel=1e-12)
+            slip = GroundLaw(kind="sliding", slip_length=point["slip_length"])
+            glide = find_glide_factor(slip, at.net.snow_thickness, (1.2, 3.2))
+            assert at.glide_factor == pytest.approx(glide, rel=1e-12)
+            assert force.force <= wide.find(force.member).force * (1.0 + 1e-6)
+            inside += force.force > 0.0
+    assert inside > 150
+    typed = find_row_floor(
+        ROW,
+        widen_ranges({"glide_factor": Interval(low=1.1, high=2.9)}),
+        SWISS,
+    )
+    assert max(one.at.glide_factor for one in typed.forces) == 2.9
+    assert min(one.at.glide_factor for one in typed.forces) >= 1.2
+
+
+def widen_ranges(further):
+    return Ranges(intervals=tuple((dict(RANGES.intervals) | further).items()))
 
 
 def list_changes(check):
