@@ -9,10 +9,15 @@ from netdesign.checks import CheckResult, Standard, load_standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.guideline.comparison import find_glide_factor
-from netdesign.guideline.load_model import read_end_effect
+from netdesign.guideline.load_model import (
+    compute_altitude_factor,
+    read_end_effect,
+    read_load_model,
+)
 from netdesign.numerics.arrays import Number
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
@@ -88,6 +93,26 @@ def find_glide_factors(row: NetRow, snow_thickness: Number) -> Number:
     if row.glide_factor is not None:
         return 0.0 * snow_thickness + max(row.glide_factor, limits[0])
     return find_glide_factor(row.ground, snow_thickness, limits)
+
+
+def find_altitude_factor(row: NetRow) -> float:
+    """Factor on the density of load case 1 at a row [-]; the largest if not known."""
+    return compute_altitude_factor(read_load_model(load_guideline()), row.altitude)
+
+
+def list_assumed(row: NetRow) -> list[Message]:
+    """What the guideline's load takes for granted about a row."""
+    found = []
+    if row.altitude is None:
+        found.append(say("row.altitude_assumed", factor=find_altitude_factor(row)))
+    glide = row.glide_factor
+    if glide is None:
+        anything = (1.0, LARGEST_GLIDE_FACTOR)
+        glide = find_glide_factor(row.ground, row.snow_thickness, anything)
+    least = load_glide_limits()[0]
+    if glide < least:
+        found.append(say("row.glide_assumed", glide=glide, least=least))
+    return found
 
 
 @lru_cache(maxsize=1)

@@ -11,7 +11,12 @@ from netdesign.guideline.comparison import NetGeometry
 from netdesign.guideline.floor import Floor, FloorForce, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
-from netdesign.study.effects import find_glide_factors, load_guideline
+from netdesign.study.effects import (
+    find_altitude_factor,
+    find_glide_factors,
+    list_assumed,
+    load_guideline,
+)
 from netdesign.study.records import FloorForceRecord, FloorRecord
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
@@ -74,8 +79,8 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
     )
 
 
-def record_floor(floor: Floor | None) -> FloorRecord | None:
-    """Floor in engineer's units, each force with the load that it follows from."""
+def record_floor(floor: Floor | None, row: NetRow) -> FloorRecord | None:
+    """Floor of a row in engineer's units, each force with what it follows from."""
     if floor is None:
         return None
     standard = load_guideline()
@@ -83,6 +88,8 @@ def record_floor(floor: Floor | None) -> FloorRecord | None:
         profile=standard.id,
         sha256=standard.sha256,
         forces=[_record_force(one) for one in floor.forces],
+        altitude_factor=find_altitude_factor(row),
+        assumed=list_assumed(row),
         reason=floor.reason,
     )
 
@@ -94,6 +101,9 @@ def _record_force(one: FloorForce) -> FloorForceRecord:
         force_kN=kilonewton_from_newton(one.force),
         load_case=one.case.name,
         inclination_deg=given_degree_from_radian(one.at.net.inclination),
+        snow_thickness_m=one.at.net.snow_thickness,
+        slack=one.at.net.slack,
+        stiffness_kN_per_m=kilonewton_from_newton(one.at.net.stiffness),
         density_kg_m3=one.case.density,
         height_vertical_m=one.case.height_vertical,
         creep_factor=one.load.creep_factor,

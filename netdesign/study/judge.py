@@ -148,7 +148,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        floor=record_floor(floor),
+        floor=record_floor(floor, row),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_test_notes(checks, task.standard),

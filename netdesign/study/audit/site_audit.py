@@ -200,7 +200,7 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
-    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+    for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
