@@ -18,7 +18,7 @@ from netdesign.site.columns.fields import normalise
 from netdesign.site.model import InputEcho
 from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
-from netdesign.words.message import Argument, Message
+from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 
 MISSING = "-"
@@ -146,11 +146,17 @@ def show_quantity(value: float | str, unit: str) -> str:
 
 def understand(echo: InputEcho, words: Words) -> float | str:
     """An input as understood; a word of its column in the reader's language."""
+    choice = find_choice(echo)
+    return words.show(choice) if choice else echo.value
+
+
+def find_choice(echo: InputEcho) -> Message | None:
+    """Word of a column that an input was understood as; None where it is none."""
     if isinstance(echo.value, float) or not isinstance(echo.label, Message):
-        return echo.value
+        return None
     column = echo.label.key.rpartition(".")[2]
     key = f"choice.{column}.{normalise(echo.value)}"
-    return words(key) if key in load_texts(words.language) else echo.value
+    return say(key) if key in load_texts("en") else None
 
 
 def show_share(value: float | None) -> str:

@@ -50,6 +50,13 @@ DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
 )
 
 
+# What a row takes of a case, beside the usual three; glide if its ground slides.
+_GLIDE = frozenset(("slip_length", "glide_factor"))
+_OF_ROW = _GLIDE | {
+    *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
+}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnchorType:
     """What an anchor is, beside its resistances along its axis.
@@ -195,10 +202,20 @@ class NetRow:
         return scale_layers(self.layers, self.held_thickness, density)
 
     def at(self, case: Case) -> NetRow:
-        """Row with what the case has of its own; itself where that is nothing."""
+        """Row with what the case has of its own; itself where that is nothing.
+
+        Raises
+        ------
+        ValueError
+            If a quantity of the case has no place in a row: a fault of the program.
+        """
         values = dict(case.others)
         if not values:
             return self
+        can_glide = self.ground.kind == "sliding" or self.glide_factor is not None
+        unknown = values.keys() - (_OF_ROW if can_glide else _OF_ROW - _GLIDE)
+        if unknown:
+            raise ValueError(f"a net row does not take {sorted(unknown)} of a case")
         if "snow_height" in values:
             height = values["snow_height"]
             values["thickness"] = compute_thickness(height, self.slope_angle)

@@ -20,7 +20,7 @@ FAMILIES: tuple[str, ...] = (
     *("os_error.", "shape."),
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
-    *("evidence.", "law.", "termination.", "verdict.", "meaning."),
+    *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     "floor.profile_",
     *("formula.", "brings.", "holding.", "position."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from netdesign.outcome import Verdict
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -27,6 +28,7 @@ from netdesign.report.words import (
     show_text,
     show_with_unit,
 )
+from netdesign.study.flips import CLOSE
 from netdesign.study.records import (
     ActionRecord,
     AnchorRecord,
@@ -269,8 +271,18 @@ def build_changes(row: RowStudy, words: Words) -> Table:
             for check in row.checks
             for change in check.changes
         ),
-        empty=words("heading.no_change_needed"),
+        empty=words(
+            "heading.no_change_needed"
+            if all(map(is_far_from_limit, row.checks))
+            else "heading.no_change_alone"
+        ),
     )
+
+
+def is_far_from_limit(check: CheckRecord) -> bool:
+    """True of a check that passes, and is told no change that would turn it."""
+    _, used = check.utilisation_band
+    return check.verdict is Verdict.PASS and (used is None or used < CLOSE)
 
 
 def list_flips(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
