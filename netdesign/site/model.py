@@ -10,6 +10,7 @@ from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
@@ -97,6 +98,32 @@ class Resistance:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class BorderRope:
+    """What a border rope bears.
+
+    Attributes
+    ----------
+    type_id, source : str
+        Id of the rope type, and the cell of its breaking force, else of that id.
+    breaking : float or None
+        Minimum breaking force [N]; None where none is given.
+    """
+
+    type_id: str
+    breaking: float | None
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowPanel:
+    """The panel between two posts of a row, and what its two ropes bear."""
+
+    panel: Panel
+    lower: BorderRope
+    upper: BorderRope
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class InputEcho:
     """One input as typed and as understood; for the report."""
 
@@ -136,6 +163,8 @@ class NetRow:
     # of the first and last support; None: those of all others
     end_resistances: tuple[Resistance, ...] | None = None
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
+    panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
+    panel_lack: Message | None = None  # why there is none; None also without ropes
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

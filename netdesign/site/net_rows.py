@@ -24,6 +24,7 @@ from netdesign.site.model import (
     NetRow,
     Resistance,
 )
+from netdesign.site.panel_inputs import check_panel, list_ropes, read_panel
 from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
@@ -140,11 +141,17 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
 def _list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
     """Cells that name an id of a type sheet."""
     return [
-        row[member]
+        reading
         for row in rows
-        for member in _MEMBERS
-        if row[member].word and row[member].field.refers_to == sheet
+        for reading in _list_named(row)
+        if reading.field.refers_to == sheet
     ]
+
+
+def _list_named(row: Row) -> list[Reading]:
+    """Cells of a line that name a type; sheet Ends has no border ropes."""
+    ropes = list_ropes(row) if "panel_system" in row else []
+    return [*(row[member] for member in _MEMBERS if row[member].word), *ropes]
 
 
 def _refuse_missing_sheets(
@@ -201,6 +208,7 @@ def _build_net_row(
     named = [row, end] if end else [row]
     for one in named:
         _check_types(one, type_sheets, findings)
+    check_panel(row, findings)
     readings = [reading for one in named for reading in one.values()]
     is_faulty = any(reading.state == "faulty" for reading in readings) or any(
         _list_references(named, name)
@@ -212,6 +220,7 @@ def _build_net_row(
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
+    panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -241,6 +250,8 @@ def _build_net_row(
         guys=read_guys(row),
         axes=tuple(read_axes(row).items()),
         anchors=_find_anchors(row, type_sheets),
+        panel=panel,
+        panel_lack=panel_lack,
     )
 
 
@@ -340,11 +351,10 @@ def _build_sliding_ground(
 
 
 def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> None:
-    for member in _MEMBERS:
-        reading = row[member]
+    for reading in _list_named(row):
         sheet = reading.field.refers_to
         types = type_sheets[sheet]
-        if types is not None and reading.word and reading.word not in types:
+        if types is not None and reading.word not in types:
             title = say(f"sheet.{sheet}")
             accepted = say("nets.id_or_empty", sheet=title)
             places = {name: line["id"].place for name, line in types.items()}

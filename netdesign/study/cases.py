@@ -198,7 +198,14 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    bare = replace(
+        row,
+        inputs=(),
+        resistances=(),
+        end_resistances=None,
+        panel=None,
+        panel_lack=None,
+    )
     return _RowScenes(row=bare, law=law)
 
 
