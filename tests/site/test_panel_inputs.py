@@ -135,7 +135,8 @@ def test_bad_input_is_one_finding_with_its_cell(
 def test_a_stiffness_out_of_its_range_is_one_finding(with_panel, save, refused):
     with_panel["Ropes"][-2][2] = 3
     (finding,) = refused(save(with_panel))
-    assert (finding.sheet, finding.cell) == ("Ropes", f"C{len(with_panel['Ropes']) - 1}")
+    last = len(with_panel["Ropes"])
+    assert (finding.sheet, finding.cell) == ("Ropes", f"C{last - 1}")
 
 
 def test_ropes_beside_no_ropes_are_refused(with_panel, save, refused):
