@@ -46,7 +46,7 @@ from netdesign.study.pulls import (
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import (
+from netdesign.study.settle import (
     judge_forces,
     list_checked,
     place_check,
