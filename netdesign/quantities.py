@@ -85,6 +85,8 @@ _ROWS = (
     _row("end_length_m", "Δl", "m", 2),
     _row("lateral_factor", "k_q", "", 3),
     _row("coupled_kN", "E_c", "kN", 1),
+    _row("panel_kN", "E_p0", "kN", 1),
+    _row("panel_support_kN", "E_p", "kN", 1),
     _row("floor_kN", "E_g0", "kN", 1),
     _row("guideline_kN", "E_g", "kN", 1),
     _row("force_x_kN", "F_x", "kN", 1),

@@ -52,11 +52,14 @@ class PanelForces:
     bands : dict of str to Band
         Forces by ``PANEL_QUANTITIES`` [N]; the foot anchor's is that of the more
         loaded one, beside a post or in mid-panel.
+    head_error : float
+        Of the pull on a head [N].
     """
 
     solution: PanelSolution
     anchors: AnchorForces
     bands: dict[str, Band]
+    head_error: float
 
 
 def resolve_panel(
@@ -103,7 +106,10 @@ def resolve_panel(
     if mid_foot > bands[at_foot].value:
         bands[at_foot] = spread_out(mid_foot, panel.post_spacing * foot.error)
     return PanelForces(
-        solution=solved, anchors=anchors, bands=bands | _read_ropes(solved, foot, head)
+        solution=solved,
+        anchors=anchors,
+        bands=bands | _read_ropes(solved, foot, head),
+        head_error=panel.post_spacing * head.error,
     )
 
 

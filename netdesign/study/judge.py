@@ -15,7 +15,7 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
-from netdesign.structure.members import REPORTED_MEMBERS, Member
+from netdesign.structure.members import REPORTED_MEMBERS, Member, name_in_panel
 from netdesign.study.cases import CheckRun
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
@@ -34,6 +34,7 @@ from netdesign.study.record_cases import record_case, record_extreme
 from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
+from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
@@ -148,6 +149,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor),
+        panel=record_panel(row, extremes),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_test_notes(checks, task.standard),
@@ -168,7 +170,7 @@ def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, flo
     for check in checks:
         action = check.action
         if check.resistance_kN is not None and check.action_factor and action:
-            if _fails_by_floor(check):
+            if _fails_by_floor(check) or action.governs == "panel":
                 continue  # no coupled force turns it
             on_row = check.action_factor * action.lateral_factor
             on_row *= action.loaded_width_m / action.post_spacing_m
@@ -192,6 +194,8 @@ def _governing_result(
     rated = [c for c in checks if c.utilisation is not None and c.member in extremes]
     if rated:
         worst = max(rated, key=lambda check: check.utilisation or 0.0)
-        return extremes[worst.member].governing
+        is_by_panel = worst.action is not None and worst.action.is_by_panel
+        name = name_in_panel(worst.member) if is_by_panel else worst.member
+        return extremes[name].governing
     foot = extremes.get(Member.FOOT_ANCHOR)
     return foot.governing if foot else None

@@ -44,7 +44,8 @@ class RowCheck:
 class MemberCheck:
     """One member of one support in one mode, judged.
 
-    ``extreme`` and ``demand`` are None where no case was solved; ``gap`` says why the
+    ``extreme``, the larger of section and panel, and ``demand`` are None where no case
+    was solved; ``gap`` says why the
     demand is not known as a whole, ``doubt`` why the creep law may not hold for the
     governing snow; both are None if all is well.
     """

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
@@ -45,14 +46,30 @@ class RowLoads:
     pulls: tuple[AnchorPull, ...]
     tilt: float
 
-    def demand(self, given: Resistance, extreme: Extreme, width: LoadedWidth) -> Demand:
-        """Demand of a check on the support of that width."""
+    def demand(
+        self,
+        given: Resistance,
+        extreme: Extreme,
+        width: LoadedWidth,
+        panel: Extreme | None = None,
+    ) -> Demand:
+        """Demand of a check on the support of that width.
+
+        ``panel`` is the largest force by the panel between posts.
+        """
         load = self.sideways.load(given.member)
         if given.mode == "sliding":
             load = self._turn(load)
         least = self.floor.find(given.member) if self.floor else None
-        solved = extreme.widened
-        return build_demand(self.effects, given.member, width, solved, least, load)
+        return build_demand(
+            self.effects,
+            given.member,
+            width,
+            extreme.widened,
+            least,
+            load,
+            panel.widened if panel else None,
+        )
 
     def press(self, extreme: Extreme, width: LoadedWidth) -> float:
         """Characteristic force across the base plate, from one in the section [N]."""
@@ -78,6 +95,9 @@ class RowLoads:
 def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> ActionRecord:
     """Record with both forces on one anchor that carries net and uphill guy, (S7)."""
     anchors = governing.anchors
+    if record.is_by_panel:  # parts of that force, in its own case
+        panel = governing.panel
+        anchors = panel.anchors if isinstance(panel, PanelForces) else None
     both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
     if anchors is None or not anchors.is_foot_shared or member not in both:
         return record

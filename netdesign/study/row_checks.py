@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import Resistance
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
 from netdesign.study.changes import find_row_holds, list_changes
@@ -98,7 +98,11 @@ def _judge_member(
 ) -> MemberCheck:
     extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
-        demand = loads.demand(given, extreme, width)
+        panel = extremes.get(name_in_panel(given.member))
+        demand = loads.demand(given, extreme, width, panel)
+        brings = [one for one in (extreme, panel) if one is not None]
+        if panel is not None and demand.largest is not demand.solved:
+            extreme = panel
         known = Circumstances(
             row=task.row,
             ranges=task.site.ranges,
@@ -107,7 +111,6 @@ def _judge_member(
             pressing=loads.press(extreme, width),
         )
         given = settle_resistance(given, known)
-        brings = [extreme]
         if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
             brings.append(extremes[Member.POST])
         doubts = (_find_doubt(task, one) for one in brings)

@@ -65,10 +65,10 @@ def _find_scale(one: MemberCheck) -> float | None:
     use, demand = one.use, one.demand
     if demand is None or use is None:
         return None
-    solved = demand.solved.high
-    if solved == 0.0:
+    largest = demand.largest
+    if largest.high == 0.0:
         return use * demand.load.share
-    return use * demand.load.apply(demand.solved).high / solved
+    return use * demand.load.apply(largest).high / largest.high
 
 
 def _note_floor(one: MemberCheck) -> Message | None:

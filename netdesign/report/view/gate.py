@@ -99,8 +99,7 @@ def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
         return
     ends = [force, *_divide_demands(check)]
     is_above = all(end >= least * (1.0 - _TOLERANCE) for end in ends)
-    governs = "guideline" if least and least >= action.coupled_kN else "coupled"
-    if not is_above or action.governs != governs:
+    if not is_above or action.governs != action.governing:
         raise NetDesignError(say("audit.below_floor", place=place, least=least))
 
 

@@ -367,12 +367,24 @@ def _act_again(
     high = (high - load.added.high) / load.share if load.share else value
     solved = Band(low=0.0, value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
-    demand = build_demand(effects, check.member, width, solved, least, load)
+    panel = _read_panel(stored, effects.factor(check.member, width), load)
+    demand = build_demand(effects, check.member, width, solved, least, load, panel)
     return replace(
         demand.record(effects, check.member),
         foot_part_kN=stored.foot_part_kN,
         guy_part_kN=stored.guy_part_kN,
     )
+
+
+def _read_panel(stored: ActionRecord, factor: float, load: MemberLoad) -> Band | None:
+    """Force by the panel between posts, inside the row [N]."""
+    if stored.panel_kN is None:
+        return None
+    value = newton_from_kilonewton(stored.panel_kN)
+    high = newton_from_kilonewton(stored.panel_support_kN or 0.0) / factor
+    high = (high - load.added.high) / load.share if load.share else value
+    low = newton_from_kilonewton(stored.panel_low_kN or 0.0)
+    return Band(low=min(low, value), value=value, high=max(value, high))
 
 
 def _read_load(stored: ActionRecord) -> MemberLoad:

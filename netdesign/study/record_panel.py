@@ -1,0 +1,59 @@
+"""The panel between posts as a record: inputs, largest forces, what its ropes bear."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES
+from netdesign.panel.inputs import Rope
+from netdesign.site.model import BorderRope, NetRow
+from netdesign.structure.members import RopeForce
+from netdesign.study.record_cases import record_extreme
+from netdesign.study.records import PanelRecord, RopeRecord
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
+
+
+def record_panel(row: NetRow, extremes: Mapping[str, Extreme]) -> PanelRecord | None:
+    """Panel of a row with its largest forces over the cases that have some.
+
+    None of a row without a panel.
+    """
+    if row.panel is None:
+        return None
+    panel = row.panel.panel
+    found = {name: extremes[name] for name in PANEL_QUANTITIES if name in extremes}
+    lower = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
+    upper = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
+    return PanelRecord(
+        cut=panel.cut,
+        has_mid_anchors=panel.has_mid_anchors,
+        ropes=[
+            _record_rope("lower", panel.lower, row.panel.lower, found, lower),
+            _record_rope("upper", panel.upper, row.panel.upper, found, upper),
+        ],
+        extremes=[record_extreme(one) for one in found.values()],
+    )
+
+
+def _record_rope(
+    name: str,
+    rope: Rope,
+    bears: BorderRope,
+    extremes: Mapping[str, Extreme],
+    forces: tuple[str, str],
+) -> RopeRecord:
+    along, tension = (
+        kilonewton_from_newton(extremes[one].widened.high) if one in extremes else None
+        for one in forces
+    )
+    return RopeRecord(
+        rope=name,
+        type=bears.type_id,
+        stiffness_kN=kilonewton_from_newton(rope.stiffness),
+        sag=rope.sag,
+        along_kN=along,
+        tension_kN=tension,
+        breaking_kN=kilonewton_if_known(bears.breaking),
+        cell=bears.source,
+    )
