@@ -23,7 +23,7 @@ from netdesign.snow.snowpack import (
     scale_layers,
 )
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message
@@ -48,6 +48,16 @@ NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
 DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
     (Member.POST, "compression_bending"),
     (Member.POST_BASE, "sliding"),
+)
+
+
+# Of the ends of a row of panels.
+END_MODES: tuple[tuple[EndMember, str], ...] = (
+    (EndMember.LATERAL_ANCHOR, "tendon"),
+    (EndMember.LATERAL_ANCHOR, "pull_out"),
+    (EndMember.END_GUY, "rope"),
+    (EndMember.END_GUY_ANCHOR, "tendon"),
+    (EndMember.END_GUY_ANCHOR, "pull_out"),
 )
 
 
@@ -85,7 +95,7 @@ class Resistance:
     demand, from ``dimensions``; ``source`` is its cell.
     """
 
-    member: Member
+    member: Member | EndMember
     mode: str
     value: float | None
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
@@ -121,6 +131,22 @@ class RowPanel:
     panel: Panel
     lower: BorderRope
     upper: BorderRope
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEnd:
+    """What holds a row of panels along the row, at its first and last support.
+
+    Attributes
+    ----------
+    guy_angle : float or None
+        Between the end guy and the row [rad]; None where none is given.
+    resistances : tuple of Resistance
+        Of all ``END_MODES``, given or not.
+    """
+
+    guy_angle: float | None
+    resistances: tuple[Resistance, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,6 +190,7 @@ class NetRow:
     end_resistances: tuple[Resistance, ...] | None = None
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
     panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
+    row_end: RowEnd | None = None  # of a row with panel and end
     panel_lack: Message | None = None  # why there is none; None also without ropes
 
     def __post_init__(self) -> None:

@@ -13,16 +13,19 @@ from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
 from netdesign.site.end_supports import (
     EndsByRow,
     echo_ends,
+    list_end_types,
     refuse_unknown_ends,
     replace_types,
 )
 from netdesign.site.model import (
+    END_MODES,
     MEMBER_MODES,
     NAMED_BY,
     AnchorType,
     InputEcho,
     NetRow,
     Resistance,
+    RowEnd,
 )
 from netdesign.site.panel_inputs import check_panel, list_ropes, read_panel
 from netdesign.site.ranged_columns import Ends, fill_in_ranges
@@ -55,7 +58,7 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
 
 Types = Mapping[str, Row]  # the lines of one type sheet, by id
@@ -149,9 +152,9 @@ def _list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
 
 
 def _list_named(row: Row) -> list[Reading]:
-    """Cells of a line that name a type; sheet Ends has no border ropes."""
-    ropes = list_ropes(row) if "panel_system" in row else []
-    return [*(row[member] for member in _MEMBERS if row[member].word), *ropes]
+    """Cells of a line of sheet Nets or Ends that name a type."""
+    further = list_ropes(row) if "panel_system" in row else list_end_types(row)
+    return [*(row[member] for member in _MEMBERS if row[member].word), *further]
 
 
 def _refuse_missing_sheets(
@@ -220,6 +223,7 @@ def _build_net_row(
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
+    has_end = row["gap"].state != "given" or row["gap"].si > 0.0
     panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
     return NetRow(
         id=row["id"].word,
@@ -251,6 +255,7 @@ def _build_net_row(
         axes=tuple(read_axes(row).items()),
         anchors=_find_anchors(row, type_sheets),
         panel=panel,
+        row_end=_build_row_end(end, type_sheets) if panel and has_end else None,
         panel_lack=panel_lack,
     )
 
@@ -373,6 +378,20 @@ def _build_layout(row: Row) -> SupportLayout:
     )
 
 
+def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
+    """What holds a row along the row; of all members, given or not."""
+    angle = end["end_guy_angle"] if end else None
+    return RowEnd(
+        guy_angle=angle.si if angle and angle.state == "given" else None,
+        resistances=tuple(
+            _find_resistance(end[member], mode, member, type_sheets)
+            if end
+            else _lack_resistance(member, mode, "Ends")
+            for member, mode in END_MODES
+        ),
+    )
+
+
 def _find_anchors(
     row: Row, type_sheets: TypeSheets
 ) -> tuple[tuple[Member, AnchorType], ...]:
@@ -392,18 +411,11 @@ def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ..
 
 
 def _find_resistance(
-    reading: Reading, mode: str, member: Member, type_sheets: TypeSheets
+    reading: Reading, mode: str, member: Member | EndMember, type_sheets: TypeSheets
 ) -> Resistance:
     """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:
-        return Resistance(
-            member=member,
-            mode=mode,
-            value=None,
-            basis="",
-            type_id="",
-            source=reading.place or "Nets",
-        )
+        return _lack_resistance(member, mode, reading.place or "Nets")
     kind = (type_sheets[reading.field.refers_to] or {})[reading.word]
     resistance = kind[mode]
     tests = find_tests(kind) if mode == "pull_out" else None
@@ -423,6 +435,13 @@ def _find_resistance(
         source=place or reading.field.refers_to,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
+    )
+
+
+def _lack_resistance(member: Member | EndMember, mode: str, source: str) -> Resistance:
+    """Resistance of a member whose type is not named."""
+    return Resistance(
+        member=member, mode=mode, value=None, basis="", type_id="", source=source
     )
 
 

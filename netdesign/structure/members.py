@@ -24,6 +24,14 @@ class Member(StrEnum):
 CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
 
 
+class EndMember(StrEnum):
+    """What holds the ropes' pull along the row, at its first and last support."""
+
+    LATERAL_ANCHOR = "lateral_anchor"
+    END_GUY = "end_guy"
+    END_GUY_ANCHOR = "end_guy_anchor"
+
+
 class RopeForce(StrEnum):
     """A force of a border rope: along the row, or its tension at a support."""
 
@@ -31,6 +39,16 @@ class RopeForce(StrEnum):
     UPPER_ALONG = "panel_upper_along"
     LOWER_TENSION = "panel_lower_tension"
     UPPER_TENSION = "panel_upper_tension"
+
+
+# What pulls on each of those at the row's end.
+ROPE_OF: Mapping[str, RopeForce] = MappingProxyType(
+    {
+        EndMember.LATERAL_ANCHOR: RopeForce.LOWER_ALONG,
+        EndMember.END_GUY: RopeForce.UPPER_ALONG,
+        EndMember.END_GUY_ANCHOR: RopeForce.UPPER_ALONG,
+    }
+)
 
 
 def name_in_panel(member: str) -> str:

@@ -205,6 +205,7 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         resistances=(),
         end_resistances=None,
         panel=None,
+        row_end=None,
         panel_lack=None,
     )
     return _RowScenes(row=bare, law=law)

@@ -108,6 +108,8 @@ def _has_target(one: MemberCheck) -> bool:
     demand = one.demand
     if demand is None or one.given.dimensions or one.use is None:
         return False
+    if demand.along.high > 0.0:  # by another force, of the ropes
+        return False
     return demand.largest.high > 0.0 or demand.load.added.high == 0.0
 
 

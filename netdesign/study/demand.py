@@ -23,6 +23,7 @@ from netdesign.units import (
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
+NOTHING = Band(low=0.0, value=0.0, high=0.0)
 Governing = Literal["coupled", "panel", "guideline"]
 
 
@@ -44,6 +45,8 @@ class Demand:
         How the member's force follows from that of the section.
     panel : Band or None
         As ``solved``, by the panel between posts; None of a row without one.
+    along : Band
+        What the ropes' pull along the row adds to ``panel`` at its end [N].
     """
 
     solved: Band
@@ -52,6 +55,7 @@ class Demand:
     on_support: float
     load: MemberLoad
     panel: Band | None = None
+    along: Band = NOTHING
 
     @property
     def coupled(self) -> Band:
@@ -63,7 +67,12 @@ class Demand:
         """Force on the support by the panel between posts [N]."""
         if self.panel is None:
             return None
-        return self.load.apply(self.panel).times(self.on_support)
+        force = self.load.apply(self.panel).times(self.on_support)
+        return Band(
+            low=force.low + self.along.low,
+            value=force.value + self.along.value,
+            high=force.high + self.along.high,
+        )
 
     @property
     def largest(self) -> Band:
@@ -129,6 +138,9 @@ class Demand:
             panel_kN=kilonewton_if_known(panel.value if panel else None),
             panel_low_kN=kilonewton_if_known(panel.low if panel else None),
             panel_support_kN=kilonewton_if_known(by_panel.high if by_panel else None),
+            along_kN=kilonewton_from_newton(self.along.value),
+            along_low_kN=kilonewton_from_newton(self.along.low),
+            along_high_kN=kilonewton_from_newton(self.along.high),
         )
 
 
@@ -140,10 +152,12 @@ def build_demand(
     floor: FloorForce | None,
     load: MemberLoad,
     panel: Band | None = None,
+    along: Band = NOTHING,
 ) -> Demand:
     """Demand on a member of the support of that width.
 
-    ``solved`` is inside the row, as is ``panel``, by the panel between posts.
+    ``solved`` is inside the row, as is ``panel``, by the panel between posts;
+    ``along`` is of the row's end.
     """
     return Demand(
         solved=solved,
@@ -152,6 +166,7 @@ def build_demand(
         on_support=effects.factor(member, width),
         load=load,
         panel=panel,
+        along=along,
     )
 
 

@@ -59,6 +59,11 @@ class MemberCheck:
     result: CheckResult
 
     @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        return self.demand is not None and self.demand.largest is not self.demand.solved
+
+    @property
     def name(self) -> tuple[str, str]:
         """Member and mode."""
         return self.given.member, self.given.mode

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Standard
+from netdesign.checks import Band, Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
@@ -14,12 +14,15 @@ from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.demand import Demand, build_demand
+from netdesign.study.demand import NOTHING, Demand, build_demand
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.pulls import AnchorPull, list_pulls
 from netdesign.study.records import ActionRecord
+from netdesign.study.row_end import EndLoads, find_end_loads
 from netdesign.study.sideways import MemberLoad, Sideways, find_sideways, place_row
 from netdesign.units import kilonewton_from_newton
+
+_PUSHED = (Member.POST, Member.POST_BASE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +41,8 @@ class RowLoads:
         Directions at the anchors.
     tilt : float
         Largest force along the slope at the post's base over that across, (S19) [-].
+    end : EndLoads or None
+        Pulls of the ropes along the row, at its end; None without any.
     """
 
     effects: RowEffects
@@ -45,6 +50,7 @@ class RowLoads:
     sideways: Sideways
     pulls: tuple[AnchorPull, ...]
     tilt: float
+    end: EndLoads | None = None
 
     def demand(
         self,
@@ -69,6 +75,7 @@ class RowLoads:
             least,
             load,
             panel.widened if panel else None,
+            self._find_along(given, width),
         )
 
     def press(self, extreme: Extreme, width: LoadedWidth) -> float:
@@ -79,6 +86,14 @@ class RowLoads:
             self.effects, Member.POST_BASE, width, extreme.widened, least, load
         )
         return found.action.value
+
+    def _find_along(self, given: Resistance, width: LoadedWidth) -> Band:
+        """Part of a force that the ropes' pull along the row brings at its end [N]."""
+        is_pushed = given.member in _PUSHED and width.position == "edge"
+        if self.end is None or not is_pushed:
+            return NOTHING
+        tilt = self.tilt if given.mode == "sliding" else 1.0
+        return self.end.on_post.times(tilt)
 
     def _turn(self, load: MemberLoad) -> MemberLoad:
         """Force along the slope instead of that across the base plate, (S19)."""
@@ -124,6 +139,7 @@ def find_loads(
         sideways=find_sideways(row, results, extremes, standard, head),
         pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
         tilt=_find_tilt(row, results),
+        end=find_end_loads(row, extremes, effects),
     )
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES
+from netdesign.envelope.run import CaseResult
 from netdesign.panel.inputs import Rope
+from netdesign.panel.solution import FailedPanel
 from netdesign.site.model import BorderRope, NetRow
 from netdesign.structure.members import RopeForce
 from netdesign.study.record_cases import record_extreme
@@ -14,7 +17,11 @@ from netdesign.study.records import PanelRecord, RopeRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 
 
-def record_panel(row: NetRow, extremes: Mapping[str, Extreme]) -> PanelRecord | None:
+def record_panel(
+    row: NetRow,
+    results: Sequence[CaseResult] = (),
+    extremes: Mapping[str, Extreme] = MappingProxyType({}),
+) -> PanelRecord | None:
     """Panel of a row with its largest forces over the cases that have some.
 
     None of a row without a panel.
@@ -33,6 +40,7 @@ def record_panel(row: NetRow, extremes: Mapping[str, Extreme]) -> PanelRecord | 
             _record_rope("upper", panel.upper, row.panel.upper, found, upper),
         ],
         extremes=[record_extreme(one) for one in found.values()],
+        failed=sum(isinstance(one.panel, FailedPanel) for one in results),
     )
 
 

@@ -227,6 +227,9 @@ class ActionRecord:
     panel_kN: float | None = None  # by the panel between posts, as ``solved_kN``
     panel_low_kN: float | None = None
     panel_support_kN: float | None = None  # as ``coupled_kN``
+    along_kN: float = 0.0  # of it by the end guy, on the post at the row's end
+    along_low_kN: float = 0.0
+    along_high_kN: float = 0.0
 
     @property
     def governing(self) -> str:
@@ -524,6 +527,7 @@ class PanelRecord:
     has_mid_anchors: bool
     ropes: list[RopeRecord]
     extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
+    failed: int = 0  # solved cases without forces by the panel
 
 
 def list_verdicts(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from netdesign.checks import check_member
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import Resistance
 from netdesign.structure.members import Member, name_in_panel
@@ -21,6 +22,7 @@ from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
     CheckRecord,
 )
+from netdesign.study.row_end import find_lack
 from netdesign.study.settle import (
     find_gap,
     judge_forces,
@@ -31,7 +33,7 @@ from netdesign.study.settle import (
     settle_check,
 )
 from netdesign.study.sideways import check_sideways
-from netdesign.study.spreads import list_spreads
+from netdesign.study.spreads import list_end_spreads, list_spreads
 from netdesign.words.message import Message, say
 
 # A program that fails beside the cases of a check is not trusted in them.
@@ -63,6 +65,7 @@ def check_row(
         checks = [_distrust(task, one, check) for one, check in told]
     return [
         *checks,
+        *_check_end(task, loads),
         *_check_directions(task, loads, find_open(judged)),
         *record_geometry(task.site, task.row, task.standard),
     ]
@@ -72,6 +75,29 @@ def find_open(judged: Sequence[MemberCheck]) -> Message | None:
     """Gap of the forces, else a doubt about any of them; None if all is well."""
     points = (one.gap or one.doubt for one in judged)
     return next((one for one in points if one is not None), None)
+
+
+def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
+    """Checks of what holds the ropes' pull along the row, at its end."""
+    end, row = loads.end, task.row
+    checks = []
+    for given in row.row_end.resistances if row.row_end else ():
+        gap = task.solved.gap or find_lack(row, given)
+        extreme = end.find_extreme(given.member) if end else None
+        doubt = _find_doubt(task, extreme) if extreme else None
+        action = end.demand(given.member) if end else None
+        result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
+        settled = settle_check(task.site, row, result)
+        check = place_check(record_result(settled, given), "edge")
+        if end is not None and extreme is not None:
+            check = replace(
+                check,
+                case=record_point(extreme.governing.case),
+                action=end.record(given.member, loads.effects.post_spacing),
+                spreads=list_end_spreads(result, extreme),
+            )
+        checks.append(check)
+    return checks
 
 
 def _check_directions(
@@ -116,6 +142,8 @@ def _judge_member(
         doubts = (_find_doubt(task, one) for one in brings)
         doubt = next((one for one in doubts if one), None)
     gap = find_gap(task.solved.gap, loads.floor)
+    if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
+        gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
     return MemberCheck(
         given=given,

@@ -1,7 +1,10 @@
 """Panel between the posts: columns of sheets Nets and Ropes to inputs of the model."""
 
+import math
+
 import pytest
 
+from netdesign.site.model import END_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
 
@@ -155,3 +158,58 @@ def test_columns_in_other_languages(with_panel, save, language):
         with_panel["Nets"][1][place] = value
     panel = read_site(save(with_panel)).rows[0].panel.panel
     assert (panel.cut, panel.upper.stiffness) == ("upper", 17.3e6)
+
+
+@pytest.fixture
+def with_end(with_panel):
+    with_panel["Ends"] = [
+        [
+            *("net row", "lateral anchor", "end guy", "end guy anchor"),
+            "angle of the end guy to the row [deg]",
+        ],
+        ["R1", "A1", "G1", "A2", 41],
+    ]
+    return with_panel
+
+
+def held(row):
+    return {(one.member, one.mode): one for one in row.row_end.resistances}
+
+
+def test_what_holds_the_row_along_itself(with_end, save):
+    row, other = read_site(save(with_end)).rows
+    found = held(row)
+    assert tuple(found) == END_MODES
+    assert row.row_end.guy_angle == pytest.approx(math.radians(41.0), rel=1e-12)
+    assert found["lateral_anchor", "tendon"].value == 400e3
+    assert found["lateral_anchor", "pull_out"].basis == "tested"
+    assert found["end_guy", "rope"].value == 250e3
+    assert found["end_guy_anchor", "pull_out"].value is None
+    assert other.row_end is None
+    assert {one.cell for one in row.inputs} >= {"Ends!B2", "Ends!E2"}
+    # the members of the section stay as they are
+    assert row.end_resistances == row.resistances
+
+
+def test_a_row_of_panels_without_a_line_of_ends_has_nothing_that_holds_it(
+    with_panel, save
+):
+    row = read_site(save(with_panel)).rows[0]
+    assert row.row_end.guy_angle is None
+    assert {one.value for one in row.row_end.resistances} == {None}
+
+
+def test_a_row_that_goes_on_has_no_end(with_end, save):
+    with_end["Nets"][0].append("gap to next work [m]")
+    with_end["Nets"][1].append(0.0)
+    assert read_site(save(with_end)).rows[0].row_end is None
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "cell"),
+    [(1, "A9", "B2"), (2, "A1", "C2"), (3, "G1", "D2"), (4, 81, "E2")],
+)
+def test_bad_ends_are_one_finding(with_end, save, refused, column, value, cell):
+    with_end["Ends"][1][column] = value
+    (finding,) = refused(save(with_end))
+    assert (finding.sheet, finding.cell) == ("Ends", cell)

@@ -12,8 +12,16 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Outcome, Verdict
 from netdesign.panel.inputs import CUTS, Panel, Rope
 from netdesign.panel.solution import FailedPanel
-from netdesign.site.model import BorderRope, Project, RowPanel
+from netdesign.site.model import (
+    END_MODES,
+    BorderRope,
+    Project,
+    Resistance,
+    RowEnd,
+    RowPanel,
+)
 from netdesign.snow.ground import GroundLaw
+from netdesign.structure.members import ROPE_OF
 from netdesign.study.audit import audit_study
 from netdesign.study.cases import search_site, solve_site
 from netdesign.study.document import read_document, write_document
@@ -37,6 +45,31 @@ def a_panel(spacing=3.5, **changes):
     return RowPanel(panel=Panel(**(values | changes)), lower=ROPE, upper=ROPE)
 
 
+def an_end(angle=40.0, value=1e7):
+    """What holds the row along itself; ``value`` of all members [N]."""
+    resistances = tuple(
+        Resistance(
+            member=member,
+            mode=mode,
+            value=value,
+            basis="tested" if mode == "pull_out" else "",
+            type_id="T2",
+            source="Anchors!B3",
+        )
+        for member, mode in END_MODES
+    )
+    return RowEnd(
+        guy_angle=None if angle is None else math.radians(angle),
+        resistances=resistances,
+    )
+
+
+def with_panel(panel, *, end=None, **changes):
+    """Row with this panel, held along the row unless told otherwise; or without one."""
+    end = (end or an_end()) if panel else None
+    return build_row("R1", panel=panel, row_end=end, **changes)
+
+
 def judge(row, *, standard=PROFILE, probe=None, ranges=RANGES):
     site = build_site(row, ranges=ranges, project=ACCEPTED)
     solved = solve_site(site, RUN) if ranges.is_grid else search_site(site, RUN)
@@ -50,7 +83,7 @@ def checks_of(study):
 @pytest.fixture(scope="module")
 def pair():
     """The same row without and with a panel."""
-    return [judge(build_row("R1", panel=one))[1] for one in (None, a_panel())]
+    return [judge(with_panel(one))[1] for one in (None, a_panel())]
 
 
 def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
@@ -69,13 +102,14 @@ def test_numbers_of_the_record_give_the_demand(pair):
     seen = set()
     for check in checks_of(pair[1]).values():
         action = check.action
-        if action is None:
+        if action is None or check.member in ROPE_OF:
             continue
         on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
         forces = [
             (action.share * one + action.added_kN) * on_row
             for one in (action.solved_kN, action.panel_kN)
         ]
+        forces[1] += action.along_kN
         value = max(*forces, action.guideline_kN or 0.0)
         assert check.action_kN == pytest.approx(value, rel=1e-12)
         highs = (action.coupled_kN, action.panel_support_kN, action.guideline_kN or 0.0)
@@ -116,7 +150,7 @@ def test_ropes_are_told_as_information(pair):
         assert rope.breaking_kN == 290.0
         assert rope.tension_kN >= forces[f"panel_{rope.rope}_tension"].max_kN
         assert rope.tension_kN > rope.along_kN > 0.0
-    assert not [one for one in pair[1].rows[0].checks if "rope" in one.member]
+    assert not [one for one in pair[1].rows[0].checks if "panel" in one.member]
 
 
 def draw_row(rng, number):
@@ -142,11 +176,18 @@ def draw_row(rng, number):
 @pytest.mark.parametrize("seed", range(6))
 def test_no_demand_falls_below_that_without_a_panel(seed):
     row, panel = draw_row(np.random.default_rng(700 + seed), seed)
-    plain, both = (judge(replace(row, panel=one))[1] for one in (None, panel))
+    plain, both = (
+        judge(replace(row, panel=one, row_end=end))[1]
+        for one, end in ((None, None), (panel, an_end()))
+    )
     before, after = checks_of(plain), checks_of(both)
-    assert list(before) == list(after)
+    assert [name for name in after if name in before] == list(before)
+    added = {f"{member}.{mode}.end" for member, mode in END_MODES}
+    assert set(after) == set(before) | added
     order = [Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL]
     for name, check in after.items():
+        if name in added:
+            continue
         assert order.index(check.verdict) >= order.index(before[name].verdict)
         if check.demand_kN is None:
             continue
@@ -162,12 +203,13 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
         return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
 
     monkeypatch.setattr(running, "resolve_panel", fail)
-    _, study = judge(build_row("R1", panel=a_panel()))
+    _, study = judge(with_panel(a_panel()))
     forces = [one for one in study.rows[0].checks if one.position]
     assert {one.verdict for one in forces} == {Verdict.NOT_PROVEN}
     for one in forces:
         assert "lie on the ground" in str(one.reason)
-        assert one.action.panel_kN is None
+        assert one.action is None or one.action.panel_kN is None
+    assert study.rows[0].panel.failed == len(study.rows[0].cases)
     assert study.verdict is Verdict.NOT_PROVEN
     assert audit_study(study) == []
 
@@ -177,7 +219,7 @@ def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
         outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.rope_not_found")
     )
     monkeypatch.setattr(running, "resolve_panel", lambda *_: lost)
-    weak = build_row("R1", panel=a_panel(), resistances=resist(1e3))
+    weak = with_panel(a_panel(), resistances=resist(1e3))
     _, study = judge(weak)
     assert study.verdict is Verdict.FAIL
 
@@ -188,7 +230,7 @@ def test_the_panel_alone_can_fail_a_guy():
     middle = 1.08 * plain.demand_high_kN * plain.resistance_factor * 1e3
     resistances = resist(uphill_guy__rope=middle)
     verdicts = [
-        checks_of(judge(build_row("R1", panel=one, resistances=resistances))[1])
+        checks_of(judge(with_panel(one, resistances=resistances))[1])
         for one in (None, a_panel())
     ]
     assert verdicts[0]["uphill_guy.rope"].verdict is Verdict.PASS
@@ -202,7 +244,7 @@ def test_limits_of_single_values_follow_the_panel(pair):
     found = []
     for panel in (None, a_panel()):
         resistances = resist(uphill_guy__rope=resistance)
-        row = build_row("R1", panel=panel, resistances=resistances)
+        row = with_panel(panel, resistances=resistances)
         _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
         check = checks_of(study)["uphill_guy.rope.end"]
         assert check.verdict is Verdict.PASS
@@ -217,9 +259,7 @@ def test_changes_that_mend_a_check_follow_the_panel(pair):
     """A spacing in proportion is none of them."""
     by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
     resistance = 0.97 * by_panel.demand_kN * by_panel.resistance_factor * 1e3
-    row = build_row(
-        "R1", panel=a_panel(), resistances=resist(uphill_guy__rope=resistance)
-    )
+    row = with_panel(a_panel(), resistances=resist(uphill_guy__rope=resistance))
     _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
     check = checks_of(study)["uphill_guy.rope.end"]
     assert check.verdict is not Verdict.PASS
@@ -235,7 +275,7 @@ def test_a_search_bounds_both_sets():
         friction_angle=Interval(low=math.radians(17.0), high=math.radians(43.0)),
         inclination=Interval(low=0.52, high=0.52),
     )
-    _, study = judge(build_row("R1", panel=a_panel()), ranges=ranges)
+    _, study = judge(with_panel(a_panel()), ranges=ranges)
     row = study.rows[0]
     assert row.envelope.is_closed
     assert audit_study(study) == []

@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 from netdesign.checks.schema import MODES_WITHOUT_FORCE
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict, merge_verdicts
+from netdesign.structure.members import ROPE_OF
 from netdesign.study.audit.comparing import tell_value, tell_verdict
 from netdesign.study.records import CheckRecord, Study, list_verdicts
 from netdesign.study.values import show_value
@@ -91,6 +92,8 @@ def _require_floor(place: Message, check: CheckRecord, floor: str) -> None:
     """Refuse a demand below the guideline's load, and a pass that does not know it."""
     action, force = check.action, check.action_kN
     if action is None or force is None or floor == "none":
+        return
+    if check.member in ROPE_OF:  # the guideline knows no load of ropes along the row
         return
     least = action.guideline_kN
     if least is None:

@@ -27,6 +27,7 @@ from netdesign.report.words import (
     show_text,
     show_with_unit,
 )
+from netdesign.structure.members import ROPE_OF
 from netdesign.study.records import (
     ActionRecord,
     AnchorRecord,
@@ -314,13 +315,19 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
     if action is None:
         return ()
     steps = []
+    is_of_rope = check.member in ROPE_OF
     if action.position == "edge":
+        bay, half = ("b", "") if is_of_rope else ("b / 2", " / 2")
+        length = "Δl"
+        reach = action.end_length_m
+        if is_of_rope and reach > action.post_spacing_m / 2.0:
+            length, reach = "b", action.post_spacing_m
         steps.append(
             (
-                "b_e = b / 2 + f_R · Δl",
-                f"{show_with_unit('post_spacing_m', action.post_spacing_m)} / 2 + "
+                f"b_e = {bay} + f_R · {length}",
+                f"{show_with_unit('post_spacing_m', action.post_spacing_m)}{half} + "
                 f"{show_with_unit('end_factor', action.end_factor)} · "
-                f"{show_with_unit('end_length_m', action.end_length_m)}",
+                f"{show_with_unit('end_length_m', reach)}",
                 show_with_unit("loaded_width_m", action.loaded_width_m),
             )
         )
@@ -396,6 +403,7 @@ def _describe_floor(
     found = [("E_c", "E_s", solved, coupled)]
     if action.panel_kN is not None:
         on_panel = (action.share * action.panel_kN + action.added_kN) * on_row
+        on_panel += action.along_kN
         inside = show_with_unit("panel_kN", action.panel_kN)
         shown = show_with_unit("panel_support_kN", on_panel)
         found.append(("E_p", "E_p0", inside, shown))
@@ -406,8 +414,11 @@ def _describe_floor(
     steps = []
     for symbol, inside_symbol, inside, shown in found:
         symbols, numbers = _load_member(inside_symbol, inside, action)
-        symbols = f"{symbol} = {symbols} · b_e / b · k_q"
-        steps.append((symbols, _widen(numbers, action), shown))
+        symbols, numbers = f"{symbols} · b_e / b · k_q", _widen(numbers, action)
+        if symbol == "E_p" and action.along_kN:
+            symbols += " + H · tan γ"
+            numbers += f" + {show_with_unit('along_kN', action.along_kN)}"
+        steps.append((f"{symbol} = {symbols}", numbers, shown))
     largest = "; ".join(symbol for symbol, *_ in found)
     numbers = "; ".join(shown for *_, shown in found)
     force = show_with_unit("action_kN", check.action_kN)

@@ -17,7 +17,7 @@ from netdesign.site.columns.dimension_columns import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
-from netdesign.site.columns.panel_columns import PANEL, ROPE_STIFFNESS
+from netdesign.site.columns.panel_columns import PANEL, ROPE_STIFFNESS, ROW_ENDS
 from netdesign.site.columns.support_columns import (
     ANCHOR_BENDING,
     GUYS_AND_AXES,
@@ -238,6 +238,7 @@ ENDS = word_plan(
                     ("post", "Posts"),
                 )
             ),
+            *ROW_ENDS,
         ),
     )
 )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from netdesign.panel.inputs import CUTS, LARGEST_SAG
+from netdesign.panel.row_forces import LARGEST_GUY_ANGLE
 from netdesign.site.columns.fields import Field
-from netdesign.site.columns.unit_names import FORCES, SHARES
+from netdesign.site.columns.unit_names import ANGLES, FORCES, SHARES
+from netdesign.units import degree_from_radian
 
 _ROPE_NOTE = "id of sheet Ropes, with its axial stiffness"
 _SAG_NOTE = "as built, without snow, over the post spacing; has no default"
@@ -38,6 +40,34 @@ PANEL = (
         words={"no": (), "yes": ()},
         note="whether the lower rope is also anchored half way between the posts; no "
         "(if left empty)",
+    ),
+)
+_HELD = "left empty, its checks are not proven"
+ROW_ENDS = (
+    Field(
+        key="lateral_anchor",
+        kind="id",
+        refers_to="Anchors",
+        note="holds the lower rope along the row, beside the foot anchor; id of sheet "
+        f"Anchors; {_HELD}",
+    ),
+    Field(
+        key="end_guy",
+        kind="id",
+        refers_to="Ropes",
+        note=f"holds the post's head along the row; id of sheet Ropes; {_HELD}",
+    ),
+    Field(
+        key="end_guy_anchor",
+        kind="id",
+        refers_to="Anchors",
+        note=f"of the end guy; id of sheet Anchors; {_HELD}",
+    ),
+    Field(
+        key="end_guy_angle",
+        units=ANGLES,
+        bounds=(0.0, round(degree_from_radian(LARGEST_GUY_ANGLE), 9)),
+        note="between the end guy and the row; has no default",
     ),
 )
 ROPE_STIFFNESS = (

@@ -14,10 +14,11 @@ from netdesign.checks.schema import (
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.structure.members import (
     BROUGHT_BY,
     CARRYING_MEMBERS,
+    ROPE_OF,
     Member,
     name_in_panel,
 )
@@ -29,6 +30,7 @@ from netdesign.study.audit.comparing import (
     tell_unequal,
     tell_verdict,
 )
+from netdesign.study.audit.end_audit import audit_end
 from netdesign.study.audit.envelope_audit import (
     is_complete,
     name_members,
@@ -76,6 +78,8 @@ def audit_checks(
     wanted = [f"{member}.{mode}" for member, mode in modes]
     if _has_end(row, profile):
         wanted += [f"{name}.end" for name in wanted]
+    if row.panel is not None and not _goes_on(row):
+        wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
     wanted.append(f"{Member.POST}.lateral")
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
@@ -94,7 +98,10 @@ def audit_checks(
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
-            yield from _audit_action(where, check, row, factors)
+            if check.member in ROPE_OF:
+                yield from audit_end(where, check, row)
+            else:
+                yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, row)
             if not accepts_law:
                 yield from _audit_snow(where, check, row)
@@ -103,9 +110,14 @@ def audit_checks(
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
     """Presence of a last support that a rule of the profile loads."""
+    is_ruled = any(one.id == "end.constant" for one in profile.values)
+    return is_ruled and not _goes_on(row)
+
+
+def _goes_on(row: RowStudy) -> bool:
+    """Absence of an end: the next work goes on without a gap."""
     gap = say("column.Nets.gap")
-    goes_on = any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
-    return not goes_on and any(one.id == "end.constant" for one in profile.values)
+    return any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
 
 
 def _audit_floor(
@@ -183,11 +195,9 @@ def _audit_action(
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         if check.action_factor is not None:
-            low = max(extreme.low_kN, beside.low_kN if beside else 0.0)
-            low = (record.share * low + record.added_low_kN) * on_row
-            pairs.append(
-                ("demand_low_kN", check.demand_low_kN, max(low, floor) * factor)
-            )
+            low = (record.share * extreme.low_kN + record.added_low_kN) * on_row
+            low = max(low, floor, _find_low_by_panel(record, beside, on_row)) * factor
+            pairs.append(("demand_low_kN", check.demand_low_kN, low))
         high_end = record.coupled_kN
         yield from _audit_high_end(place, record, extreme, on_row, high_end)
         larger = beside if beside is not None and record.is_by_panel else extreme
@@ -215,7 +225,17 @@ def _find_by_panel(record: ActionRecord, on_row: float) -> float:
     """Force on the support by the panel between posts; 0 without one [kN]."""
     if record.panel_kN is None:
         return 0.0
-    return (record.share * record.panel_kN + record.added_kN) * on_row
+    inside = record.share * record.panel_kN + record.added_kN
+    return inside * on_row + record.along_kN
+
+
+def _find_low_by_panel(
+    record: ActionRecord, beside: ExtremeRecord | None, on_row: float
+) -> float:
+    if beside is None:
+        return 0.0
+    inside = record.share * beside.low_kN + record.added_low_kN
+    return inside * on_row + record.along_low_kN
 
 
 def _audit_panel(
@@ -230,7 +250,7 @@ def _audit_panel(
         ],
     )
     if beside is not None:
-        high = record.panel_support_kN or 0.0
+        high = (record.panel_support_kN or 0.0) - record.along_high_kN
         yield from _audit_high_end(place, record, beside, on_row, high)
 
 
