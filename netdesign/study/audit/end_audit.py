@@ -1,16 +1,13 @@
-"""Panel of a row, and the checks of its end against its ropes' largest pulls."""
+"""Checks of a row's end against the largest pulls of its ropes along the row."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
-from netdesign.site.model import NetRow
 from netdesign.structure.members import ROPE_OF, EndMember
-from netdesign.study.audit.comparing import Pair, compare_values, tell_unequal
+from netdesign.study.audit.comparing import Pair, tell_unequal
 from netdesign.study.audit.envelope_audit import same_point
-from netdesign.study.record_panel import record_panel
-from netdesign.study.records import CheckRecord, ExtremeRecord, PanelRecord, RowStudy
+from netdesign.study.records import CheckRecord, ExtremeRecord, RowStudy
 from netdesign.words.message import Message, say
 
 
@@ -43,19 +40,6 @@ def audit_end(place: Message, check: CheckRecord, row: RowStudy) -> Iterator[Mes
     yield from tell_unequal(place, pairs)
     if not same_point(check.case, extreme.case):
         yield say("audit.other_case", place=place)
-
-
-def audit_panel_inputs(row: RowStudy, given: NetRow) -> Iterator[Message]:
-    """The panel that a study is of against that of the site file."""
-    place = say("audit.row", row=row.id)
-    stored = row.panel and _leave_out_forces(row.panel)
-    for found in compare_values({"panel": stored}, {"panel": record_panel(given)}):
-        yield say("audit.row_otherwise", place=place, value=found.message)
-
-
-def _leave_out_forces(panel: PanelRecord) -> PanelRecord:
-    ropes = [replace(one, along_kN=None, tension_kN=None) for one in panel.ropes]
-    return replace(panel, ropes=ropes, extremes=[], failed=0)
 
 
 def _find_rope(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:

@@ -23,8 +23,8 @@ from netdesign.study.audit.comparing import (
     tell_unequal,
     tell_value,
 )
-from netdesign.study.audit.end_audit import audit_panel_inputs
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.audit.panel_audit import audit_panel_inputs
 from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
