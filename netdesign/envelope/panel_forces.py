@@ -52,14 +52,15 @@ class PanelForces:
     bands : dict of str to Band
         Forces by ``PANEL_QUANTITIES`` [N]; the foot anchor's is that of the more
         loaded one, beside a post or in mid-panel.
-    head_error : float
-        Of the pull on a head [N].
+    foot, head : EndPull
+        Mean pulls of a bay on the support, with their errors [N/m].
     """
 
     solution: PanelSolution
     anchors: AnchorForces
     bands: dict[str, Band]
-    head_error: float
+    foot: EndPull
+    head: EndPull
 
 
 def resolve_panel(
@@ -109,7 +110,8 @@ def resolve_panel(
         solution=solved,
         anchors=anchors,
         bands=bands | _read_ropes(solved, foot, head),
-        head_error=panel.post_spacing * head.error,
+        foot=foot,
+        head=head,
     )
 
 

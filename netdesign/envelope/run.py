@@ -107,7 +107,12 @@ class Compared:
     history: CaseResult
 
     def exceeds(self, member: str) -> bool:
-        """The history's force is larger by more than both state as their errors."""
+        """The history's force is larger by more than both state as their errors.
+
+        A force by the panel between posts is of a state at rest.
+        """
+        if member not in self.history.member_forces:
+            return False
         history = self.history.member_forces[member]
         return history.low > self.steady.member_forces[member].high
 

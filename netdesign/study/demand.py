@@ -141,6 +141,8 @@ class Demand:
             along_kN=kilonewton_from_newton(self.along.value),
             along_low_kN=kilonewton_from_newton(self.along.low),
             along_high_kN=kilonewton_from_newton(self.along.high),
+            solved_low_kN=kilonewton_from_newton(self.solved.low),
+            solved_high_kN=kilonewton_from_newton(self.solved.high),
         )
 
 

@@ -41,6 +41,7 @@ from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
+from netdesign.study.record_statics import record_held_sideways, record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
     SCHEMA,
@@ -161,6 +162,10 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
+        statics=record_statics(row, solved.results, extremes, floor),
+        held_sideways=record_held_sideways(
+            row, solved.results, extremes, loads.sideways, floor
+        ),
         envelope=(
             record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
             if isinstance(solved, RowEnvelope)

@@ -35,6 +35,7 @@ from netdesign.study.settle import (
 from netdesign.study.sideways import check_sideways
 from netdesign.study.spreads import list_end_spreads, list_spreads
 from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = say("check.fault_beside")
@@ -82,8 +83,8 @@ def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
     end, row = loads.end, task.row
     checks = []
     for given in row.row_end.resistances if row.row_end else ():
-        gap = task.solved.gap or find_lack(row, given)
         extreme = end.find_extreme(given.member) if end else None
+        gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme)
         doubt = _find_doubt(task, extreme) if extreme else None
         action = end.demand(given.member) if end else None
         result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
@@ -141,7 +142,8 @@ def _judge_member(
             brings.append(extremes[Member.POST])
         doubts = (_find_doubt(task, one) for one in brings)
         doubt = next((one for one in doubts if one), None)
-    gap = find_gap(task.solved.gap, loads.floor)
+    seen = (extreme, extremes.get(name_in_panel(given.member)))
+    gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(*seen)
     if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
         gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
@@ -154,6 +156,15 @@ def _judge_member(
         doubt=doubt,
         result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
     )
+
+
+def _find_unseen(*extremes: Extreme | None) -> Message | None:
+    """Quantities between whose samples nothing is known of some largest force."""
+    unknown = dict.fromkeys(axis for one in extremes if one for axis in one.unknown)
+    if not unknown:
+        return None
+    axes = tuple(name("axis", axis) for axis in unknown)
+    return say("check.unseen_between", axes=axes)
 
 
 def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:

@@ -38,7 +38,7 @@ _SIDES: Mapping[str, str] = {
     Member.DOWNHILL_ANCHOR: "downhill",
 }
 GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
-_GUYS_BY_PANEL = tuple(map(name_in_panel, GUYS))
+GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 _NOTHING = Band(low=0.0, value=0.0, high=0.0)
 
 
@@ -185,7 +185,7 @@ def find_sideways(
         if failed is not None:
             return Sideways(share=value.value, gap=failed)
     hidden = {
-        member: _find_hidden(member, extremes)
+        member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
         if member in extremes
     }
@@ -267,7 +267,8 @@ def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
     ]
     if isinstance(result.panel, PanelForces):
         panel = result.panel
-        pulls.append((panel.anchors.head_pull, panel.head_error, _GUYS_BY_PANEL))
+        error = panel.head.error * row.layout.post_spacing
+        pulls.append((panel.anchors.head_pull, error, GUYS_BY_PANEL))
     return [
         _Head(
             pull=pull,
@@ -280,7 +281,7 @@ def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
     ]
 
 
-def _find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
+def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
     """What may hide of a member's force, by section or panel [N]."""
     names = (member, name_in_panel(member))
     return max(extremes[name].hidden for name in names if name in extremes)

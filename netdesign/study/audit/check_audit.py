@@ -192,12 +192,13 @@ def _audit_action(
     if check.action_factor is not None:
         high = max(record.coupled_kN, record.panel_support_kN or 0.0, floor) * factor
         pairs.append(("demand_high_kN", check.demand_high_kN, high))
+        low = record.share * (record.solved_low_kN or 0.0) + record.added_low_kN
+        by_panel_low = _find_low_by_panel(record, beside, on_row)
+        low = max(low * on_row, floor, by_panel_low) * factor
+        pairs.append(("demand_low_kN", check.demand_low_kN, low))
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
-        if check.action_factor is not None:
-            low = (record.share * extreme.low_kN + record.added_low_kN) * on_row
-            low = max(low, floor, _find_low_by_panel(record, beside, on_row)) * factor
-            pairs.append(("demand_low_kN", check.demand_low_kN, low))
+        pairs.append(("solved_low_kN", record.solved_low_kN, extreme.low_kN))
         high_end = record.coupled_kN
         yield from _audit_high_end(place, record, extreme, on_row, high_end)
         larger = beside if beside is not None and record.is_by_panel else extreme

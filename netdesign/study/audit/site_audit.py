@@ -395,7 +395,8 @@ def _act_again(
     high /= effects.factor(check.member, width)
     load = _read_load(stored)
     high = (high - load.added.high) / load.share if load.share else value
-    solved = Band(low=0.0, value=value, high=max(value, high))
+    low = newton_from_kilonewton(stored.solved_low_kN or 0.0)
+    solved = Band(low=min(max(low, 0.0), value), value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
     panel = _read_panel(stored, effects.factor(check.member, width), load)
     along = _read_along(stored)
