@@ -204,6 +204,35 @@ def test_foot_of_a_short_snowpack_by_hand():
     assert max(expected) == expected[1] > 1.05 * expected[0]
 
 
+@pytest.mark.parametrize(("degrees", "count"), [(11.81, 49), (0.1, 3), (0.0, 1)])
+def test_grid_has_the_distances_that_theory_tells(degrees, count):
+    """A quarter of a degree at most, eight parts of the others, snow to the head."""
+    tried = []
+
+    def find_glide_factors(d):
+        tried.append(d)
+        return 0.0 * d + 1.3, 0.0 * d + 2.7
+
+    ends = (0.43, 0.43 + math.radians(degrees))
+    net = a_net()
+    for top, thicknesses in ((1.0, 9), (1.3, 10)):
+        tried.clear()
+        wide = (0.5 * net.snow_thickness, top * net.net_height)
+        find(
+            build_ranges(
+                net,
+                inclinations=ends,
+                thicknesses=wide,
+                find_glide_factors=find_glide_factors,
+            )
+        )
+        _, grid, *_ = tried
+        assert grid.size == count * thicknesses * 9
+        assert {grid.min(), grid.max()} == set(wide)
+        assert np.unique(grid).size == thicknesses
+        assert net.net_height in grid
+
+
 def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
     """Sixteen times as many inclinations find no force that is larger by 1e-5.
 
