@@ -62,6 +62,7 @@ THIRD_PARTY = {
             "coupling.*",
             "panel.*",
             "envelope.*",
+            "guideline.*",
             "search.*",
             "solving.*",
         ),

@@ -126,6 +126,11 @@ def show_given(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else MISSING
 
 
+def show_digits(value: float | None) -> str:
+    """Number to five significant digits: enough to redo what follows from it."""
+    return MISSING if value is None else f"{value:.5g}"
+
+
 def show_unit(unit: str) -> str:
     """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
     return _UNITS.get(unit, show_text(unit))

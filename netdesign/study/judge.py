@@ -35,6 +35,7 @@ from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_provenance import record_profile, record_provenance
+from netdesign.study.record_statics import record_held_sideways, record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
     SCHEMA,
@@ -147,13 +148,17 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        floor=record_floor(floor),
+        floor=record_floor(floor, row),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_test_notes(checks, task.standard),
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
+        statics=record_statics(row, solved.results, extremes, floor),
+        held_sideways=record_held_sideways(
+            row, solved.results, extremes, loads.sideways, floor
+        ),
         envelope=(
             record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
             if isinstance(solved, RowEnvelope)

@@ -33,6 +33,7 @@ from netdesign.study.settle import (
 from netdesign.study.sideways import check_sideways
 from netdesign.study.spreads import list_spreads
 from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = say("check.fault_beside")
@@ -112,7 +113,7 @@ def _judge_member(
             brings.append(extremes[Member.POST])
         doubts = (_find_doubt(task, one) for one in brings)
         doubt = next((one for one in doubts if one), None)
-    gap = find_gap(task.solved.gap, loads.floor)
+    gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(extreme)
     action = demand.action if demand else None
     return MemberCheck(
         given=given,
@@ -123,6 +124,14 @@ def _judge_member(
         doubt=doubt,
         result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
     )
+
+
+def _find_unseen(extreme: Extreme | None) -> Message | None:
+    """Quantities between whose samples nothing is known of a largest force."""
+    if extreme is None or not extreme.unknown:
+        return None
+    axes = tuple(name("axis", axis) for axis in extreme.unknown)
+    return say("check.unseen_between", axes=axes)
 
 
 def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:

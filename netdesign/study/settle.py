@@ -146,7 +146,8 @@ def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
 def _describe_derivation(
     given: Resistance | None, result: CheckResult
 ) -> Message | None:
-    if given is None or given.tests is None or result.resistance is None:
+    factors = result.correlation
+    if given is None or given.tests is None or factors is None:
         return given.derivation if given else None
     tests = given.tests
     return say(
@@ -154,4 +155,6 @@ def _describe_derivation(
         mean=kilonewton_from_newton(tests.mean),
         least=kilonewton_from_newton(tests.least),
         count=tests.count,
+        on_mean=factors[0],
+        on_least=factors[1],
     )

@@ -24,6 +24,7 @@ FAMILIES: tuple[str, ...] = (
     "creep_law.",
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     "floor.profile_",
+    *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(
         "profile_about.",

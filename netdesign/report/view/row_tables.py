@@ -428,6 +428,9 @@ def _widen(force: str, action: ActionRecord) -> str:
 _FLOOR = (
     "force_kN",
     "inclination_deg",
+    "snow_thickness_m",
+    "slack",
+    "stiffness_kN_per_m",
     "density_kg_m3",
     "height_vertical_m",
     "creep_factor",
@@ -444,8 +447,9 @@ def build_floor(row: RowStudy, words: Words) -> Table:
     empty = words("floor.none")
     if floor is not None and floor.reason is not None:
         empty = words.show(floor.reason)
+    assumed = "".join(f"; {words.show(one)}" for one in floor.assumed) if floor else ""
     return Table(
-        caption=words("caption.floor"),
+        caption=words("caption.floor") + assumed,
         columns=(
             text_column(words("heading.member")),
             text_column(words("heading.load_case")),

@@ -16,6 +16,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
     envelope_tables,
+    figure_tables,
     hold_tables,
     row_tables,
     tables,
@@ -51,6 +52,21 @@ VERIFY = "netdesign verify"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Figures:
+    """Tables of all figures of a row's checks."""
+
+    statics: Table
+    floor_statics: Table
+    sideways: Table
+    widths: Table
+    actions: Table
+    checks: Table
+    resistances: Table
+    tests: Table
+    turns: Table
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RowView:
     """One net row in words."""
 
@@ -83,6 +99,7 @@ class RowView:
     guideline: Table
     guideline_sentence: str
     floor: Table
+    figures: Figures
     notes: tuple[str, ...]
 
 
@@ -112,6 +129,8 @@ class ReportView:
     profile_title: str
     profile: Table
     notes: tuple[str, ...]
+    formulas: Table
+    figure_tables: Table  # what each of a row's tables of figures holds
     quality: Table
     outcomes: Table
     provenance: Table
@@ -163,6 +182,8 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
         ),
+        formulas=figure_tables.build_formulas(words),
+        figure_tables=figure_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -219,7 +240,22 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        figures=_view_figures(row, words),
         notes=tuple(words.show(note) for note in row.notes),
+    )
+
+
+def _view_figures(row: RowStudy, words: Words) -> Figures:
+    return Figures(
+        statics=figure_tables.build_statics(row, words),
+        floor_statics=figure_tables.build_floor_statics(row, words),
+        sideways=figure_tables.build_sideways(row, words),
+        widths=figure_tables.build_widths(row, words),
+        actions=figure_tables.build_actions(row, words),
+        checks=figure_tables.build_check_figures(row, words),
+        resistances=figure_tables.build_resistances(row, words),
+        tests=figure_tables.build_tests(row, words),
+        turns=figure_tables.build_turns(row, words),
     )
 
 

@@ -200,7 +200,7 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
-    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+    for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.action is not None:
@@ -343,7 +343,6 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
     settled = settle_check(basis.site, basis.row, result)
@@ -365,7 +364,8 @@ def _act_again(
     high /= effects.factor(check.member, width)
     load = _read_load(stored)
     high = (high - load.added.high) / load.share if load.share else value
-    solved = Band(low=0.0, value=value, high=max(value, high))
+    low = newton_from_kilonewton(stored.solved_low_kN or 0.0)
+    solved = Band(low=min(max(low, 0.0), value), value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
     demand = build_demand(effects, check.member, width, solved, least, load)
     return replace(
