@@ -39,7 +39,6 @@ from netdesign.report.words import (
     name_case,
     show_check,
     show_member,
-    show_own,
     show_quantity,
     show_text,
     show_verdict,
@@ -177,7 +176,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ranges=tables.build_inputs(
             study.range_inputs, words("heading.ranges_of_envelope"), words
         ),
-        profile_title=_name_profile(study, words),
+        profile_title=tables.name_profile(study, words),
         profile=tables.build_profile(study, words),
         notes=(
             *(words.show(note) for note in study.notes),
@@ -278,15 +277,11 @@ def _identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
         ("project", project.name),
         ("number", project.number),
         ("revision", project.revision),
-        ("limit_profile", _name_profile(study, words)),
+        ("limit_profile", tables.name_profile(study, words)),
         ("site_file", study.provenance.site_file),
         ("date", study.provenance.started[:10]),
     )
     return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
-
-
-def _name_profile(study: Study, words: Words) -> str:
-    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
 
 
 def _tell_verification(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
