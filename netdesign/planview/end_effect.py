@@ -16,10 +16,13 @@ from netdesign.planview.pulled_gap import ISOLATED_EXCESS, solve_pulled_gap
 from netdesign.planview.scales import Scales, Slab, compute_scales, find_linear_slip
 from netdesign.planview.waves import WIDEST_HALF
 
+# What waves left out cost at most, over l_z; the widest gap solved has it.
+_LEFT_OUT = 2e-6
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExtraLoad:
-    """What the end of a long row carries beyond as much of an endless one.
+    """Extra load of a long row's end, over as much of an endless row.
 
     Attributes
     ----------
@@ -132,9 +135,9 @@ def _find_beside(
     if half == 0.0:
         return 0.0, 0.0, 0.0
     gap = solve(half)
-    return gap.excess, find_excess_within(gap, distance), gap.error
+    return gap.excess, find_excess_within(gap, distance), gap.error + _LEFT_OUT
 
 
 def _find_lost(half: float) -> float:
-    """What the two ends of a wide gap still feel of each other, at most."""
+    """Largest share that the two ends of a wide gap still feel of each other."""
     return math.exp(-2.0 * min(half, 350.0))

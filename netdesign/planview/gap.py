@@ -1,7 +1,7 @@
 """Load on the ends of two long rows beside a gap, from what slips through it.
 
-Theory: planview/THEORY.md, section 2. Lengths along the row are in l_z, loads in that of
-an endless wall, velocities in that far from any wall.
+Theory: planview/THEORY.md, section 2. Lengths along the row are in l_z, loads in
+that of an endless wall, velocities in that far from any wall.
 """
 
 from __future__ import annotations

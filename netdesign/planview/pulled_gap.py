@@ -24,8 +24,8 @@ from netdesign.planview.waves import (
 
 # Powers of the distance to a gap's end: v goes as r^(1/4), the pull as r^(-3/4).
 _VELOCITY, _PULL = 0.75, -0.25
-_VELOCITY_MEAN = 1.0 / (2.0**_VELOCITY * gamma(1.0 + _VELOCITY))
-_PULL_MEAN = 1.0 / (2.0**_PULL * gamma(1.0 + _PULL))
+_VELOCITY_MEAN = 1.0 / (2.0**_VELOCITY * float(gamma(1.0 + _VELOCITY)))
+_PULL_MEAN = 1.0 / (2.0**_PULL * float(gamma(1.0 + _PULL)))
 # Whole excess at the end of a long row that stands alone, over l_z.
 ISOLATED_EXCESS = 0.25 + math.sqrt(0.5)
 _PLACES = 400  # in the gap
@@ -75,7 +75,7 @@ def _list_places() -> tuple[Floats, Floats]:
 
 def _solve(half: float, functions: int) -> tuple[Floats, Floats]:
     """Coefficients of the velocity and of the pull, (W16)."""
-    order = 2.0 * np.arange(functions)
+    order = 2.0 * np.arange(functions, dtype=np.float64)
     coupling = half * integrate_root(order[:, None] + _VELOCITY, order + _PULL)
     matrix = np.block(
         [
@@ -94,7 +94,7 @@ def _build_velocity_part(half: float, functions: int) -> Floats:
     waves = load_waves()
     each = load_bessel(_VELOCITY)[:functions]
     rest = (np.hypot(waves.numbers, half) - waves.numbers) / waves.numbers**1.5
-    order = 2.0 * np.arange(functions) + _VELOCITY
+    order = 2.0 * np.arange(functions, dtype=np.float64) + _VELOCITY
     return np.asarray(
         (each * (waves.weights * rest)) @ each.T + integrate_root(order[:, None], order)
     )
@@ -106,7 +106,7 @@ def _build_pull_part(half: float, functions: int) -> Floats:
     root = np.sqrt(waves.numbers)
     rest = root / np.hypot(waves.numbers, half) - 1.0 / root
     matrix = np.asarray((each * (waves.weights * rest)) @ each.T)
-    order = 2.0 * np.arange(functions) + _PULL
+    order = 2.0 * np.arange(functions, dtype=np.float64) + _PULL
     matrix[1:] += integrate_root(order[1:, None], order)
     matrix[0, 1:] += integrate_root(order[0], order[1:])
     matrix[0, 0] += _integrate_first()
@@ -119,8 +119,8 @@ def _integrate_first() -> float:
     is_long = waves.numbers < 1.0
     numbers, weights = waves.numbers[is_long], waves.weights[is_long]
     start = _PULL_MEAN**2
-    finite = math.log(2.0) + digamma(0.75)
-    finite -= (np.euler_gamma + digamma(0.5)) / 2.0
+    finite = math.log(2.0) + float(digamma(0.75))
+    finite -= (np.euler_gamma + float(digamma(0.5))) / 2.0
     return float(start * finite + weights @ (start / numbers))
 
 
@@ -137,4 +137,4 @@ def _find_excess(half: float, velocity: Floats, pull: Floats) -> float:
     """Half the gap, less half of what slips through, and half of the pull, (W7)."""
     slipped = half * _VELOCITY_MEAN * float(velocity[0])
     pulled = half * _PULL_MEAN * float(pull[0])
-    return half - slipped / 2.0 + pulled / 2.0
+    return float(half - slipped / 2.0 + pulled / 2.0)

@@ -1,7 +1,7 @@
 """A row that stands alone: from a mast to an endless wall.
 
-Theory: planview/THEORY.md, section 3. Lengths along the row are in l_z, loads in that of
-an endless wall.
+Theory: planview/THEORY.md, section 3. Lengths along the row are in l_z, loads in
+that of an endless wall.
 """
 
 from __future__ import annotations

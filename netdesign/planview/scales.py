@@ -60,7 +60,7 @@ class Slab:
 
     @property
     def side_length(self) -> float:
-        """Length of slope whose weight is as large as the pressure at rest [m]; (W4)."""
+        """Length of slope as heavy as the pressure at rest is large [m]; (W4)."""
         side = self.poisson / (1.0 - self.poisson)
         return side * self.thickness / (2.0 * math.tan(self.slope_angle))
 

@@ -20,7 +20,7 @@ FEWER = 4  # functions left out for the error
 # Half an opening from which on its ends do not feel each other: exp(-2 h) is left.
 WIDEST_HALF = 8.0
 _POINTS = 8  # of Gauss in a panel
-_FINEST = 12  # halvings of the panels towards 0
+_FINEST = 32  # halvings of the panels towards 0
 _PANEL = 2.0  # width of the panels beyond 1: a third of a wave
 _LAST = 301.0
 
@@ -101,6 +101,6 @@ def require_opening(half: float, functions: int) -> None:
     ModelError
         If one is out of its range.
     """
-    require_positive("half gap", half)
-    require_within("half gap", half, 0.0, WIDEST_HALF)
+    require_positive("half opening", half)
+    require_within("half opening", half, 0.0, WIDEST_HALF)
     require_within("functions", functions, FEWER + 1, MOST_FUNCTIONS)

@@ -2,9 +2,9 @@
 
 Independent of ``netdesign.planview``: velocities in three directions, the whole profile
 over the thickness, no averaging. Linear creep, (N7) with n = 1. Lengths are in d,
-stresses in rho g d sin psi; what is solved is the departure from the neutral zone, whose
-velocities are known: on the wall it undoes them, in the gap it has no traction. Half a
-gap and half a row, the symmetry planes closing both.
+stresses in rho g d sin psi. What is solved is the departure from the neutral zone; its
+velocities are known. On the wall it undoes them, in the gap it has no traction. Half a
+gap and half a row, closed by their planes of symmetry.
 """
 
 from __future__ import annotations
