@@ -112,6 +112,7 @@ def check_member(
         design_resistance=strength,
         utilisation=utilisation,
         assumed=list_assumed(on_action, on_resistance),
+        correlation=find_correlation(resistance, standard),
     )
 
 
@@ -166,18 +167,27 @@ def find_characteristic(
         return value, say("check.resistance_not_usable", value=value, what=what)
     if resistance.tests is None:
         return None, resistance.lack or say("check.no_resistance", what=what)
-    factors = [
-        table.find(resistance.tests.count) if table else None
-        for table in map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
-    ]
-    on_mean, on_least = factors
-    if on_mean is None or on_least is None:
+    factors = find_correlation(resistance, standard)
+    if factors is None:
         count = resistance.tests.count
         return None, say("check.no_correlation", count=count, what=what)
+    on_mean, on_least = factors
     value = compute_pull_out_from_tests(
         resistance.tests, correlation_mean=on_mean, correlation_least=on_least
     )
     return value, None
+
+
+def find_correlation(
+    resistance: GivenResistance, standard: Standard
+) -> tuple[float, float] | None:
+    """Factors on mean and least of tests; None without tests, or without factors."""
+    if resistance.value is not None or resistance.tests is None:
+        return None
+    tables = map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
+    factors = [one.find(resistance.tests.count) if one else None for one in tables]
+    on_mean, on_least = factors
+    return None if on_mean is None or on_least is None else (on_mean, on_least)
 
 
 def _name_place(resistance: GivenResistance) -> Message:

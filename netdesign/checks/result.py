@@ -139,6 +139,8 @@ class CheckResult:
         Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
         Where it is said to be proven, whatever the verdict.
+    correlation : tuple of float or None
+        Factors on mean and least of the tests that gave the resistance [-].
     """
 
     id: str
@@ -156,3 +158,4 @@ class CheckResult:
     utilisation: Band | None = None
     assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
+    correlation: tuple[float, float] | None = None

@@ -49,6 +49,11 @@ class Interval:
         return tuple(float(v) for v in np.linspace(self.low, self.high, count))
 
 
+def _list_twins(name: str) -> set[str]:
+    """Other names of the same quantity."""
+    return {one for pair in ONE_QUANTITY if name in pair for one in pair} - {name}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ranges:
     """Ranges of some parameters around a scene; the others stay as the scene has them.
@@ -106,6 +111,12 @@ class Ranges:
         """Names of the parameters that do range."""
         return tuple(name for name, span in self.intervals if span.low < span.high)
 
+    def with_value(self, name: str, value: float) -> Ranges:
+        """Ranges with one quantity at a single value; another name of it goes."""
+        gone = {name, *_list_twins(name)}
+        kept = [one for one in self.intervals if one[0] not in gone]
+        return Ranges(intervals=(*kept, (name, Interval(low=value, high=value))))
+
     def place(self, point: Sequence[float]) -> dict[str, float]:
         """Value of every parameter at a point of the unit cube over ``axes``."""
         shares = dict(zip(self.axes, point, strict=True))
@@ -141,8 +152,10 @@ class Case:
         return {name: getattr(self, name) for name in USUAL} | dict(self.others)
 
     def with_value(self, name: str, value: float) -> Case:
-        """Case with another value of one of its quantities."""
-        return Case.of({**self.values, name: value})
+        """Case with a value of its own; another name of the same quantity goes."""
+        twins = _list_twins(name)
+        kept = {key: one for key, one in self.values.items() if key not in twins}
+        return Case.of({**kept, name: value})
 
 
 def build_case(scene: Scene, values: Mapping[str, float]) -> Case:

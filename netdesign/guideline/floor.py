@@ -23,6 +23,8 @@ from netdesign.words.message import Message, say
 # Distance of the inclinations that are tried. Between two of them a force rises above
 # both by less than 1e-5 of its size (tests/guideline/test_floor.py).
 SCAN_STEP = math.radians(0.1)
+# Fields of HeadSpan.
+SPANS = ("head_pull", "least_tension", "foot_least", "foot_largest")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,11 +99,15 @@ class Floor:
         What acts at head and foot; None where the floor is not available.
     forces : tuple of FloorForce
         One a member; empty where the floor is not available.
+    spans : tuple of FloorForce
+        States that bring what ``head`` says, by the keys `SPANS`; those of least
+        values count with the other sign.
     reason : Message or None
         Why it is not available.
     """
 
     forces: tuple[FloorForce, ...] = ()
+    spans: tuple[FloorForce, ...] = ()
     head: HeadSpan | None = None
     reason: Message | None = None
 
@@ -144,14 +150,13 @@ def find_floor(
     tests/guideline/test_floor.py
     """
     largest: dict[str, FloorForce] = {}
-    head: HeadSpan | None = None
     for at in _list_tried(nets, inclinations):
         for case in list_load_cases(model, at.net, altitude):
             result = solve_load_case(model, at.net, case, at.glide_factor)
             if result.anchors is None or result.load is None or result.pull is None:
                 return Floor(reason=_explain(at, result))
-            head = _extend(head, result.anchors)
-            for member, force in result.anchors.member_forces.items():
+            sizes = {**result.anchors.member_forces, **_measure(result.anchors)}
+            for member, force in sizes.items():
                 known = largest.get(member)
                 if known is None or force > known.force:
                     largest[member] = FloorForce(
@@ -162,24 +167,28 @@ def find_floor(
                         load=result.load,
                         pull=result.pull,
                     )
-    return Floor(forces=tuple(largest.values()), head=head)
+    forces = [one for key, one in largest.items() if key not in SPANS]
+    spans = [one for key, one in largest.items() if key in SPANS]
+    return Floor(forces=tuple(forces), spans=tuple(spans), head=_read_span(spans))
 
 
-def _extend(known: HeadSpan | None, anchors: AnchorForces) -> HeadSpan:
-    """Span that a further case lies in, too."""
-    x, y = anchors.head_pull
+def _measure(anchors: AnchorForces) -> dict[str, float]:
+    """Sizes at head and foot of which the largest counts, by the keys `SPANS`."""
     foot = anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
     tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
-    if known is None:
-        known = HeadSpan(
-            pull=0.0, least_tension=tension, foot_least=turn, foot_largest=turn
-        )
+    sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
+    return dict(zip(SPANS, sizes, strict=True))
+
+
+def _read_span(spans: Sequence[FloorForce]) -> HeadSpan | None:
+    """Span of all states tried; None of none."""
+    if not spans:
+        return None
+    sizes = {one.member: one.force for one in spans}
+    pull, tension, least, largest = (sizes[key] for key in SPANS)
     return HeadSpan(
-        pull=max(known.pull, math.hypot(x, y)),
-        least_tension=min(known.least_tension, tension),
-        foot_least=min(known.foot_least, turn),
-        foot_largest=max(known.foot_largest, turn),
+        pull=pull, least_tension=-tension, foot_least=-least, foot_largest=largest
     )
 
 

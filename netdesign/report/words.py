@@ -14,6 +14,8 @@ from functools import lru_cache
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
+from netdesign.site.columns.fields import normalise
+from netdesign.site.model import InputEcho
 from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
 from netdesign.words.message import Argument, Message
@@ -135,6 +137,15 @@ def show_quantity(value: float | str, unit: str) -> str:
     shown = show_unit(unit)
     gap = "" if shown == "°" else " "
     return show_text(f"{text}{gap}{shown}" if shown != MISSING else text)
+
+
+def understand(echo: InputEcho, words: Words) -> float | str:
+    """An input as understood; a word of its column in the reader's language."""
+    if isinstance(echo.value, float) or not isinstance(echo.label, Message):
+        return echo.value
+    column = echo.label.key.rpartition(".")[2]
+    key = f"choice.{column}.{normalise(echo.value)}"
+    return words(key) if key in load_texts(words.language) else echo.value
 
 
 def show_share(value: float | None) -> str:

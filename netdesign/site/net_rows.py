@@ -407,7 +407,7 @@ def _find_resistance(
     return Resistance(
         member=member,
         mode=mode,
-        value=resistance.si if is_given else None,
+        value=resistance.si if is_given and not tests else None,
         basis="tested" if tests else basis if is_given else "",
         type_id=reading.word,
         source=place or reading.field.refers_to,

@@ -197,8 +197,9 @@ def _read_types(table: Table | None, findings: list[Finding]) -> dict[str, Row] 
         if basis and basis.state == "blank" and row["pull_out"].state == "given":
             rule = say("type.basis_empty", place=row["pull_out"].place)
             refuse(basis, rule, basis.field.accepted, findings)
-        check_tests(row, findings)
         check_support_types(row, findings)
     filled = [fill_in_resistances(row, findings) for row in rows]
+    for row in filled:  # a computed resistance beside tests is one too many, too
+        check_tests(row, findings)
     by_id = index_by_id(filled, findings)
     return by_id if "id" in table.columns else None

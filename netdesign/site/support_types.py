@@ -148,7 +148,8 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
     section = PostSection(
         width=line["post_width"].si,
         length=line["buckling_length"].si,
-        moment_resistance=line["section_modulus"].si * line["yield_strength"].si,
+        modulus=line["section_modulus"].si,
+        strength=line["yield_strength"].si,
         critical=buckling.critical,
         buckling=buckling.value,
     )
@@ -177,8 +178,23 @@ def _read_sliding(named: Reading, line: Row | None) -> Resistance:
     )
 
 
+def _check_lever(row: Row, findings: list[Finding]) -> None:
+    """Refuse a lever arm of an anchor that is not said to bend."""
+    if "lever_arm" not in row or row["lever_arm"].state != "given":
+        return
+    lever, kind = row["lever_arm"], row["kind"]
+    if kind.state == "faulty" or kind.word in _BENT:
+        return
+    rule = say("type.needs_more", names=(kind.field.name,))
+    if kind.word:
+        rule = say("type.beside", name=kind.field.name, place=kind.place)
+    bent = tuple(kind.field.name_word(word) for word in _BENT)
+    refuse(lever, rule, say("accepted.words", words=bent), findings)
+
+
 def check_support_types(row: Row, findings: list[Finding]) -> None:
-    """Refuse a type that gives one thing twice, or the inside of no tube."""
+    """Refuse what is given twice, the inside of no tube, the lever of what turns."""
+    _check_lever(row, findings)
     if "base_friction" in row and row["base_friction"].state == "given":
         beside = row["sliding"]
         if beside.state == "given":

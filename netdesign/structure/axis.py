@@ -1,4 +1,4 @@
-"""Pull on an anchor against its axis: angle, and parts of the force."""
+"""Direction of a pull on an anchor, and its angle to the axis."""
 
 from __future__ import annotations
 
@@ -10,23 +10,6 @@ from netdesign.guards import require_within
 from netdesign.structure.members import Member
 
 LEAST_AXIS, MOST_AXIS = math.radians(-30.0), math.radians(90.0)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AxisParts:
-    """A force on the ground against an anchor's axis.
-
-    Attributes
-    ----------
-    angle : float
-        Between force and axis, 0 to pi [rad].
-    along, across : float
-        Parts of the force; along is negative where it pushes the anchor [N].
-    """
-
-    angle: float
-    along: float
-    across: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,30 +65,24 @@ def measure_pull(x: float, y: float, anchor: str) -> float:
     return math.atan2(y, facing * x)
 
 
-def resolve_on_axis(x: float, y: float, axis: float, anchor: str) -> AxisParts:
-    """Parts of a force along and across an anchor; structure/THEORY.md, eq. (S13).
+def turn_by_splay(inclination: float, splay: float) -> float:
+    """Inclination of a guy that leaves the section; structure/THEORY.md, eq. (S12).
 
     Parameters
     ----------
-    x, y : float
-        Force on the ground, X downslope and Y out of it [N].
-    axis : float
-        Inclination of the anchor, counted as `measure_pull` does [rad].
-    anchor : str
-        Which of the three it is.
+    inclination : float
+        Of the guy's line in the section, 0 to pi [rad].
+    splay : float
+        beta, between the guy and the section [rad].
 
-    Raises
-    ------
-    ModelError
-        If the axis is out of its range.
+    Returns
+    -------
+    float
+        Of the guy in space, against the slope surface [rad].
     """
-    require_within("axis inclination", axis, LEAST_AXIS, MOST_AXIS, "rad")
-    size = math.hypot(x, y)
-    turn = measure_pull(x, y, anchor) - axis
-    angle = abs(math.remainder(turn, 2.0 * math.pi))
-    return AxisParts(
-        angle=angle, along=size * math.cos(angle), across=size * math.sin(angle)
-    )
+    rises = math.cos(splay) * math.sin(inclination)
+    found = math.asin(rises)
+    return found if inclination <= 0.5 * math.pi else math.pi - found
 
 
 def find_pull_range(directions: Iterable[float]) -> PullRange | None:

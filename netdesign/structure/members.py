@@ -29,8 +29,6 @@ REPORTED_MEMBERS = (
     Member.DOWNHILL_GUY,
     Member.POST,
 )
-# Pressed, not pulled: they carry nothing along the row.
-PUSHED_MEMBERS = (Member.POST, Member.POST_BASE)
 # Points of a support on the ground, in their order, and what brings the force there.
 BROUGHT_BY: Mapping[str, Member] = MappingProxyType(
     {

@@ -100,6 +100,8 @@ class Demand:
             added_low_kN=kilonewton_from_newton(self.load.added.low),
             added_high_kN=kilonewton_from_newton(self.load.added.high),
             sideways=self.load.sideways,
+            solved_low_kN=kilonewton_from_newton(self.solved.low),
+            solved_high_kN=kilonewton_from_newton(self.solved.high),
         )
 
 

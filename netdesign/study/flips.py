@@ -10,108 +10,23 @@ ranges; it limits the snow height by its closed form.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 
-from netdesign.envelope.ranges import Case, Ranges
+from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import compute_thickness
-from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.probe import Probe
 from netdesign.study.records import ChangeRecord
+from netdesign.study.target import TRIED_DENSITIES, Move, Target, list_near
 from netdesign.units import degree_from_radian, radian_from_degree
 from netdesign.words.message import Message, say
 
 CLOSE = 0.9  # utilisation from which a passing check is told where it flips
-_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
 _LEAST_SHARE = 0.5  # of the snow height, down to which a search goes
 _STEPS = {"density": 1.0, "thickness": 0.01, "friction": 0.1}  # told to this
 _MOST_ROUNDS, _MOST_STEPS = 4, 14
-_RIVAL = 0.9  # share of the governing force from which a case may take over
-_BESIDE = 0.13  # of every range: an eighth, and its rounding
 _NEAR = 2e-3  # a root is found when the utilisation lies this close below 1
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Target:
-    """One check as a function of a solved case.
-
-    Attributes
-    ----------
-    row, ranges : NetRow, Ranges
-        What is checked, and over what.
-    member : str
-        Whose force.
-    scale : float
-        Utilisation for each N of the upper end of the solved force [1/N].
-    added, rise : float
-        Utilisation by what is added to the largest force [-], and what that grows by
-        for each such force more. Another force brings it: it is taken to stay where
-        the member's falls, and to grow as the member's does.
-    largest : float
-        Largest force of the member over the solved cases [N].
-    governing : Case
-        Case of the largest force.
-    results : sequence of CaseResult
-        Of the whole grid, or of the search.
-    use_floor : callable
-        Utilisation of a row by the guideline's load alone on a support as wide as now,
-        0 without a floor [-].
-    widen : callable
-        Width that loads the support of a changed row [m]: the end effect grows with
-        the glide factor.
-    """
-
-    row: NetRow
-    ranges: Ranges
-    member: Member
-    scale: float
-    governing: Case
-    results: Sequence[CaseResult]
-    use_floor: Callable[[NetRow], float] = lambda _: 0.0
-    widen: Callable[[NetRow], float] = lambda _: 1.0
-    added: float = 0.0
-    rise: float = 0.0
-    largest: float = 0.0
-
-    @property
-    def is_slack(self) -> bool:
-        """Slackness: the member carries nothing in any solved case."""
-        return all(not self.utilisation(result) for result in self.results)
-
-    def utilisation(
-        self, result: CaseResult, row: NetRow | None = None
-    ) -> float | None:
-        """Upper end of the utilisation in a case [-]; None if it has no result.
-
-        ``row`` is that of the case, where it was changed.
-        """
-        if not result.is_converged:
-            return None
-        used = self.use(result.member_forces[self.member].high)
-        return used * self._compare_width(row or self.row)
-
-    def use_least(self, row: NetRow) -> float:
-        """Utilisation of a changed row by the guideline's load alone [-]."""
-        return self.use_floor(row) * self._compare_width(row)
-
-    def use(self, force: float) -> float:
-        """Utilisation by a force of the member [-]."""
-        growth = max(0.0, force / self.largest - 1.0) if self.largest else 0.0
-        return self.scale * force + self.added + self.rise * growth
-
-    def _compare_width(self, moved: NetRow) -> float:
-        """Width that loads the support of a moved row over that of the row as it is."""
-        row = self.row
-        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
-            return 1.0
-        return self.widen(moved) / self.widen(row)
-
-
-Build = Callable[[float, Case], tuple[NetRow, Case]]
 
 
 def find_spacing_change(
@@ -151,18 +66,14 @@ def find_density_change(target: Target, probe: Probe) -> ChangeRecord:
 
     The guideline's load has densities of its own and stays.
     """
-    if target.use_least(target.row) > 1.0:
+    if target.use_least() > 1.0:
         return _refuse_by_floor("snow_density", "kg/m3", target.ranges["density"].high)
-
-    def build(value: float, case: Case) -> tuple[NetRow, Case]:
-        return target.row, replace(case, density=value)
-
     bound, solves, note = _search(
         target,
         probe,
-        build,
+        "density",
         start=target.ranges["density"].high,
-        limits=_DENSITIES,
+        limits=TRIED_DENSITIES,
         step=_STEPS["density"],
         power=1.5,
     )
@@ -187,13 +98,6 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
     Where the thickness ranges, all of it has to stay below. Coupled force and floor
     both rise with it; the lower of the two limits counts.
     """
-
-    def build(value: float, case: Case) -> tuple[NetRow, Case]:
-        others = {k: v for k, v in case.values.items() if k != "snow_height"}
-        if len(others) < len(case.values) or "thickness" in others:
-            case = Case.of({**others, "thickness": value})
-        return replace(target.row, snow_thickness=value), case
-
     thickness = target.row.snow_thickness
     least, most = _LEAST_SHARE * thickness, target.row.net_height
     highest = _find_floor_height(target, least, most)
@@ -205,7 +109,7 @@ def find_height_change(target: Target, probe: Probe) -> ChangeRecord:
         bound, solves, note = _search(
             target,
             probe,
-            build,
+            "thickness",
             start=min(thickness, highest),
             limits=(least, highest),
             step=_STEPS["thickness"],
@@ -248,8 +152,8 @@ def _find_floor_height(target: Target, least: float, most: float) -> float | Non
     """
 
     def is_met(thickness: float) -> bool:
-        row = replace(target.row, snow_thickness=thickness)
-        return target.use_least(row) <= 1.0
+        move = Move(name="thickness", value=thickness)
+        return target.use_least(move) <= 1.0
 
     if is_met(most):
         return most
@@ -270,7 +174,7 @@ def find_friction_change(target: Target, probe: Probe) -> ChangeRecord | None:
     does not.
     """
     now = degree_from_radian(target.governing.friction_angle)
-    if target.use_least(target.row) > 1.0:
+    if target.use_least() > 1.0:
         return _refuse_by_floor("friction_angle", "deg", now)
     samples = _list_friction_angles(target)
     worst = [_worst_at(target, angle) for angle in samples]
@@ -327,23 +231,17 @@ def _bisect_friction(
     target: Target, probe: Probe, passes: float, fails: float
 ) -> float:
     """Friction angle up to which every case passes, between two samples [rad]."""
-    cases = {
-        replace(case, friction_angle=target.governing.friction_angle): case
-        for case in _list_rivals(target, lambda _, case: (target.row, case), 0.0)
-    }
+    now = target.governing.friction_angle
+    cases = _list_rivals(target, Move(name="friction_angle", value=now))
     tolerance = radian_from_degree(_STEPS["friction"])
     while abs(fails - passes) > tolerance:
         middle = 0.5 * (passes + fails)
+        move = Move(name="friction_angle", value=middle)
         is_met = all(
-            _is_met(target, probe.solve(target.row, _at_friction(case, middle)))
-            for case in sorted(cases, key=lambda c: c != target.governing)
+            _is_met(target, *target.solve(probe, [case], move)) for case in cases
         )
         passes, fails = (middle, fails) if is_met else (passes, middle)
     return passes
-
-
-def _at_friction(case: Case, angle: float) -> Case:
-    return replace(case, friction_angle=angle)
 
 
 def _is_met(target: Target, result: CaseResult) -> bool:
@@ -373,7 +271,7 @@ def _lighter_snow_passes(target: Target, density: float) -> bool:
 def _search(
     target: Target,
     probe: Probe,
-    build: Build,
+    quantity: str,
     *,
     start: float,
     limits: tuple[float, float],
@@ -385,11 +283,11 @@ def _search(
     active = target.governing
     value = start
     for _ in range(_MOST_ROUNDS):
-        found = _find_root(target, probe, build, active, value, limits, power)
+        found = _find_root(target, probe, quantity, active, value, limits, power)
         if isinstance(found, Message):
             return None, probe.count - before, found
         value = _round_down(found, step)
-        worst = _find_violator(target, probe, build, value)
+        worst = _find_violator(target, probe, Move(name=quantity, value=value))
         if worst is None:
             at_end = found == limits[1]
             note = say("change.passes_to_end") if at_end else None
@@ -400,66 +298,32 @@ def _search(
     return None, probe.count - before, say("change.not_settled")
 
 
-def _find_violator(
-    target: Target, probe: Probe, build: Build, value: float
-) -> Case | Message | None:
+def _find_violator(target: Target, probe: Probe, move: Move) -> Case | Message | None:
     """Rival case that still fails most at a value; a reason if one is unsolved."""
     worst, largest = None, 1.0
-    rivals = _list_rivals(target, build, value)
-    results = probe.solve_all([(*build(value, case), probe.law) for case in rivals])
+    rivals = _list_rivals(target, move)
+    results = target.solve(probe, rivals, move)
     for case, result in zip(rivals, results, strict=True):
-        utilisation = target.utilisation(result, build(value, case)[0])
+        utilisation = target.utilisation(result, move)
         if utilisation is None:
             reason = result.reason or result.outcome.message
-            return say("change.rival_without_result", value=value, reason=reason)
+            return say("change.rival_without_result", value=move.value, reason=reason)
         if utilisation > largest:
             worst, largest = case, utilisation
     return worst
 
 
-def _list_rivals(target: Target, build: Build, value: float) -> list[Case]:
-    """Cases near to governing at the given value, each scene once."""
-    scenes = {build(value, case)[1]: case for case in list_near(target)}
-    return list(scenes.values())
-
-
-def list_near(target: Target) -> list[Case]:
-    """Cases whose force is near the largest, that first; of a search some of them."""
-    forces = {
-        result.case: result.member_forces[target.member].high
-        for result in target.results
-        if result.is_converged
-    }
-    least = _RIVAL * max(forces.values())
-    near = [case for case in forces if forces[case] >= least]
-    near.sort(key=lambda case: (-forces[case], case))
-    return near if target.ranges.is_grid else _thin_out(near, target.ranges)
-
-
-def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
-    """Cases without those close beside an earlier one.
-
-    A search crowds its cases around the largest force; what lies between those that
-    are left is in the margin of the target.
-    """
-    kept: list[Case] = []
-    for case in cases:
-        if not any(_is_beside(case, other, ranges) for other in kept):
-            kept.append(case)
-    return kept
-
-
-def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
-    return all(
-        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
-        for axis, span in ranges.intervals
-    )
+def _list_rivals(target: Target, move: Move) -> list[Case]:
+    """Cases near to governing, those that the move makes equal only once."""
+    near = list_near(target)
+    moved = {case.with_value(move.name, move.value): case for case in reversed(near)}
+    return list(reversed(moved.values()))
 
 
 def _find_root(
     target: Target,
     probe: Probe,
-    build: Build,
+    quantity: str,
     case: Case,
     start: float,
     limits: tuple[float, float],
@@ -474,8 +338,9 @@ def _find_root(
     known_pass, known_fail = False, False
     value, last = min(max(start, passes), fails), None
     for _ in range(_MOST_STEPS):
-        row, at = build(value, case)
-        utilisation = target.utilisation(probe.solve(row, at), row)
+        move = Move(name=quantity, value=value)
+        (result,) = target.solve(probe, [case], move)
+        utilisation = target.utilisation(result, move)
         if utilisation is None:
             return say("change.case_without_result", value=value)
         if utilisation <= 0.0:

@@ -42,13 +42,9 @@ def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
 
     The load knows no length of the snowpack.
     """
-    names = [
-        name
-        for name in ranges.further
-        if name in ranges.axes and name != "upslope_length"
-    ]
+    names = [name for name in ranges.further if name != "upslope_length"]
     usual = {name: ranges[name].low for name in USUAL}
-    ends = product(*((ranges[name].low, ranges[name].high) for name in names))
+    ends = product(*({ranges[name].low, ranges[name].high} for name in names))
     return [
         row.at(Case.of({**usual, **dict(zip(names, one, strict=True))})) for one in ends
     ]

@@ -19,9 +19,9 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.study.flips import Target, list_near
 from netdesign.study.probe import Probe
 from netdesign.study.records import HoldRecord
+from netdesign.study.target import TRIED_DENSITIES, Move, Target, list_near
 from netdesign.words.message import Message, say
 
 # Ends of a search; half and twice the given value where nothing else is said.
@@ -29,7 +29,6 @@ _FACTOR = 2.0
 _MORE_SLACK = 0.1
 _ANGLE = math.radians(15.0)
 _LEAST_GLIDE, _LEAST_LENGTH = 1.01, 0.3  # [-]; length over the snow thickness
-_DENSITIES = (150.0, 600.0)  # [kg/m3]
 
 _SERVES = 0.9  # share of its largest force that a member carries in a case it shares
 _CLEAR = 0.85  # utilisation up to which the end of a search needs no confirmation
@@ -37,8 +36,10 @@ _AIM, _CLOSE = 0.975, 0.92  # utilisation aimed at, and near enough below 1
 _AIM_SHARE, _CLOSE_SHARE = 0.25, 0.6  # or these shares of what a check has left
 _LEAST_USED = 1e-3  # of a member that is slack at one end
 _MOST_STEPS = 4
+_NEAREST = 2  # cases in which a limit is confirmed: the governing one and its rival
 _BACK = 0.75
 _DIGITS = 3  # of a limit that is told
+_FINEST = 1e-3  # of the search's length: no limit is told finer than its decade
 _DECIMALS = 9  # of the ends of a search
 
 
@@ -52,37 +53,14 @@ class Span:
     high: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HeldCheck:
-    """One check whose limits are looked for.
-
-    Attributes
-    ----------
-    target : Target
-        Check as a function of a solved case and of the row.
-    """
-
-    target: Target
-
-    @property
-    def largest(self) -> float:
-        """Largest force of the member over the solved cases [N]."""
-        solved = (one for one in self.target.results if one.is_converged)
-        return max(self.force(one) for one in solved)
-
-    def force(self, result: CaseResult) -> float:
-        """Upper end of the member's force in a case [N]."""
-        return result.member_forces[self.target.member].high
-
-
 def find_holds(
-    checks: Mapping[str, HeldCheck], probe: Probe
+    checks: Mapping[str, Target], probe: Probe
 ) -> dict[str, list[HoldRecord]]:
     """Limits of every single quantity for every check of one row, by the check's id.
 
     Parameters
     ----------
-    checks : mapping of str to HeldCheck
+    checks : mapping of str to Target
         Checks of one row that have a force and a resistance.
     probe : Probe
         Solves what is asked for, each once.
@@ -93,22 +71,29 @@ def find_holds(
     """
     if not checks:
         return {}
-    one = next(iter(checks.values())).target
+    one = next(iter(checks.values()))
     spans = list_spans(one.row, one.ranges)
     serving = _choose_cases(checks)
     shared = list(dict.fromkeys(case.case for case in serving.values()))
     probe.solve_all(
         [
-            (one.row, move_case(case, span.name, value), probe.law)
+            (one.row, case.with_value(span.name, value), probe.law)
             for span in spans
             for case in shared
             for value in (span.low, span.high)
         ]
     )
     return {
-        name: [_Line(check, span, serving[name], probe).record() for span in spans]
+        name: _find_limits(check, spans, serving[name], probe)
         for name, check in checks.items()
     }
+
+
+def _find_limits(
+    check: Target, spans: Sequence[Span], serving: CaseResult, probe: Probe
+) -> list[HoldRecord]:
+    near = list_near(check)[:_NEAREST]
+    return [_Line(check, near, span, serving, probe).record() for span in spans]
 
 
 def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:
@@ -142,7 +127,7 @@ def list_spans(row: NetRow, ranges: Ranges) -> list[Span]:
 def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
     """Ends of the search of a quantity, SI."""
     if name == "density":
-        return _DENSITIES
+        return TRIED_DENSITIES
     if name in ("friction_angle", "inclination"):
         return max(0.0, now - _ANGLE), now + _ANGLE
     if name == "slack":
@@ -157,23 +142,16 @@ def _find_ends(name: str, now: float, row: NetRow) -> tuple[float, float]:
     return now / _FACTOR, now * _FACTOR
 
 
-def move_case(case: Case, name: str, value: float) -> Case:
-    """Case with a quantity of its own; another name of the same one goes."""
-    twins = {one for pair in ONE_QUANTITY if name in pair for one in pair}
-    kept = {k: v for k, v in case.values.items() if k not in twins}
-    return Case.of({**kept, name: value})
-
-
-def _choose_cases(checks: Mapping[str, HeldCheck]) -> dict[str, CaseResult]:
+def _choose_cases(checks: Mapping[str, Target]) -> dict[str, CaseResult]:
     """For each check a case in which its member carries about its largest force.
 
     As few as do: members share a case where they can.
     """
     chosen: dict[str, CaseResult] = {}
     for name, check in checks.items():
-        least, at = _SERVES * check.largest, check.target.governing
+        least, at = _SERVES * check.largest, check.governing
         serves = (one for one in chosen.values() if check.force(one) >= least)
-        own = next(one for one in check.target.results if one.case == at)
+        own = next(one for one in check.results if one.case == at)
         chosen[name] = next(serves, own)
     return chosen
 
@@ -182,18 +160,22 @@ class _Line:
     """One check along one quantity."""
 
     def __init__(
-        self, check: HeldCheck, span: Span, serving: CaseResult, probe: Probe
+        self,
+        target: Target,
+        near: Sequence[Case],
+        span: Span,
+        serving: CaseResult,
+        probe: Probe,
     ) -> None:
-        self._check, self._target = check, check.target
+        self._target, self._near = target, near
         self._span, self._probe = span, probe
         self._parameter = PARAMETERS[span.name]
         self._serving = serving.case
         # what the serving case lacks of the largest force
-        carried = check.force(serving)
-        self._lack = check.largest / carried if carried else 1.0
-        self._near = list_near(self._target)[:2]
-        coupled = self._target.use(check.largest)
-        self._used = max(coupled, self._target.use_least(self._target.row))
+        carried = target.force(serving)
+        self._lack = target.largest / carried if carried else 1.0
+        coupled = target.use(target.largest)
+        self._used = max(coupled, self._target.use_least())
         self._passes = self._used <= 1.0
         self._note: Message | None = None
 
@@ -235,20 +217,14 @@ class _Line:
         self, cases: Sequence[Case], value: float, lack: float = 1.0
     ) -> float | None:
         """Largest utilisation in some cases with a value; None without a result."""
-        wanted = [
-            (self._target.row, move_case(case, self._span.name, value), self._probe.law)
-            for case in cases
-        ]
-        moved = wanted[0][0].at(wanted[0][1])
-        found = [
-            self._target.utilisation(one, moved)
-            for one in self._probe.solve_all(wanted)
-        ]
+        move = Move(name=self._span.name, value=value)
+        results = self._target.solve(self._probe, cases, move)
+        found = [self._target.utilisation(one, move) for one in results]
         if any(one is None for one in found):
             self._note = say("hold.no_result", value=self._parameter.show(value))
             return None
         coupled = lack * max(one for one in found if one is not None)
-        return max(coupled, self._target.use_least(moved))
+        return max(coupled, self._target.use_least(move))
 
     def _refine(
         self, passing: tuple[float, float], failing: tuple[float, float]
@@ -291,7 +267,14 @@ class _Line:
         else:
             value = (math.sqrt(good) * (1.0 - share) + math.sqrt(bad) * share) ** 2
         shown = self._parameter.show(value)
-        step = 10.0 ** (math.floor(math.log10(abs(shown))) - _DIGITS + 1)
         rounding = math.ceil if good > bad else math.floor
+        step = self._find_step(shown)
         told = self._parameter.read(round(rounding(shown / step) * step, 12))
         return told if min(good, bad) < told < max(good, bad) else None
+
+    def _find_step(self, shown: float) -> float:
+        """Power of ten to whose multiples a limit is rounded."""
+        show = self._parameter.show
+        finest = _FINEST * abs(show(self._span.high) - show(self._span.low))
+        of_digits = math.floor(math.log10(abs(shown))) - _DIGITS + 1
+        return 10.0 ** max(of_digits, math.floor(math.log10(finest)))

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from types import MappingProxyType
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
-from netdesign.site.model import Site
+from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 from netdesign.study.cases import CheckRun
 from netdesign.study.floor import find_row_floor, record_floor
+from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import find_loads
 from netdesign.study.notes import (
     list_case_notes,
@@ -31,6 +35,7 @@ from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_provenance import record_profile, record_provenance
+from netdesign.study.record_statics import record_held_sideways, record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
     SCHEMA,
@@ -40,7 +45,7 @@ from netdesign.study.records import (
     Study,
     list_verdicts,
 )
-from netdesign.study.row_checks import RowCheck, check_row
+from netdesign.study.row_checks import check_row
 from netdesign.units import newton_from_kilonewton
 
 
@@ -86,6 +91,7 @@ def judge_site(
                 solved=of_row,
                 standard=standard,
                 law=run.creep_law,
+                find_floor=_remember_floor(row, standard),
                 probe=probe,
                 on_check=on_check,
             ),
@@ -106,10 +112,17 @@ def judge_site(
     )
 
 
+def _remember_floor(
+    row: NetRow, standard: Standard
+) -> Callable[[Ranges], Floor | None]:
+    """Floor of a row as a function of its ranges, each found once."""
+    return cache(lambda ranges: find_row_floor(row, ranges, standard))
+
+
 def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     row, solved = task.row, task.solved
     extremes = solved.extremes
-    floor = find_row_floor(row, task.site.ranges, task.standard)
+    floor = task.find_floor(task.site.ranges)
     loads = find_loads(row, solved.results, extremes, task.standard, floor)
     checks = check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
@@ -142,6 +155,10 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
+        statics=record_statics(row, solved.results, extremes, floor),
+        held_sideways=record_held_sideways(
+            row, solved.results, extremes, loads.sideways, floor
+        ),
         envelope=(
             record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
             if isinstance(solved, RowEnvelope)

@@ -17,11 +17,13 @@ from netdesign.structure.axis import (
     PullRange,
     find_pull_range,
     measure_pull,
+    turn_by_splay,
     turn_sideways,
 )
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
+from netdesign.structure.splay import Guys
 from netdesign.study.records import PullRecord
 from netdesign.study.sideways import place_row
 from netdesign.units import degree_from_radian, radian_from_degree
@@ -85,7 +87,8 @@ def list_pulls(
     points = [place_row(row, one) for one in solved]
     feet = [one.anchors.foot_anchor for one in solved if one.anchors is not None]
     directions = {
-        anchor: [_measure_guy(place, anchor) for place in points] for anchor in ANCHORS
+        anchor: [_measure_guy(place, anchor, row.guys) for place in points]
+        for anchor in ANCHORS
     }
     directions[Member.FOOT_ANCHOR] = [
         measure_pull(force.x, force.y, Member.FOOT_ANCHOR) for force in feet
@@ -120,12 +123,12 @@ def find_pull(
     return next(iter(own or found), None)
 
 
-def _measure_guy(points: SupportPoints, anchor: Member) -> float:
-    """Direction of a guy's line at its anchor, slack or not."""
+def _measure_guy(points: SupportPoints, anchor: Member, guys: Guys) -> float:
+    """Direction of a guy's line at its anchor, slack or not; in its own plane."""
     is_uphill = anchor == Member.UPHILL_ANCHOR
     end = points.uphill_anchor if is_uphill else points.downhill_anchor
     x, y = points.head[0] - end[0], points.head[1] - end[1]
-    return measure_pull(x, y, anchor)
+    return turn_by_splay(measure_pull(x, y, anchor), guys.splay or 0.0)
 
 
 def record_pulls(pulls: Sequence[AnchorPull]) -> list[PullRecord]:

@@ -222,6 +222,8 @@ class ActionRecord:
     added_low_kN: float = 0.0
     added_high_kN: float = 0.0
     sideways: SidewaysRecord | None = None  # what ``added_kN`` follows from
+    solved_low_kN: float | None = None  # ends of the band of ``solved_kN``;
+    solved_high_kN: float | None = None  # the upper one with what may hide
     foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
     guy_part_kN: float | None = None
 
@@ -474,6 +476,78 @@ class FloorRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class GuidelineLoadRecord:
+    """The guideline's load on a net, for each metre of width: (G1) to (G9)."""
+
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float
+    snow_thickness_m: float
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    rigid_kN_per_m: float
+    parallel_kN_per_m: float
+    normal_kN_per_m: float
+    prism_kN_per_m: float
+    load_along_kN_per_m: float
+    load_across_kN_per_m: float
+    loaded_share: float  # of the chord, from the foot
+    stiffness_kN_per_m: float
+    slack: float
+    chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticsRecord:
+    """Way from the net's end pulls to the members of a support inside the row.
+
+    (S1) to (S8). X along the slope from the net's foot, Y out of the ground.
+    """
+
+    brings: list[str]  # members that it loads most; "head_pull", "foot_least", ...
+    case: CasePoint | None  # None under the guideline's load
+    load: GuidelineLoadRecord | None
+    foot_x_kN_per_m: float
+    foot_y_kN_per_m: float
+    foot_error_kN_per_m: float
+    head_x_kN_per_m: float
+    head_y_kN_per_m: float
+    head_error_kN_per_m: float
+    head_x_m: float
+    head_y_m: float
+    base_x_m: float
+    uphill_x_m: float
+    downhill_x_m: float
+    foot_anchor_kN: float  # of the net alone
+    uphill_guy_kN: float
+    downhill_guy_kN: float
+    post_kN: float
+    post_base_kN: float  # across the plate
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldSidewaysRecord:
+    """Numbers of a row that the load along it follows from: (S15) to (S18)."""
+
+    share: float
+    splay_deg: float
+    pull_low_kN: float  # largest pull on a head, over cases and floor
+    pull_kN: float
+    pull_high_kN: float
+    solved_tension_kN: float  # least of the guys at work, low end over the cases
+    hidden_tension_kN: float  # what may hide of it between the cases
+    floor_tension_kN: float | None
+    least_tension_kN: float
+    uphill_part: float  # c of the uphill guy, and the inclination where it is largest
+    uphill_at_deg: float
+    downhill_part: float
+    downhill_at_deg: float
+    post_part: float  # w
+    post_at_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class IndependentRecord:
     """One law that the drawn case must obey whatever the mesh."""
 
@@ -512,6 +586,8 @@ class RowStudy:
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
+    statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
+    held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -163,6 +163,40 @@ def test_contradictions_and_gaps_are_refused(sheets, save, refused, columns, tol
     assert told in "\n".join(str(finding) for finding in refused(save(sheets)))
 
 
+TESTS = {
+    "number of tests": 3,
+    "least tested resistance [kN]": 200,
+    "mean tested resistance [kN]": 230,
+}
+
+
+def test_tests_beside_the_dimensions_of_a_bond_are_refused(sheets, save, refused):
+    """The computed value would else be used, and shown as tested."""
+    sheets["Anchors"][1][2:] = [None, None]
+    add_columns(sheets, "Anchors", **TESTS, **BOND)
+    (finding,) = refused(save(sheets))
+    assert finding.text == "3"
+    assert "is given beside the pull-out resistance in Anchors!H2" in str(finding)
+
+
+@pytest.mark.parametrize(
+    ("kind", "told"),
+    [
+        (None, "needs more beside it: kind of anchor"),
+        ("rope anchor", "is given beside"),
+    ],
+)
+def test_a_lever_arm_of_what_does_not_bend_is_refused(
+    sheets, save, refused, kind, told
+):
+    """Without a kind its bending would be checked nowhere."""
+    columns = {"lever arm [mm]": 287.3, "kind of anchor": kind}
+    add_columns(sheets, "Anchors", **columns)
+    (finding,) = refused(save(sheets))
+    assert told in str(finding)
+    assert "bar, micropile" in str(finding)
+
+
 def test_grouting_that_a_rock_has_no_value_for_is_refused(sheets, save, refused):
     sheets["Anchors"][1][2:] = [None, None]
     add_columns(sheets, "Anchors", **(BOND | {"ground": "granite", "grouting": "B"}))

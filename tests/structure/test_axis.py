@@ -1,15 +1,14 @@
-"""Pulls against the axis of an anchor: signs, angles, parts."""
+"""Pulls against the axis of an anchor: signs, angles."""
 
 import math
 
 import pytest
 
-from netdesign.errors import ModelError
 from netdesign.structure.axis import (
     PullRange,
     find_pull_range,
     measure_pull,
-    resolve_on_axis,
+    turn_by_splay,
     turn_sideways,
 )
 from netdesign.structure.members import Member
@@ -29,36 +28,6 @@ def test_downhill_anchor_is_pulled_upslope_and_out():
     )
 
 
-@pytest.mark.parametrize(
-    ("x", "y", "axis_deg"), [(83.0, 41.0, 12.0), (-5.0, 9.0, 90.0)]
-)
-def test_parts_make_up_the_force_and_the_angle(x, y, axis_deg):
-    axis = math.radians(axis_deg)
-    found = resolve_on_axis(x, y, axis, Member.FOOT_ANCHOR)
-    along = x * math.cos(axis) + y * math.sin(axis)  # dot and cross product
-    across = abs(x * math.sin(axis) - y * math.cos(axis))
-    assert found.along == pytest.approx(along, rel=1e-12)
-    assert found.across == pytest.approx(across, rel=1e-12)
-    assert math.tan(found.angle) == pytest.approx(across / along, rel=1e-12)
-
-
-def test_push_into_the_ground_is_against_the_axis():
-    found = resolve_on_axis(-4.0, -4.0, math.radians(45), Member.UPHILL_ANCHOR)
-    assert found.angle == pytest.approx(math.pi)
-    assert found.along == pytest.approx(-math.hypot(4.0, 4.0))
-
-
-@pytest.mark.parametrize("degrees", [-30.0, 90.0])
-def test_axis_may_reach_its_bounds(degrees):
-    assert resolve_on_axis(1.0, 0.0, math.radians(degrees), Member.FOOT_ANCHOR)
-
-
-@pytest.mark.parametrize("degrees", [-30.1, 90.1, math.nan])
-def test_axis_beyond_its_bounds_is_refused(degrees):
-    with pytest.raises(ModelError, match="axis inclination"):
-        resolve_on_axis(1.0, 0.0, math.radians(degrees), Member.FOOT_ANCHOR)
-
-
 def test_range_of_directions_and_its_largest_angle():
     found = find_pull_range([0.71, 0.32, 0.55])
     assert found == PullRange(least=0.32, largest=0.71)
@@ -75,3 +44,16 @@ def test_sideways_part_turns_the_pull_in_space(share):
     vector = (math.cos(angle), math.sin(angle), share)
     expected = math.acos(vector[0] / math.sqrt(sum(one * one for one in vector)))
     assert turn_sideways(angle, share) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("splay", [0.0, 0.31, 0.77])
+@pytest.mark.parametrize("inclination", [0.42, 1.57, 2.13])
+def test_a_splayed_guy_is_flatter_than_its_section(inclination, splay):
+    """Its line in space, from the vector itself; one that leans back stays so."""
+    x, y = math.cos(inclination), math.sin(inclination)
+    vector = (x, y, math.tan(splay))  # as long in the section as it was
+    rise = vector[1] / math.sqrt(sum(one * one for one in vector))
+    found = turn_by_splay(inclination, splay)
+    assert math.sin(found) == pytest.approx(rise, rel=1e-12)
+    assert (found > math.pi / 2) == (inclination > math.pi / 2)
+    assert turn_by_splay(inclination, 0.0) == pytest.approx(inclination, rel=1e-9)

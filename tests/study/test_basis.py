@@ -17,7 +17,7 @@ from tests.small_site import RANGES, RUN, STRONG, WEAK, build_row, build_site, r
 
 LAW = RUN.creep_law.name
 LIGHT = Ranges.of(
-    **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0, count=2)}
+    **dict(RANGES.intervals) | {"density": Interval(low=213.0, high=287.0, count=3)}
 )
 SEARCHED = Ranges.of(
     density=Interval(low=270.0, high=400.0),

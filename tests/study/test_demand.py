@@ -34,9 +34,9 @@ ACCEPTED = Project(accepted_law=RUN.creep_law.name)  # the snow here is light
 PLAIN = MemberLoad()  # the force of the section as it is
 SWISS = load_standard("swiss-guideline-2007")
 RANGES = Ranges.of(
-    density=Interval(low=200.0, high=270.0, count=2),
-    friction_angle=Interval(low=math.radians(20), high=math.radians(45), count=2),
-    inclination=Interval(low=math.radians(28), high=math.radians(33), count=2),
+    density=Interval(low=200.0, high=270.0, count=3),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(45), count=3),
+    inclination=Interval(low=math.radians(28), high=math.radians(33), count=3),
 )
 LIGHT = {
     "slope_angle": math.radians(45.0),

@@ -14,12 +14,12 @@ from netdesign.snow.ground import GroundLaw
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.flips import (
-    Target,
     find_density_change,
     find_friction_change,
     find_height_change,
     find_spacing_change,
 )
+from netdesign.study.target import Move, Target
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -42,7 +42,7 @@ ROW = build_row(
 
 def smooth(row, case):
     """Rises with density, height and inclination; 1 N at the governing case."""
-    at = (case.density / 400.0) ** 1.7 * (row.snow_thickness / 2.5) ** 2.3
+    at = (case.density / 400.0) ** 1.7 * (row.at(case).snow_thickness / 2.5) ** 2.3
     return at * math.cos(math.radians(35) - case.inclination)
 
 
@@ -105,8 +105,9 @@ def test_bound_that_is_told_passes_and_the_next_step_fails():
     change = find_height_change(target, MadeUpProbe())
 
     def at(thickness):
-        row = replace(ROW, snow_thickness=thickness)
-        return target.utilisation(MadeUpProbe().solve(row, target.governing))
+        move = Move(name="thickness", value=thickness)
+        (result,) = target.solve(MadeUpProbe(), [target.governing], move)
+        return target.utilisation(result, move)
 
     assert at(change.bound) <= 1.0 < at(change.bound + 0.02)
 
@@ -117,7 +118,7 @@ def test_other_case_that_takes_over_is_found():
     def crossing(row, case):
         steep = case.inclination > math.radians(30)
         power = 2.5 if steep else 1.0
-        return (row.snow_thickness / 2.5) ** power * (1.0 if steep else 0.95)
+        return (row.at(case).snow_thickness / 2.5) ** power * (1.0 if steep else 0.95)
 
     target = a_target(1.25, crossing)
     change = find_height_change(target, MadeUpProbe(crossing))
@@ -139,7 +140,8 @@ def test_nothing_in_reach_is_told_as_such():
 
 def test_case_without_a_result_gives_no_bound():
     def fails(row, case):
-        return row.snow_thickness < 2.45 and case.inclination < math.radians(30)
+        is_thin = row.at(case).snow_thickness < 2.45
+        return is_thin and case.inclination < math.radians(30)
 
     change = find_height_change(a_target(1.3), MadeUpProbe(fails=fails))
     assert change.bound is None
@@ -253,8 +255,10 @@ def with_floor(scale, used):
     """Target whose floor is used so far at today's height, and goes with its square."""
     target = a_target(scale)
 
-    def use_floor(row):
-        return used * (row.snow_thickness / ROW.snow_thickness) ** 2
+    def use_floor(ranges):
+        is_moved = "thickness" in ranges.further
+        thickness = ranges["thickness"].high if is_moved else ROW.snow_thickness
+        return used * (thickness / ROW.snow_thickness) ** 2
 
     return replace(target, use_floor=use_floor)
 
@@ -295,8 +299,9 @@ def test_floor_that_no_height_meets_leaves_no_bound():
 
 def test_what_is_added_stays_below_the_largest_force_and_grows_beyond_it():
     """As the post's: A = w (k P / tan beta - T), of which only the first part grows."""
-    largest, scale, first, held = 173.0, 0.0041, 0.37, 0.15
-    target = replace(a_target(scale), largest=largest, added=first - held, rise=first)
+    scale, first, held = 0.0041, 0.37, 0.15
+    target = replace(a_target(scale), added=first - held, rise=first)
+    largest = target.largest
     for share in (0.0, 0.31, 1.0):
         expected = scale * share * largest + first - held
         assert target.use(share * largest) == pytest.approx(expected, rel=1e-12)

@@ -13,8 +13,8 @@ from netdesign.outcome import Outcome
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.study.flips import Target
-from netdesign.study.holds import HeldCheck, find_holds, list_spans, move_case
+from netdesign.study.holds import find_holds, list_spans
+from netdesign.study.target import Target
 from tests.small_site import build_row
 
 RANGES = Ranges.of(
@@ -108,7 +108,7 @@ def a_target(used, member="foot_anchor", forces=tauter, row=ROW, ranges=RANGES):
 
 
 def hold_of(target, quantity, probe=None, widen=alone):
-    held = HeldCheck(target=replace(target, widen=widen))
+    held = replace(target, widen=widen)
     found = find_holds({"c": held}, probe or MadeUpProbe())["c"]
     return next(one for one in found if one.quantity == quantity)
 
@@ -142,6 +142,14 @@ def test_limits_are_rounded_to_the_passing_side():
     assert hold.most <= exact
     assert hold.most == float(f"{hold.most:.3g}")
     assert hold.now == 7300.0
+
+
+@pytest.mark.parametrize("exact", [4.4e-6, 2.3e-5, 0.00113])
+def test_no_limit_is_told_finer_than_a_thousandth_of_its_search(exact):
+    """A slack of 4e-6 is no number that anybody builds."""
+    hold = hold_of(a_target(_loosen(exact) ** 0.21), "slack")
+    assert exact <= hold.least == round(hold.least, 4)
+    assert hold.least == pytest.approx(exact, abs=0.003)
 
 
 @pytest.mark.parametrize("used", [1.04, 1.2])
@@ -183,16 +191,19 @@ def test_a_rival_that_overtakes_is_confirmed_too():
 
     target = a_target(0.8, forces=crossing)
     hold = hold_of(target, "slack", MadeUpProbe(crossing))
-    worst = max(crossing(ROW, move_case(case, "slack", hold.least))["foot_anchor"]
+    worst = max(crossing(ROW, case.with_value("slack", hold.least))["foot_anchor"]
                 for case in (GOVERNING, RIVAL))  # fmt: skip
     assert 0.8 * worst <= 1.0
 
 
 def test_the_guidelines_load_limits_what_the_coupled_solve_would_allow():
     """A floor of 0.9 that rises with the thickness to the power of three."""
-    floor = replace(
-        a_target(0.6), use_floor=lambda row: 0.9 * (row.snow_thickness / 2.47) ** 3
-    )
+
+    def use_floor(ranges):
+        is_moved = "thickness" in ranges.further
+        return 0.9 * (ranges["thickness"].high / 2.47 if is_moved else 1.0) ** 3
+
+    floor = replace(a_target(0.6), use_floor=use_floor)
     hold = hold_of(floor, "thickness_m")
     assert hold.most <= 2.47 * 0.9 ** (-1 / 3)
     assert hold.most == pytest.approx(2.47 * 0.9 ** (-1 / 3), rel=0.03)
@@ -204,7 +215,7 @@ def test_members_share_solves():
     probe, targets = MadeUpProbe(), {}
     for k, used in enumerate((0.21, 0.22, 0.23, 0.24)):
         target = a_target(used, ("foot_anchor", "post")[k % 2])
-        targets[str(k)] = HeldCheck(target=target)
+        targets[str(k)] = target
     find_holds(targets, probe)
     assert probe.count <= 2 * len(list_spans(ROW, RANGES)) + 6
 
@@ -244,7 +255,7 @@ def test_every_search_holds_what_is_given():
 
 def test_a_moved_case_drops_the_other_name_of_the_quantity():
     case = Case.of({**GOVERNING.values, "snow_height": 3.0, "slack": 0.02})
-    moved = move_case(case, "thickness", 2.2)
+    moved = case.with_value("thickness", 2.2)
     assert dict(moved.others) == {"slack": 0.02, "thickness": 2.2}
     assert moved.density == GOVERNING.density
     assert math.isclose(ROW.at(moved).snow_thickness, 2.2)

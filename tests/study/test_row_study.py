@@ -19,7 +19,7 @@ from tests.small_site import build_row, build_site
 RUN = CheckRun(settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]))
 RANGES = Ranges.of(
     density=Interval(low=270.0, high=400.0, count=3),
-    friction_angle=Interval(low=math.radians(20), high=math.radians(40), count=2),
+    friction_angle=Interval(low=math.radians(20), high=math.radians(40), count=3),
     inclination=Interval(low=math.radians(30), high=math.radians(30), count=1),
 )
 WEAK = 150e3  # [N], the foot anchor's tendon; all else is strong

@@ -86,7 +86,7 @@ def render_html(
 
     words = Words(language)
     environment = build_environment(language)
-    environment.filters["subscripts"] = _write_subscripts
+    environment.filters["subscripts"] = write_subscripts
     environment.filters["unbroken"] = _keep_units
     view = view or build_view(study, language)
     is_full = detail == "full"
@@ -137,11 +137,11 @@ def _draw_row(
     return {**figures, "monitoring_note": note}
 
 
-def _write_subscripts(symbols: str) -> Markup:
+def write_subscripts(symbols: str) -> Markup:
     """``E_d`` with a lowered d; everything else is escaped."""
     from markupsafe import Markup, escape
 
-    lowered = re.sub(r"_(\w)", r"<sub>\1</sub>", str(escape(symbols)))
+    lowered = re.sub(r"_(\w+)", r"<sub>\1</sub>", str(escape(symbols)))
     return Markup(lowered)
 
 

@@ -20,6 +20,7 @@ from netdesign.report.words import (
     show_own,
     show_quantity,
     show_text,
+    understand,
 )
 from netdesign.study.notes import tell_evidence
 from netdesign.study.records import Study
@@ -91,7 +92,7 @@ def _group_defaults(
         for echo in inputs:
             is_kind = isinstance(echo.value, float) or not of_numbers
             if echo.cell == DEFAULT and echo.value != "" and is_kind:
-                shown = show_quantity(echo.value, echo.unit)
+                shown = show_quantity(understand(echo, words), echo.unit)
                 label = words.show(echo.label)
                 found.setdefault((label, shown), []).append(place)
     return {key: show_text(", ".join(names)) for key, names in found.items()}

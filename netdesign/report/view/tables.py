@@ -33,6 +33,7 @@ from netdesign.report.words import (
     show_text,
     show_unit,
     show_verdict,
+    understand,
 )
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
@@ -177,7 +178,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
                 text_cell(
                     words.show(echo.derivation) if echo.derivation else echo.text
                 ),
-                given_cell(echo.value),
+                given_cell(understand(echo, words)),
                 text_cell(show_unit(echo.unit)),
                 text_cell(
                     words("status.default") if echo.cell == DEFAULT else echo.cell

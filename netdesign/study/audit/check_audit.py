@@ -177,12 +177,12 @@ def _audit_action(
     if check.action_factor is not None:
         high = max(record.coupled_kN, floor) * factor
         pairs.append(("demand_high_kN", check.demand_high_kN, high))
+        low = record.share * (record.solved_low_kN or 0.0) + record.added_low_kN
+        low = max(low * on_row, floor) * factor
+        pairs.append(("demand_low_kN", check.demand_low_kN, low))
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
-        if check.action_factor is not None:
-            low = (record.share * extreme.low_kN + record.added_low_kN) * on_row
-            low = max(low, floor) * factor
-            pairs.append(("demand_low_kN", check.demand_low_kN, low))
+        pairs.append(("solved_low_kN", record.solved_low_kN, extreme.low_kN))
         yield from _audit_high_end(place, record, extreme, on_row)
         if not same_point(check.case, extreme.case):
             yield say("audit.other_case", place=place)

@@ -46,7 +46,7 @@ from netdesign.study.pulls import (
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
-from netdesign.study.row_checks import (
+from netdesign.study.settle import (
     judge_forces,
     list_checked,
     place_check,
@@ -343,7 +343,6 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
-    gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
     settled = settle_check(basis.site, basis.row, result)
@@ -365,7 +364,8 @@ def _act_again(
     high /= effects.factor(check.member, width)
     load = _read_load(stored)
     high = (high - load.added.high) / load.share if load.share else value
-    solved = Band(low=0.0, value=value, high=max(value, high))
+    low = newton_from_kilonewton(stored.solved_low_kN or 0.0)
+    solved = Band(low=min(max(low, 0.0), value), value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
     demand = build_demand(effects, check.member, width, solved, least, load)
     return replace(

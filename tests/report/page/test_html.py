@@ -42,6 +42,18 @@ def test_title_cannot_leave_the_style_sheet():
     assert "<script" not in page
 
 
+@pytest.mark.parametrize(
+    ("symbols", "lowered"),
+    [
+        ("E_d = γ_E · E", "E<sub>d</sub> = γ<sub>E</sub> · E"),
+        ("f_R · T_min + E_g0", "f<sub>R</sub> · T<sub>min</sub> + E<sub>g0</sub>"),
+        ("b_e/b <", "b<sub>e</sub>/b &lt;"),
+    ],
+)
+def test_the_whole_index_of_a_symbol_is_lowered(symbols, lowered):
+    assert html.write_subscripts(symbols) == lowered
+
+
 def test_ids_are_unique(page):
     ids = PageReader(page).ids
     assert len(ids) == len(set(ids))

@@ -4,6 +4,7 @@ import pytest
 
 from netdesign.report.view.tables import build_inputs
 from netdesign.report.words import Words
+from netdesign.site.columns.all_tables import SEARCHED, SHEETS
 from netdesign.site.model import InputEcho
 from netdesign.words.message import say
 
@@ -40,3 +41,30 @@ def test_any_other_input_shows_what_was_typed():
     )
     (row,) = build_inputs([typed], "", Words("en")).rows
     assert row[1].text == "0,03"
+
+
+WORDS = [
+    (field, word) for plan in SHEETS for field in plan.fields for word in field.words
+]
+
+
+@pytest.mark.parametrize("language", ["en", "fr", "de"])
+@pytest.mark.parametrize(
+    ("field", "word"), WORDS, ids=[f"{field.key}-{word}" for field, word in WORDS]
+)
+def test_a_word_of_a_column_is_shown_in_the_readers_language(field, word, language):
+    echo = InputEcho(label=field.name, unit="", text="x", value=word, cell="A1")
+    words = Words(language)
+    (row,) = build_inputs([echo], "", words).rows
+    named = field.name_word(word)
+    assert row[2].text == (named if isinstance(named, str) else words.show(named))
+
+
+@pytest.mark.parametrize(
+    ("language", "shown"), [("en", "searched"), ("fr", "recherche"), ("de", "Suche")]
+)
+def test_samples_that_nobody_counted_are_searched_in_each_language(language, shown):
+    label = say("column.samples_of", name=say("column.Ranges.low"))
+    echo = InputEcho(label=label, unit="", text="", value=SEARCHED, cell="default")
+    (row,) = build_inputs([echo], "", Words(language)).rows
+    assert row[2].text == shown

@@ -1,0 +1,192 @@
+"""What would turn a check of forces: limits of single values, changes that mend it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+from netdesign.checks import (
+    CheckResult,
+    Standard,
+)
+from netdesign.envelope.extremes import find_extreme
+from netdesign.envelope.ranges import Ranges
+from netdesign.guideline.floor import Floor
+from netdesign.outcome import Verdict
+from netdesign.site.model import BaseFriction, NetRow, Resistance
+from netdesign.study.calibration import find_doubt
+from netdesign.study.effects import RowEffects, find_effects
+from netdesign.study.flips import (
+    CLOSE,
+    find_density_change,
+    find_friction_change,
+    find_height_change,
+    find_spacing_change,
+)
+from netdesign.study.holds import find_holds
+from netdesign.study.member_check import MemberCheck, RowCheck, is_worst
+from netdesign.study.records import (
+    ChangeRecord,
+    CheckRecord,
+    HoldRecord,
+)
+from netdesign.study.sideways import MemberLoad
+from netdesign.study.stronger_types import find_type_change
+from netdesign.study.target import Target
+from netdesign.units import (
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
+from netdesign.words.message import Message, say
+
+
+def find_row_holds(
+    task: RowCheck, judged: Sequence[MemberCheck], checks: Sequence[CheckRecord]
+) -> dict[str, list[HoldRecord]]:
+    """Limits of single values for the checks that follow from forces, by their ids.
+
+    At the support that uses a member most: where that holds, the other one does.
+    """
+    if task.probe is None or task.solved.gap or task.row.is_overtopped:
+        return {}
+    held = {
+        check.id: _build_target(task, one)
+        for one, check in zip(judged, checks, strict=True)
+        if one.ratio > 0.0 and _has_target(one) and is_worst(one, judged)
+    }
+    return find_holds(held, task.probe)
+
+
+def list_changes(
+    task: RowCheck, one: MemberCheck, effects: RowEffects, *, is_worst: bool
+) -> list[ChangeRecord]:
+    """Changes that flip a failing, unproven or close check.
+
+    What needs a solve is looked for at the support that uses its member most: where
+    that passes, the other one does.
+    """
+    result, used = one.result, one.result.utilisation
+    if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
+        return []
+    is_close = used is not None and used.high >= CLOSE
+    gap = one.gap
+    if not is_close and (
+        result.verdict is Verdict.PASS or (used and (gap or one.doubt))
+    ):
+        return []  # neither a missing result nor a doubt is mended by any change
+    if isinstance(one.given.dimensions, BaseFriction):
+        return []  # in proportion to what presses the base
+    changes = _list_resistance_changes(task, one.given, result)
+    if used is None or result.design_resistance is None:
+        return changes
+    changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
+    if gap or one.doubt:
+        note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
+        return [replace(change, note=note) for change in changes]
+    if task.probe is None or not is_worst or not _has_target(one):
+        return changes
+    target = _build_target(task, one)
+    found = (
+        _doubt_density(task, find_density_change(target, task.probe)),
+        find_height_change(target, task.probe),
+        find_friction_change(target, task.probe),
+    )
+    return [*changes, *(change for change in found if change is not None)]
+
+
+def _has_target(one: MemberCheck) -> bool:
+    """The check follows from the member's force by numbers that stay as they are.
+
+    A resistance that follows the snow does not, nor what is added to no force at all.
+    """
+    demand = one.demand
+    if demand is None or one.given.dimensions or one.use is None:
+        return False
+    return demand.solved.high > 0.0 or demand.load.added.high == 0.0
+
+
+def _build_target(task: RowCheck, one: MemberCheck) -> Target:
+    """The check as a function of a solved case and of the row."""
+    extreme, demand, use = one.extreme, one.demand, one.use
+    if extreme is None or demand is None or use is None:
+        raise ValueError("a check without a demand has no target")
+    member, load = one.given.member, demand.load
+
+    def use_floor(ranges: Ranges) -> float:
+        floor = task.find_floor(ranges)
+        least = floor.find(member) if floor else None
+        if floor is not None and least is None:
+            return math.inf
+        if floor is None or least is None:
+            return 0.0
+        return use * (load.share * least.force + _add_by_floor(load, floor))
+
+    at_cases = find_extreme(member, task.solved.results).force.high
+    widened = extreme.widened.high / at_cases if at_cases else 1.0
+    return Target(
+        row=task.row,
+        ranges=task.site.ranges,
+        member=member,
+        scale=use * load.share * widened,
+        added=use * load.added.high,
+        rise=use * load.rise,
+        governing=extreme.governing.case,
+        results=task.solved.results,
+        use_floor=use_floor,
+        widen=partial(_find_width, task.standard, one),
+    )
+
+
+def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:
+    """Width that loads a support of a row that was changed [m]."""
+    supports = find_effects(row, standard).supports
+    widths = [w.width for w in supports if w.position == one.width.position]
+    return max(widths, default=one.width.width)
+
+
+def _add_by_floor(load: MemberLoad, floor: Floor) -> float:
+    """Force added to a member where the guideline's pull on the head may be larger [N].
+
+    It grows with that pull, and never falls.
+    """
+    pull = floor.head.pull if floor.head else 0.0
+    growth = max(0.0, pull / load.pull - 1.0) if load.pull else 0.0
+    return load.added.value + growth * load.rise
+
+
+def _doubt_density(task: RowCheck, change: ChangeRecord) -> ChangeRecord:
+    """Change of density that says where the creep law is not given for its snow."""
+    if change.bound is None or not find_doubt(
+        task.site, task.row, task.law, density=change.bound, largest=math.inf
+    ):
+        return change
+    return replace(change, note=say("change.if_law_accepted"))
+
+
+def _list_resistance_changes(
+    task: RowCheck, given: Resistance, result: CheckResult
+) -> list[ChangeRecord]:
+    """Characteristic resistance that is needed, and the type that has it."""
+    factor: float | None = result.resistance_factor
+    note: Message | None = None
+    if factor is None:  # nothing is given, and so no basis: suppose a test
+        found = task.standard.find_resistance_factor(given.mode, "tested")
+        factor = found.value_si if found else None
+        note = say("change.on_basis_of_tests")
+    if factor is None or result.demand is None:
+        return []
+    needed = result.demand.high * factor
+    shown = math.ceil(kilonewton_from_newton(needed) * 10.0 - 1e-9) / 10.0
+    change = ChangeRecord(
+        quantity=say("change.characteristic_resistance"),
+        unit="kN",
+        now=kilonewton_if_known(result.resistance),
+        bound=shown,
+        sense="at least",
+        solves=0,
+        note=note,
+    )
+    kind = find_type_change(task.site, given, result.demand.high, task.standard)
+    return [change, kind] if kind else [change]

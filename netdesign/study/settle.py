@@ -1,0 +1,160 @@
+"""Results of checks as records: gap, declaration, support, engineer's units."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from netdesign.checks import (
+    Band,
+    CheckResult,
+    Declaration,
+    RowGeometry,
+    Standard,
+    check_geometry,
+    check_member,
+    declare,
+    withhold,
+)
+from netdesign.envelope.ranges import Ranges
+from netdesign.guideline.floor import Floor
+from netdesign.outcome import Verdict
+from netdesign.site.model import NetRow, Resistance, Site
+from netdesign.structure.members import Member
+from netdesign.structure.row_position import LoadedWidth, Position
+from netdesign.study.effects import RowEffects, check_ends, find_effects
+from netdesign.study.records import (
+    CheckRecord,
+    DeclarationRecord,
+)
+from netdesign.units import (
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
+from netdesign.words.message import Message, say
+
+
+def find_gap(solved: Message | None, floor: Floor | None) -> Message | None:
+    """Gap of the cases, else of the floor; None where nothing is missing."""
+    return solved or (floor.reason if floor else None)
+
+
+def list_checked(
+    row: NetRow, effects: RowEffects
+) -> list[tuple[LoadedWidth, Resistance]]:
+    """Members that are checked of a row, on each support and in each mode."""
+    return [
+        (width, given)
+        for width in effects.supports
+        for given in row.resistances_at(width.position)
+    ]
+
+
+def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
+    """Checks of a row that no force enters."""
+    geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
+    ends = check_ends(find_effects(row, standard))
+    results = [*geometry, *([ends] if ends else [])]
+    return [record_result(settle_check(site, row, one)) for one in results]
+
+
+def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
+    """Input of a row's checks of geometry."""
+    return RowGeometry(
+        inclination_low=ranges["inclination"].low,
+        inclination_high=ranges["inclination"].high,
+        slope_angle=row.slope_angle,
+        snow_thickness=row.snow_thickness,
+        net_height=row.net_height,
+        upslope_length=row.upslope_length,
+        gap=row.gap,
+    )
+
+
+def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
+    """Check with what the workbook says beside its numbers.
+
+    Forces of a net below its snow are those of snow up to its head: information.
+    A check may be declared as proven elsewhere.
+    """
+    if row.is_overtopped and result.member != Member.NET:
+        result = withhold(result, say("check.overtopped"))
+    declaration = site.find_declaration(row.id, result.member, result.mode)
+    return declare(result, declaration)
+
+
+def judge_forces(
+    action: Band | None,
+    given: Resistance,
+    standard: Standard,
+    *,
+    gap: Message | None,
+    doubt: Message | None,
+) -> CheckResult:
+    """Check of forces; it fails where a moment alone is too much for a post."""
+    result = check_member(action, given, standard, gap=gap, doubt=doubt)
+    lack = given.lack
+    if lack is None or lack.key != "post_bending.too_much":
+        return result
+    return replace(result, verdict=Verdict.FAIL, reason=lack)
+
+
+def place_check(check: CheckRecord, position: Position) -> CheckRecord:
+    """Check of a member, named by its support."""
+    name_of_end = ".end" if position == "edge" else ""
+    return replace(check, id=f"{check.id}{name_of_end}", position=position)
+
+
+def record_result(result: CheckResult, given: Resistance | None = None) -> CheckRecord:
+    """Check in engineer's units, without what stands behind its action."""
+    demand, utilisation = result.demand, result.utilisation
+    return CheckRecord(
+        id=result.id,
+        clause=result.clause,
+        member=result.member,
+        mode=result.mode,
+        demand_kN=kilonewton_if_known(demand.value if demand else None),
+        demand_low_kN=kilonewton_if_known(demand.low if demand else None),
+        demand_high_kN=kilonewton_if_known(demand.high if demand else None),
+        resistance_kN=kilonewton_if_known(result.design_resistance),
+        utilisation=utilisation.value if utilisation else None,
+        verdict=result.verdict,
+        case=None,
+        reason=result.reason,
+        action_kN=kilonewton_if_known(result.action.value if result.action else None),
+        action_factor=result.action_factor,
+        resistance_characteristic_kN=kilonewton_if_known(result.resistance),
+        resistance_factor=result.resistance_factor,
+        resistance_basis=given.basis if given else "",
+        resistance_type=given.type_id if given else "",
+        resistance_cell=given.source if given else "",
+        resistance_derivation=_describe_derivation(given, result),
+        declared=_record_declaration(result.declaration),
+    )
+
+
+def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
+    if given is None:
+        return None
+    return DeclarationRecord(
+        document=given.document,
+        author=given.author,
+        date=given.date,
+        cell=given.source,
+    )
+
+
+def _describe_derivation(
+    given: Resistance | None, result: CheckResult
+) -> Message | None:
+    factors = result.correlation
+    if given is None or given.tests is None or factors is None:
+        return given.derivation if given else None
+    tests = given.tests
+    return say(
+        "check.from_tests",
+        mean=kilonewton_from_newton(tests.mean),
+        least=kilonewton_from_newton(tests.least),
+        count=tests.count,
+        on_mean=factors[0],
+        on_least=factors[1],
+    )

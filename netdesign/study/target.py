@@ -1,0 +1,156 @@
+"""One check as a function of a solved case, and of what is moved in its row.
+
+A moved quantity is moved everywhere: in the cases, in the ranges that the guideline's
+load is searched over, and in the row, whose end effect may follow it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from netdesign.envelope.ranges import USUAL, Case, Ranges
+from netdesign.envelope.run import CaseResult
+from netdesign.site.model import NetRow
+from netdesign.structure.members import Member
+from netdesign.study.probe import Probe
+
+TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
+_RIVAL = 0.9  # share of the governing force from which a case may take over
+_BESIDE = 0.13  # of every range: an eighth, and its rounding
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Move:
+    """Another single value of a quantity, named as in ``parameters.PARAMETERS``, SI."""
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """One check as a function of a solved case.
+
+    Attributes
+    ----------
+    row, ranges : NetRow, Ranges
+        What is checked, and over what.
+    member : str
+        Whose force.
+    scale : float
+        Utilisation for each N of the upper end of the solved force [1/N].
+    added, rise : float
+        Utilisation by what is added to the largest force [-], and what that grows by
+        for each such force more. Another force brings it: it is taken to stay where
+        the member's falls, and to grow as the member's does.
+    governing : Case
+        Case of the largest force.
+    results : sequence of CaseResult
+        Of the whole grid, or of the search.
+    use_floor : callable
+        Utilisation by the guideline's load alone, over some ranges of the row, on a
+        support as wide as now, 0 without a floor [-].
+    widen : callable
+        Width that loads the support of a changed row [m]: the end effect grows with
+        the glide factor.
+    """
+
+    row: NetRow
+    ranges: Ranges
+    member: Member
+    scale: float
+    governing: Case
+    results: Sequence[CaseResult]
+    use_floor: Callable[[Ranges], float] = lambda _: 0.0
+    widen: Callable[[NetRow], float] = lambda _: 1.0
+    added: float = 0.0
+    rise: float = 0.0
+
+    @property
+    def largest(self) -> float:
+        """Largest force of the member over the solved cases [N]."""
+        return max(self.force(one) for one in self.results if one.is_converged)
+
+    def force(self, result: CaseResult) -> float:
+        """Upper end of the member's force in a case [N]."""
+        return result.member_forces[self.member].high
+
+    @property
+    def is_slack(self) -> bool:
+        """Slackness: the member carries nothing in any solved case."""
+        return all(not self.utilisation(result) for result in self.results)
+
+    def solve(
+        self, probe: Probe, cases: Sequence[Case], move: Move
+    ) -> list[CaseResult]:
+        """Results of some cases of the row with what is moved."""
+        moved = [case.with_value(move.name, move.value) for case in cases]
+        return probe.solve_all([(self.row, case, probe.law) for case in moved])
+
+    def utilisation(self, result: CaseResult, move: Move | None = None) -> float | None:
+        """Upper end of the utilisation in a case [-]; None if it has no result.
+
+        ``move`` is what was moved in the case.
+        """
+        if not result.is_converged:
+            return None
+        used = self.use(self.force(result))
+        return used * self._compare_width(move)
+
+    def use_least(self, move: Move | None = None) -> float:
+        """Utilisation by the guideline's load alone [-], of what is moved."""
+        ranges = self.ranges
+        if move is not None:
+            ranges = ranges.with_value(move.name, move.value)
+        return self.use_floor(ranges) * self._compare_width(move)
+
+    def use(self, force: float) -> float:
+        """Utilisation by a force of the member [-]."""
+        added = self.added
+        if self.rise and self.largest:
+            added += self.rise * max(0.0, force / self.largest - 1.0)
+        return self.scale * force + added
+
+    def _compare_width(self, move: Move | None) -> float:
+        """Width that loads the support of the moved row over that of the row as is."""
+        if move is None:
+            return 1.0
+        usual = {name: self.ranges[name].high for name in USUAL}
+        row, moved = self.row, self.row.at(Case.of({**usual, move.name: move.value}))
+        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
+            return 1.0
+        return self.widen(moved) / self.widen(row)
+
+
+def list_near(target: Target) -> list[Case]:
+    """Cases whose force is near the largest, that first; of a search some of them."""
+    forces = {
+        result.case: target.force(result)
+        for result in target.results
+        if result.is_converged
+    }
+    least = _RIVAL * max(forces.values())
+    near = [case for case in forces if forces[case] >= least]
+    near.sort(key=lambda case: (-forces[case], case))
+    return near if target.ranges.is_grid else _thin_out(near, target.ranges)
+
+
+def _thin_out(cases: Sequence[Case], ranges: Ranges) -> list[Case]:
+    """Cases without those close beside an earlier one.
+
+    A search crowds its cases around the largest force; what lies between those that
+    are left is in the margin of the target.
+    """
+    kept: list[Case] = []
+    for case in cases:
+        if not any(_is_beside(case, other, ranges) for other in kept):
+            kept.append(case)
+    return kept
+
+
+def _is_beside(case: Case, other: Case, ranges: Ranges) -> bool:
+    return all(
+        abs(case.values[axis] - other.values[axis]) <= _BESIDE * (span.high - span.low)
+        for axis, span in ranges.intervals
+    )
