@@ -29,6 +29,7 @@ from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
@@ -195,6 +196,7 @@ def _audit_judgement(
         yield say("audit.judged_otherwise", place=place, value=found.message)
     notes = [
         *list_row_notes(given, effects, pulls),
+        *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, standard),
         *list_case_notes(row.cases),
     ]
