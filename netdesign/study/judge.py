@@ -155,7 +155,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor),
-        panel=record_panel(row, solved.results, extremes),
+        panel=record_panel(row, solved.results, extremes, governing),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_test_notes(checks, task.standard),

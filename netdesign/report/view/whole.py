@@ -17,6 +17,7 @@ from netdesign.report.view import (
     basis_tables,
     envelope_tables,
     hold_tables,
+    panel_tables,
     row_tables,
     tables,
 )
@@ -84,6 +85,7 @@ class RowView:
     guideline: Table
     guideline_sentence: str
     floor: Table
+    panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
 
 
@@ -220,6 +222,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        panel=panel_tables.view_panel(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 

@@ -147,12 +147,24 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         if name == "guideline":
             floors = _list_parts(view, "floor")
             shown.append(_stack(book, book.words("caption.floor"), floors))
+        if name == "support":
+            shown += _list_panels(book, view)
         sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:
             add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
         if name == "cases" and stacked.rows:
             add_case_chart(book, sheet, _span(parts), bottom)
+
+
+def _list_panels(book: Book, view: ReportView) -> list[Table]:
+    """Forces and ropes of the rows that have a panel between their posts."""
+    panels = [(row.id, row.panel) for row in view.rows if row.panel]
+    if not panels:
+        return []
+    forces = [(name, panel.forces) for name, panel in panels]
+    ropes = [(name, panel.ropes) for name, panel in panels]
+    return [_stack(book, parts[0][1].caption, parts) for parts in (forces, ropes)]
 
 
 def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:
