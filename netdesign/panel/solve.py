@@ -227,8 +227,8 @@ def _build_solution(problem: _Problem, end: _Round, rounds: int) -> PanelSolutio
         foot=_as_point(lower[:, 0]),
         mid_foot=_as_point(lower[:, 1]),
         head=_as_point(upper[:, 0]),
-        lower=_describe_rope(end.along[0], lower, end.image[0]),
-        upper=_describe_rope(end.along[1], upper, end.image[1]),
+        lower=_describe_rope(problem, end, 0, lower),
+        upper=_describe_rope(problem, end, 1, upper),
         stations=problem.half * (1.0 - np.append(problem.stations.xi, 0.0)),
         curves=curves,
         balance=balance,
@@ -236,13 +236,19 @@ def _build_solution(problem: _Problem, end: _Round, rounds: int) -> PanelSolutio
     )
 
 
-def _describe_rope(along: float, supports: Floats, moved: Floats) -> RopeForces:
-    """Rope from the forces of both bays on its supports (2, 2)."""
+def _describe_rope(
+    problem: _Problem, end: _Round, which: int, supports: Floats
+) -> RopeForces:
+    """Lower (0) or upper rope, from the forces of both bays on its supports (2, 2)."""
+    along = end.along[which]
     across = float(np.hypot(*supports).max()) / 2.0
+    _, span = problem.ropes[which]
+    shear = problem.half * end.pulls[which] @ span.shear.T
     return RopeForces(
         along=along,
         tension=math.hypot(along, across),
-        mid_displacement=_as_point(moved[:, -1]),
+        mid_displacement=_as_point(end.image[which][:, -1]),
+        tensions=np.asarray(np.hypot(along, np.hypot(*shear))),
     )
 
 

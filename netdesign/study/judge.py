@@ -156,7 +156,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
-        panel=record_panel(row, solved.results, extremes),
+        panel=record_panel(row, solved.results, extremes, governing),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),

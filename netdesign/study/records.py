@@ -601,6 +601,30 @@ class RopeRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class PanelDrawing:
+    """Panel of the drawn case: half of it, from a post to mid-panel.
+
+    Axes of the section: X downslope from the net's foot, Y out of the ground.
+    """
+
+    case: CasePoint
+    places_m: list[float]  # along the row, from the post; those of the ropes below
+    lower_m: list[tuple[float, float]]
+    upper_m: list[tuple[float, float]]
+    mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel
+    rope_places_m: list[float]  # those of the tensions, from the post on
+    lower_tensions_kN: list[float]
+    upper_tensions_kN: list[float]
+    foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
+    mid_foot_kN: tuple[float, float]
+    head_kN: tuple[float, float]  # on a post head
+    section_foot_kN: tuple[float, float]  # the same by the section
+    section_head_kN: tuple[float, float]
+    lower_along_kN: float
+    upper_along_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class PanelRecord:
     """Panel between two posts of a row, inside it."""
 
@@ -609,6 +633,10 @@ class PanelRecord:
     ropes: list[RopeRecord]
     extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
     failed: int = 0  # solved cases without forces by the panel
+    effective_height_m: float | None = None  # least in mid-panel, normal to the slope
+    lift_m: float | None = None  # largest of the lower rope in mid-panel
+    end_guy_deg: float | None = None  # angle to the row; None where none is given
+    drawing: PanelDrawing | None = None  # None where the drawn case has no panel
 
 
 def list_verdicts(

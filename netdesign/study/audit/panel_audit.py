@@ -22,4 +22,12 @@ def audit_panel_inputs(row: RowStudy, given: NetRow) -> Iterator[Message]:
 
 def _leave_out_forces(panel: PanelRecord) -> PanelRecord:
     ropes = [replace(one, along_kN=None, tension_kN=None) for one in panel.ropes]
-    return replace(panel, ropes=ropes, extremes=[], failed=0)
+    return replace(
+        panel,
+        ropes=ropes,
+        extremes=[],
+        failed=0,
+        effective_height_m=None,
+        lift_m=None,
+        drawing=None,
+    )
