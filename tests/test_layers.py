@@ -63,6 +63,7 @@ THIRD_PARTY = {
             "panel.*",
             "planview.*",
             "envelope.*",
+            "guideline.*",
             "search.*",
             "solving.*",
         ),
