@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed import choose_watched, name_sources, read_signed
 from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, RopeForce, name_in_panel
 
 # A gap closer than this share of the numerical error is not worth a case.
 _RESOLUTION = 0.5
+# Ropes are known to a tenth: a bound that is closer than this is worth no case.
+_ROPES_SHARE = 0.02
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
+_PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
+_BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
 
 @dataclass(slots=True, kw_only=True)
@@ -24,18 +29,25 @@ class ResultReader:
     ----------
     layout : SupportLayout or None
         Support of the net; None follows the net's own tensions.
+    has_panel : bool
+        The row has a panel between its posts.
     members, signed : tuple of str
         Quantities of the results, and the signed forces behind them.
     is_shared : bool
         Net and uphill guy end at one anchor.
+    is_without_panel : bool
+        Some case has no forces by its panel: they are not searched any longer, and
+        count as 0 where they are missing. That gap is told of the row.
     errors, largest : dict of str to float
         Smallest numerical error and largest force of each member [N].
     """
 
     layout: SupportLayout | None
+    has_panel: bool = False
     members: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     is_shared: bool = False
+    is_without_panel: bool = False
     errors: dict[str, float] = field(default_factory=dict)
     largest: dict[str, float] = field(default_factory=dict)
 
@@ -57,18 +69,32 @@ class ResultReader:
         converged = [k for k, result in enumerate(results) if result.is_converged]
         if converged and not self.members:
             first = results[converged[0]]
-            self.members = tuple(first.member_forces)
+            self.members = self._list_members(first)
             self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
             if all(behind[k] is not None for k in converged):
-                self.signed = tuple(behind[converged[0]] or ())
+                self.signed = self._list_signed(behind[converged[0]] or {})
+        self.is_without_panel |= self.has_panel and any(
+            not isinstance(results[k].panel, PanelForces) for k in converged
+        )
         return [
             self._read_one(result, signed)
             for result, signed in zip(results, behind, strict=True)
         ]
 
+    def _list_members(self, first: CaseResult) -> tuple[str, ...]:
+        """Members of the section, and all quantities of a panel, found or not."""
+        own = [one for one in first.member_forces if one not in PANEL_QUANTITIES]
+        return (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
+
+    def _list_signed(self, first: Mapping[str, float]) -> tuple[str, ...]:
+        own = [name for name in first if not name.startswith(_BY_PANEL)]
+        return (*own, *(map(name_in_panel, own) if self.has_panel else ()))
+
     def watch(self) -> dict[int, Watched]:
         """Quantities to be bounded, by place, and how closely each."""
         names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
+        if self.is_without_panel:
+            names = tuple(one for one in names if not one.startswith(_BY_PANEL))
         return {self.quantities.index(name): self._ask_for(name) for name in names}
 
     def _ask_for(self, name: str) -> Watched:
@@ -80,7 +106,11 @@ class ResultReader:
         ]
         floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
-            behind += [member for member in self.members if member in _GUYS]
+            guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else _GUYS
+            behind += [member for member in self.members if member in guys]
+        if name in tuple(RopeForce):
+            closest = _ROPES_SHARE * self.largest.get(name, 0.0)
+            return Watched(resolution=closest, floor=floor)
         errors = [self.errors[member] for member in behind if member in self.errors]
         return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
 
@@ -104,7 +134,10 @@ class ResultReader:
     ) -> Values | None:
         if not result.is_converged:
             return None
-        forces = tuple(band.value for band in result.member_forces.values())
+        known = {one: band.value for one, band in result.member_forces.items()}
+        forces = tuple(known.get(member, 0.0) for member in self.members)
         if not self.signed:
             return forces
-        return None if signed is None else (*forces, *signed.values())
+        if signed is None:
+            return None
+        return (*forces, *(signed.get(name, 0.0) for name in self.signed))

@@ -85,10 +85,15 @@ class _Cases:
         for point in self._jobs:
             if point not in self._ends:
                 self._ends[point] = self._skip.recall(point)
-        return [
-            resolve_case(task, self._ends.get(point))
-            for point, task in zip(self._points, self._tasks, strict=True)
-        ]
+        known: dict[int, CaseResult] = {}
+        results = []
+        for point, task in zip(self._points, self._tasks, strict=True):
+            end = self._ends.get(point)
+            same = known.get(id(end)) if end else None  # one end of several frictions
+            result = replace(same, case=task.case) if same else resolve_case(task, end)
+            known[id(end)] = result
+            results.append(result)
+        return results
 
 
 class RowSearch:
@@ -160,7 +165,9 @@ class RowSearch:
     def _begin(self, search: MaximaSearch | Repetition) -> None:
         """Begin with nothing known of the row's cases."""
         self._search = search
-        self._reader = ResultReader(layout=self.task.layout)
+        self._reader = ResultReader(
+            layout=self.task.layout, has_panel=self.task.panel is not None
+        )
         self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []
         self._maxima: Maxima | None = None  # known once only confirmations are open

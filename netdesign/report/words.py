@@ -228,7 +228,7 @@ def add_unit(label: str, unit: str) -> str:
 
 
 def show_own(words: Words, text: str) -> str:
-    """Text of a limit profile: in the language if the profile comes with the program.
+    """Text of a profile or creep law: in the language if it comes with the program.
 
     A profile is a document of its own, in its own language; those that come with the
     program have translations, found by the whole text.
@@ -237,10 +237,15 @@ def show_own(words: Words, text: str) -> str:
     return words(key) if key else show_text(text)
 
 
+_OWN = (
+    *("profile_title.", "profile_about.", "profile_text.", "profile_source."),
+    "creep_law.",
+)
+
+
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
-    own = ("profile_title.", "profile_about.", "profile_text.", "profile_source.")
-    return {text: key for key, text in load_texts("en").items() if key.startswith(own)}
+    return {text: key for key, text in load_texts("en").items() if key.startswith(_OWN)}
 
 
 def number_format(key: str) -> str:

@@ -21,6 +21,7 @@ FAMILIES: tuple[str, ...] = (
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
+    "creep_law.",
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     "floor.profile_",
     *("formula.", "brings.", "holding.", "position."),

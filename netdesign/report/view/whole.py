@@ -18,6 +18,7 @@ from netdesign.report.view import (
     envelope_tables,
     figure_tables,
     hold_tables,
+    panel_tables,
     row_tables,
     tables,
 )
@@ -39,7 +40,6 @@ from netdesign.report.words import (
     name_case,
     show_check,
     show_member,
-    show_own,
     show_quantity,
     show_text,
     show_verdict,
@@ -101,6 +101,7 @@ class RowView:
     guideline_sentence: str
     floor: Table
     figures: Figures
+    panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
 
 
@@ -177,7 +178,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ranges=tables.build_inputs(
             study.range_inputs, words("heading.ranges_of_envelope"), words
         ),
-        profile_title=_name_profile(study, words),
+        profile_title=tables.name_profile(study, words),
         profile=tables.build_profile(study, words),
         notes=(
             *(words.show(note) for note in study.notes),
@@ -242,6 +243,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
         figures=_view_figures(row, words),
+        panel=panel_tables.view_panel(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 
@@ -278,15 +280,11 @@ def _identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
         ("project", project.name),
         ("number", project.number),
         ("revision", project.revision),
-        ("limit_profile", _name_profile(study, words)),
+        ("limit_profile", tables.name_profile(study, words)),
         ("site_file", study.provenance.site_file),
         ("date", study.provenance.started[:10]),
     )
     return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
-
-
-def _name_profile(study: Study, words: Words) -> str:
-    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
 
 
 def _tell_verification(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
