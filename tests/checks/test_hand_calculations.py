@@ -118,9 +118,10 @@ def test_row_1_inside_the_row_with_tests_under_the_nf_style_profile(tmp_path):
     )
     # Snow on the post, N = 1.2. Load case 1, no altitude, rho 1.3 * 0.27: K = 0.7910
     # sin 70 = 0.7433, S'_N = 0.5 * 3.51 * 11.683 * 0.7433 * 1.2 = 18.29 kN/m over
-    # 2.8 m: 6.532 kPa. Load case 2, rho 0.4, H = 0.77 * 3.418 = 2.632 m: K = 0.8264
-    # sin 70 = 0.7766, S'_N = 0.5 * 4 * 6.927 * 0.7766 * 1.2 = 12.91 kN/m over 2.156 m:
-    # 5.988 kPa. The densest snow, 380 kg/m3, K = 0.8114 sin 70 = 0.7625, the largest:
+    # 2.8 m: 6.532 kPa. Load case 2, rho 0.4, H = 0.77 * 3.418 = 2.632 m:
+    # K = 0.8264 sin 70 = 0.7766, S'_N = 0.5 * 4 * 6.927 * 0.7766 * 1.2 = 12.91 kN/m,
+    # over 2.156 m: 5.988 kPa.
+    # The densest snow, 380 kg/m3: K = 0.8114 sin 70 = 0.7625, the largest:
     # S'_N = 0.5 * 3.8 * 11.683 * 0.7625 * 1.2 = 20.31 kN/m over 2.8 m: 7.254 kPa.
     # M = 2 * 7.254 * 0.12 * 3.1^2 / 8 = 2.0912 kN m; gamma_E 1.5: 3.137 kN m.
     # M_Rk = 144 cm3 * 235 = 33.84 kN m; m = 1.05 * 3.137 / 33.84 = 0.09733.
