@@ -195,15 +195,16 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         case, end, number = np.unravel_index(own.argmax(), own.shape)
         point = tuple(points[:, columns][:, number])
         at, snow, result = solve(point, int(case), int(end))
-        if result.anchors is None or result.load is None or result.pull is None:
+        if result.solved is None:
             return Floor(reason=_explain(at, result))
+        load, pull, anchors = result.solved
         found[key] = FloorForce(
             member=key,
-            force=_measure(result.anchors)[key],
+            force=_measure(anchors)[key],
             at=at,
             case=snow,
-            load=result.load,
-            pull=result.pull,
+            load=load,
+            pull=pull,
         )
     return Floor(
         forces=tuple(found[member] for member in CARRYING_MEMBERS),
