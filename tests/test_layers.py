@@ -66,7 +66,7 @@ THIRD_PARTY = {
             "solving.*",
         ),
         *("files.solution", "evidence.*"),
-        *("study.record_envelope", "study.record_monitoring"),
+        *("study.record_envelope", "study.record_monitoring", "study.record_panel"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
     "scipy": ("numerics.newton", "snow.*", "solving.store", "evidence.*"),
