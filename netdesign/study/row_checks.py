@@ -128,6 +128,7 @@ def _judge_member(
         panel = extremes.get(name_in_panel(given.member))
         demand = loads.demand(given, extreme, width, panel)
         brings = [one for one in (extreme, panel) if one is not None]
+        pressing = loads.press(extreme, width, panel)
         if panel is not None and demand.largest is not demand.solved:
             extreme = panel
         known = Circumstances(
@@ -135,7 +136,7 @@ def _judge_member(
             ranges=task.site.ranges,
             standard=task.standard,
             pull=find_pull(loads.pulls, given.member, width.position),
-            pressing=loads.press(extreme, width),
+            pressing=pressing,
         )
         given = settle_resistance(given, known)
         if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
