@@ -14,7 +14,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import Member
-from netdesign.structure.row_position import LoadedWidth
+from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.audit.check_audit import is_held_back, list_bringing
 from netdesign.study.audit.comparing import (
     Pair,
@@ -240,13 +240,13 @@ def _expect_directions(
         gap=_UNKNOWN_GAP if lack is None and is_open else lack,
     )
 
-    def settle(result: CheckResult) -> CheckRecord:
-        return record_result(settle_check(basis.site, given, result))
+    def settle(result: CheckResult, position: Position | None = None) -> CheckRecord:
+        return record_result(settle_check(basis.site, given, result, position))
 
     found = [
         settle(check_sideways(given, sideways, gap)),
         *(
-            place_check(settle(one), position)
+            place_check(settle(one, position), position)
             for position, one in check_directions(pulls, standard, gap)
         ),
     ]
@@ -345,7 +345,7 @@ def _judge_again(
     gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
-    settled = settle_check(basis.site, basis.row, result)
+    settled = settle_check(basis.site, basis.row, result, width.position)
     again = place_check(record_result(settled, given), width.position)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)
