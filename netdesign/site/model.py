@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import get_args
 
 from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
@@ -231,6 +232,14 @@ class NetRow:
             return self.end_resistances
         return self.resistances
 
+    def has_same_type_at_end(self, member: str) -> bool:
+        """Whether a member is of one type at the row's end and inside it."""
+        inside, end = (
+            {one.type_id for one in self.resistances_at(place) if one.member == member}
+            for place in get_args(Position)
+        )
+        return inside == end
+
     @property
     def is_overtopped(self) -> bool:
         """Whether the snow is thicker than the net is high."""
@@ -352,15 +361,19 @@ class Site:
     declared: tuple[Declaration, ...] = ()
 
     def find_declaration(
-        self, row_id: str, member: str, mode: str
+        self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:
-        """Declaration of a check of a net row; None if it is proven here or nowhere."""
-        return next(
-            (
-                one
-                for one in self.declared
-                if one.row_id in ("", row_id)
-                and (one.member, one.mode) == (member, mode)
-            ),
-            None,
-        )
+        """Declaration of a check of a net row; None if it is proven here or nowhere.
+
+        ``position`` is that of its support. What is declared of no support is not
+        proven of an anchor of another type at the row's end.
+        """
+        found = {
+            one.position: one
+            for one in self.declared
+            if one.row_id in ("", row.id) and (one.member, one.mode) == (member, mode)
+        }
+        if position != "edge":
+            return found.get("")
+        general = found.get("") if row.has_same_type_at_end(member) else None
+        return found.get("edge", general)

@@ -25,7 +25,7 @@ CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
 
 
 class EndMember(StrEnum):
-    """What holds the ropes' pull along the row, at its first and last support."""
+    """Members that hold the ropes' pull along the row, at its first and last support."""
 
     LATERAL_ANCHOR = "lateral_anchor"
     END_GUY = "end_guy"

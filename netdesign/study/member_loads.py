@@ -78,22 +78,39 @@ class RowLoads:
             self._find_along(given, width),
         )
 
-    def press(self, extreme: Extreme, width: LoadedWidth) -> float:
-        """Characteristic force across the base plate, from one in the section [N]."""
+    def press(
+        self, extreme: Extreme, width: LoadedWidth, panel: Extreme | None = None
+    ) -> float:
+        """Characteristic force across the base plate, from one in the section [N].
+
+        ``panel`` is that by the panel between posts.
+        """
         load = self.sideways.load(Member.POST_BASE)
         least = self.floor.find(Member.POST_BASE) if self.floor else None
         found = build_demand(
-            self.effects, Member.POST_BASE, width, extreme.widened, least, load
+            self.effects,
+            Member.POST_BASE,
+            width,
+            extreme.widened,
+            least,
+            load,
+            panel.widened if panel else None,
+            self._find_push(width),
         )
         return found.action.value
 
     def _find_along(self, given: Resistance, width: LoadedWidth) -> Band:
         """Part of a force that the ropes' pull along the row brings at its end [N]."""
-        is_pushed = given.member in _PUSHED and width.position == "edge"
-        if self.end is None or not is_pushed:
+        if given.member not in _PUSHED:
             return NOTHING
         tilt = self.tilt if given.mode == "sliding" else 1.0
-        return self.end.on_post.times(tilt)
+        return self._find_push(width).times(tilt)
+
+    def _find_push(self, width: LoadedWidth) -> Band:
+        """Compression by the end guy of a post at the row's end [N]."""
+        if self.end is None or width.position != "edge":
+            return NOTHING
+        return self.end.on_post
 
     def _turn(self, load: MemberLoad) -> MemberLoad:
         """Force along the slope instead of that across the base plate, (S19)."""

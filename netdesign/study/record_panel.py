@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+import numpy as np
+
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
@@ -76,10 +78,13 @@ def _draw(drawn: CaseResult) -> PanelDrawing | None:
     solved = panel.solution
     half = solved.panel.post_spacing / 2.0
     foot = anchors.foot_anchor
-    lower, upper = (solved.curves[:, :, end] for end in (0, -1))
+    order = np.argsort(solved.stations)  # from the post to mid-panel
+    lower, upper = (solved.curves[order][:, :, end] for end in (0, -1))
+    head = drawn.solution.head_point if drawn.solution else (0.0, 0.0)
     return PanelDrawing(
         case=record_point(drawn.case),
-        places_m=_round(solved.stations),
+        places_m=_round(solved.stations[order]),
+        post_head_m=_list_points(np.array([head]))[0],
         lower_m=_list_points(lower),
         upper_m=_list_points(upper),
         mid_net_m=_list_points(solved.curves[-1].T),

@@ -235,7 +235,7 @@ class ActionRecord:
 
     @property
     def governing(self) -> str:
-        """Which of the three governs, by their numbers."""
+        """Load of the three that governs, by their numbers."""
         largest = max(self.coupled_kN, self.panel_support_kN or 0.0)
         if self.guideline_kN and self.guideline_kN >= largest:
             return "guideline"
@@ -608,7 +608,8 @@ class PanelDrawing:
     """
 
     case: CasePoint
-    places_m: list[float]  # along the row, from the post; those of the ropes below
+    places_m: list[float]  # along the row, from beside the post to mid-panel
+    post_head_m: tuple[float, float]
     lower_m: list[tuple[float, float]]
     upper_m: list[tuple[float, float]]
     mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel

@@ -78,6 +78,7 @@ class EndLoads:
             lateral_factor=1.0,
             coupled_kN=kilonewton_from_newton(demand.high),
             share=self.share(member),
+            governs="panel",
         )
 
 

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
+from netdesign.site.model import BaseFriction
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit import audit_study
 from netdesign.study.effects import find_effects
@@ -56,6 +57,21 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     assert post.along_kN == pytest.approx(pushed, rel=1e-12)
     assert checks["post.compression"].action.along_kN == 0.0
     assert post.governs == "panel"
+
+
+def test_what_the_end_guy_presses_holds_the_base_too():
+    """Friction of the base: its utilisation is that inside the row."""
+    friction = BaseFriction(coefficient=0.61)
+    resistances = tuple(
+        replace(one, value=None, dimensions=friction) if one.mode == "sliding" else one
+        for one in resist()
+    )
+    site, study = judge(with_panel(a_panel(), resistances=resistances))
+    checks = checks_of(study)
+    inside, end = checks["post_base.sliding"], checks["post_base.sliding.end"]
+    assert end.action.along_kN > 0.0
+    assert end.utilisation == pytest.approx(inside.utilisation, rel=1e-9)
+    assert audit_study(study, PROFILE, site) == []
 
 
 def test_the_study_agrees_with_its_site(judged):

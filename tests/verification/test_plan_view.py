@@ -282,3 +282,35 @@ def test_fine_elements_in_space(slip, gap, is_rough, whole, within):
     fine = replace(coarse, size=0.05, layers=3)
     assert find_excess(fine) == pytest.approx((whole, within), abs=6e-4)
     assert find_excess(coarse) == pytest.approx((whole, within), rel=0.045)
+
+
+def test_space_with_a_pulled_gap_tends_to_the_plan_view():
+    """Root of the smallest element, as the pull at the gap's end goes as r^(-3/4)."""
+    block = build_block(0.37, 0.9, is_rough=False)
+    straight = replace(block, is_pulled=True, is_straight=True, layers=1)
+    coarse, fine = (find_excess(replace(straight, size=size))[0] for size in (0.3, 0.1))
+    limit = fine + (fine - coarse) / (math.sqrt(3.0) - 1.0)
+    lateral = math.sqrt(0.37 + 1.0 / 3.0)
+    plan = lateral * solve_pulled_gap(0.45 / lateral).excess
+    assert coarse < fine < plan
+    assert limit == pytest.approx(plan, rel=0.06)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("slip", "gap", "is_straight", "whole"),
+    [
+        (0.0, 2.0 / 3.0, False, (0.403, 0.453)),
+        (1.0, 2.0 / 3.0, False, (0.542, 0.596)),
+        (1.0, 2.0 / 3.0, True, (0.644, 0.710)),
+        (1.0, 4.0, False, (0.779, 0.818)),
+        (4.0, 12.0, False, (1.395, 1.494)),
+        (4.0, 12.0, True, (1.758, 1.877)),
+    ],
+)
+def test_elements_in_space_with_a_pulled_gap(slip, gap, is_straight, whole):
+    """The second table of planview/THEORY.md, section 6."""
+    block = build_block(slip, gap, is_rough=False)
+    block = replace(block, is_pulled=True, is_straight=is_straight)
+    got = [find_excess(replace(block, size=size))[0] for size in (0.15, 0.05)]
+    assert got == pytest.approx(whole, abs=6e-4)

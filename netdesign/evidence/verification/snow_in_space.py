@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import skfem
-from scipy.sparse import csc_matrix
+from scipy.sparse import block_diag, csc_matrix, diags_array
 from scipy.sparse.linalg import splu
 from skfem.helpers import ddot, div, sym_grad
 
@@ -46,6 +46,8 @@ class Block:
         psi [rad].
     is_rough : bool
         Snow adheres to the wall; otherwise only the velocity across it is held.
+    is_pulled : bool
+        The snow below has come off the wall and hangs on that in the gap.
     is_straight : bool
         No velocity along the row, as in the plan view.
     size : float
@@ -60,6 +62,7 @@ class Block:
     length: float
     slope_angle: float
     is_rough: bool = False
+    is_pulled: bool = False
     is_straight: bool = False
     size: float = 0.1
     layers: int = 2
@@ -80,14 +83,11 @@ class WallLoad:
         On the modelled half row, and from its end to the length asked for.
     width : float
         Length of the half row, in d.
-    unknowns : int
-        Of the linear problem.
     """
 
     total: float
     within: float
     width: float
-    unknowns: int
 
 
 def solve_block(block: Block) -> WallLoad:
@@ -107,9 +107,12 @@ def solve_block(block: Block) -> WallLoad:
     element = skfem.ElementVector(skfem.ElementHex2())
     basis = skfem.Basis(mesh, element, intorder=_DEGREE)
     matrix = _assemble(block, mesh, basis)
-    held, values, pushed = _hold(block, basis)
-    free = ~held
-    values[free] = _solve(matrix[free][:, free], -matrix[free][:, held] @ values[held])
+    held = _hold_sides(block, basis)
+    known, values, pushed = _hold_wall(block, basis)
+    if block.is_pulled:
+        values = _solve_with_below(block, basis, matrix, held, known, values)
+    else:
+        values = _solve(matrix, held | known, values)
     reactions = -(matrix @ values)[pushed]
     places = basis.doflocs[2, pushed] - block.gap / 2.0
     end = block.gap / 2.0 + block.length
@@ -119,7 +122,6 @@ def solve_block(block: Block) -> WallLoad:
         total=float(reactions.sum()),
         within=float(reactions @ np.clip(ramp, 0.0, 1.0)),
         width=float(across[-1]) - block.gap / 2.0,
-        unknowns=int(free.sum()),
     )
 
 
@@ -147,7 +149,7 @@ def solve_endless(block: Block) -> float:
     block : Block
         Its gap is left out.
     """
-    endless = solve_block(replace(block, gap=0.0))
+    endless = solve_block(replace(block, gap=0.0, is_pulled=False))
     return endless.total / endless.width
 
 
@@ -194,26 +196,29 @@ def _assemble(block: Block, mesh: Any, basis: Any) -> csc_matrix:
     return csc_matrix(matrix)
 
 
-def _hold(block: Block, basis: Any) -> tuple[Mask, Floats, Mask]:
-    """Held unknowns, their values, and those whose reactions load the wall."""
+def _hold_sides(block: Block, basis: Any) -> Mask:
+    """Unknowns held at 0 on the ground, at the symmetry planes and far away."""
     x, y, z = basis.doflocs
     along, up, side = (_find_component(basis, number) for number in range(3))
-    ends = (z < _TOUCH) | (z > z.max() - _TOUCH)
-    held = ((y < _TOUCH) & (up | (block.slip == 0.0))) | (ends & side)
-    held |= (x < x.min() + _TOUCH) & along
+    ends = (z < _TOUCH) | (z > z.max() - _TOUCH) | block.is_straight
+    ground = (y < _TOUCH) & (up | (block.slip == 0.0))
+    return np.asarray(ground | (ends & side) | ((x < x.min() + _TOUCH) & along))
+
+
+def _hold_wall(block: Block, basis: Any) -> tuple[Mask, Floats, Mask]:
+    """Unknowns held on the wall, values of all, and those whose reactions load it."""
+    x, y, z = basis.doflocs
+    along, up = (_find_component(basis, number) for number in range(2))
     wall = (x > -_TOUCH) & (z > block.gap / 2.0 - _TOUCH)
     pushed = wall & along
     values = np.zeros(x.size)
     profile = y - y**2 / 2.0
     values[pushed] = -(block.slip + profile[pushed])
-    if block.is_rough:
-        settling = profile / math.tan(block.slope_angle) / (2.0 + block.bulk)
-        values[wall & up] = settling[wall & up]
-        held |= wall & side
-        held |= wall & up
-    if block.is_straight:
-        held |= side
-    return held | pushed, values, pushed
+    if not block.is_rough:
+        return pushed, values, pushed
+    settling = profile / math.tan(block.slope_angle) / (2.0 + block.bulk)
+    values[wall & up] = settling[wall & up]
+    return wall, values, pushed
 
 
 def _find_component(basis: Any, number: int) -> Mask:
@@ -224,11 +229,40 @@ def _find_component(basis: Any, number: int) -> Mask:
     return mask
 
 
-def _solve(matrix: csc_matrix, load: Floats) -> Floats:
+def _solve_with_below(
+    block: Block,
+    basis: Any,
+    matrix: csc_matrix,
+    held: Mask,
+    known: Mask,
+    values: Floats,
+) -> Floats:
+    """Velocities upslope, with snow below that is joined to them in the gap.
+
+    The block below is the mirror image of the one above, its wall free.
+    """
+    x, _, z = basis.doflocs
+    gap = (x > -_TOUCH) & (z < block.gap / 2.0 - _TOUCH)
+    count = x.size
+    places = np.arange(2 * count)
+    places[count:][gap] = np.flatnonzero(gap)
+    join = csc_matrix((np.ones(2 * count), (np.arange(2 * count), places)))
+    mirror = diags_array(np.where(_find_component(basis, 0), -1.0, 1.0))
+    both = block_diag([matrix, mirror @ matrix @ mirror])
+    fixed = np.concatenate([held | known, held | gap])  # those of the gap stand above
+    start = np.concatenate([values, np.zeros(count)])
+    return _solve(csc_matrix(join.T @ both @ join), fixed, start)[:count]
+
+
+def _solve(matrix: csc_matrix, held: Mask, values: Floats) -> Floats:
+    """Values of all unknowns in equilibrium, from those of the held ones."""
+    free = ~held
     factor = splu(
-        csc_matrix(matrix),
+        csc_matrix(matrix[free][:, free]),
         permc_spec="MMD_AT_PLUS_A",
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
     )
-    return np.asarray(factor.solve(load))
+    solved = values.copy()
+    solved[free] = factor.solve(-matrix[free][:, held] @ values[held])
+    return solved

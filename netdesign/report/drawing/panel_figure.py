@@ -60,7 +60,8 @@ def _place_view(
     drawn: PanelDrawing, part: int, top: float, scale: float
 ) -> tuple[_View, float]:
     """View below a line of the page, and where it ends [pt]."""
-    values = [one[part] for one in (*drawn.lower_m, *drawn.upper_m)] + [0.0]
+    points = (*drawn.lower_m, *drawn.upper_m, drawn.post_head_m, (0.0, 0.0))
+    values = [one[part] for one in points]
     low, high = min(values), max(values)
     sign, origin = (-1.0, high) if part == 1 else (1.0, low)
     view = _View(top=top + 24.0, part=part, origin=origin, sign=sign, scale=scale)
@@ -81,18 +82,17 @@ def _draw_view(
 ) -> None:
     """Net and ropes of the panel, its supports, and the forces on the last of them."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
-    head = drawn.upper_m[0][part]
+    head = drawn.post_head_m[part]
     for place in (0.0, spacing):
         sketch.line([view.at(place, 0.0), view.at(place, head)], stroke=GREY, width=2.0)
     lower = _mirror(drawn.places_m, [one[part] for one in drawn.lower_m])
     upper = _mirror(drawn.places_m, [one[part] for one in drawn.upper_m])
     for (z, foot), (_, top) in zip(lower, upper, strict=True):
         sketch.line([view.at(z, foot), view.at(z, top)], stroke=PALE, width=0.6)
-    for start in (lower, upper):
-        ends = [(0.0, start[0][1] * 0.0), (spacing, 0.0)]
-        straight = [(z, head if start is upper else value) for z, value in ends]
-        sketch.line([view.at(*p) for p in straight], stroke=PALE, dash="2 2")
-        whole = [straight[0], *start, straight[1]]
+    for rope, level in ((lower, 0.0), (upper, head)):
+        straight = [(0.0, level), (spacing, level)]
+        sketch.line([view.at(*p) for p in straight], stroke=GREY, width=0.5, dash="2 2")
+        whole = [straight[0], *rope, straight[1]]
         sketch.line([view.at(*p) for p in whole], stroke=INK, width=1.3)
     _draw_forces(sketch, view, drawn, per_kn, words)
 
@@ -102,7 +102,7 @@ def _draw_forces(
 ) -> None:
     """Half a bay and the ropes' pull on the last support, a bay on the inner one."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
-    head = drawn.upper_m[0][part]
+    head = drawn.post_head_m[part]
     for place, share, along in ((0.0, 0.5, 1.0), (spacing, 1.0, 0.0)):
         for at, force, rope in (
             (0.0, drawn.foot_kN, drawn.lower_along_kN),

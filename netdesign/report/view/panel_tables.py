@@ -94,7 +94,7 @@ def _list_forces(
 
 
 def _build_ropes(panel: PanelRecord, words: Words) -> Table:
-    """What the ropes are, what they carry at most, and what they bear."""
+    """Ropes: their input, what they carry at most, and what they bear."""
     return Table(
         caption=words("panel_view.ropes"),
         columns=(
@@ -179,7 +179,7 @@ def _tell_end(row: RowStudy, panel: PanelRecord, words: Words) -> list[str]:
 
 
 def find_end_factor(end: CheckRecord) -> float:
-    """What the end effect makes of a rope's pull, (P8) [-]."""
+    """Factor of the end effect on a rope's pull, (P8) [-]."""
     action = end.action
     return action.loaded_width_m / action.post_spacing_m if action else 1.0
 

@@ -271,13 +271,13 @@ def _expect_directions(
         gap=_UNKNOWN_GAP if lack is None and is_open else lack,
     )
 
-    def settle(result: CheckResult) -> CheckRecord:
-        return record_result(settle_check(basis.site, given, result))
+    def settle(result: CheckResult, position: Position | None = None) -> CheckRecord:
+        return record_result(settle_check(basis.site, given, result, position))
 
     found = [
         settle(check_sideways(given, sideways, gap)),
         *(
-            place_check(settle(one), position)
+            place_check(settle(one, position), position)
             for position, one in check_directions(pulls, standard, gap)
         ),
     ]
@@ -378,8 +378,9 @@ def _judge_again(
     gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
-    settled = settle_check(basis.site, basis.row, result)
-    again = place_check(record_result(settled, given), position or width.position)
+    place = position or width.position
+    settled = settle_check(basis.site, basis.row, result, place)
+    again = place_check(record_result(settled, given), place)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)
     if check.action is None:
@@ -425,7 +426,7 @@ def _read_panel(stored: ActionRecord, factor: float, load: MemberLoad) -> Band |
 
 
 def _read_along(stored: ActionRecord) -> Band:
-    """What the end guy adds to the post at the row's end [N]."""
+    """Force that the end guy adds to the post at the row's end [N]."""
     low, value, high = sorted(
         newton_from_kilonewton(max(one, 0.0))
         for one in (stored.along_low_kN, stored.along_kN, stored.along_high_kN)
