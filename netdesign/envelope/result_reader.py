@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.signed import choose_watched, name_sources, read_signed
+from netdesign.envelope.signed import (
+    choose_watched,
+    name_sources,
+    read_signed,
+    read_signed_errors,
+)
 from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 
 # A gap closer than this share of the numerical error is not worth a case.
 _RESOLUTION = 0.5
+# Share of its largest value from which a quantity is near it; as much makes a case a
+# rival in a study.
+_NEAR = 0.9
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 
 
@@ -46,7 +56,7 @@ class ResultReader:
 
     def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
         """Values of some cases; the first decide whether signed forces exist."""
-        behind = [self._find_signed(result) for result in results]
+        self._name_quantities(results)
         for result in results:
             for member, band in result.member_forces.items():
                 known = self.largest.get(member, 0.0)
@@ -54,17 +64,47 @@ class ResultReader:
                 if band.value > 0.0:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
-        converged = [k for k, result in enumerate(results) if result.is_converged]
-        if converged and not self.members:
-            first = results[converged[0]]
-            self.members = tuple(first.member_forces)
-            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-            if all(behind[k] is not None for k in converged):
-                self.signed = tuple(behind[converged[0]] or ())
+        return [self._read_one(result) for result in results]
+
+    def read_doubts(
+        self, results: Sequence[CaseResult], rough: Collection[int]
+    ) -> list[Values | None]:
+        """Numerical errors of the rough cases, by their places; None of the others."""
         return [
-            self._read_one(result, signed)
-            for result, signed in zip(results, behind, strict=True)
+            self._read_errors(result) if place in rough else None
+            for place, result in enumerate(results)
         ]
+
+    def find_near(self, results: Sequence[CaseResult]) -> set[int]:
+        """Places of the cases that failed, or may come near the largest of a quantity.
+
+        Errors count on the safe side: the upper end of a force against the largest
+        lower end.
+        """
+        self._name_quantities(results)
+        known = {
+            place: (value, self._read_errors(results[place]))
+            for place, value in enumerate(map(self._read_one, results))
+            if value is not None
+        }
+        if not known:
+            return set(range(len(results)))
+        values, errors = (np.array(one) for one in zip(*known.values(), strict=True))
+        least = _NEAR * np.maximum(np.max(values - errors, axis=0), 0.0)
+        is_near = (values + errors >= least)[:, list(self.watch())].any(axis=1)
+        far = {place for place, near in zip(known, is_near, strict=True) if not near}
+        return set(range(len(results))) - far
+
+    def _name_quantities(self, results: Sequence[CaseResult]) -> None:
+        """Name what is modelled, from the first cases that converged."""
+        converged = [result for result in results if result.is_converged]
+        if self.members or not converged:
+            return
+        first, behind = converged[0], [self._find_signed(one) for one in converged]
+        self.members = tuple(first.member_forces)
+        self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
+        if all(one is not None for one in behind):
+            self.signed = tuple(behind[0] or ())
 
     def watch(self) -> dict[int, Watched]:
         """Quantities to be bounded, by place, and how closely each."""
@@ -99,12 +139,20 @@ class ResultReader:
     def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
         return None if self.layout is None else read_signed(result, self.layout)
 
-    def _read_one(
-        self, result: CaseResult, signed: dict[str, float] | None
-    ) -> Values | None:
+    def _read_errors(self, result: CaseResult) -> Values | None:
+        """Numerical errors of what ``_read_one`` gives [N]."""
+        bands = result.member_forces.values()
+        own = tuple(band.high - band.value for band in bands)
+        if not self.signed or self.layout is None:
+            return own
+        signed = read_signed_errors(result, self.layout)
+        return None if signed is None else (*own, *signed.values())
+
+    def _read_one(self, result: CaseResult) -> Values | None:
         if not result.is_converged:
             return None
         forces = tuple(band.value for band in result.member_forces.values())
         if not self.signed:
             return forces
+        signed = self._find_signed(result)
         return None if signed is None else (*forces, *signed.values())

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 from netdesign.envelope.run import CaseResult
 from netdesign.structure.head import resolve_signed
-from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.structure.members import Member
 
 _NET = "signed foot"
@@ -32,9 +32,40 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
     solution, anchors = result.solution, result.anchors
     if solution is None or anchors is None:
         return None
-    points = place_support(layout, solution.head_point)
     width = layout.post_spacing
     pull = (solution.head.x * width, solution.head.y * width)
+    points = place_support(layout, solution.head_point)
+    return _resolve(pull, anchors.foot_anchor.size, points)
+
+
+def read_signed_errors(
+    result: CaseResult, layout: SupportLayout
+) -> dict[str, float] | None:
+    """Numerical errors of the forces that ``read_signed`` gives [N].
+
+    These are linear in the pulls: what an error of each component causes is added, as
+    in the bands of the members.
+    """
+    solution = result.solution
+    if solution is None or result.anchors is None:
+        return None
+    points = place_support(layout, solution.head_point)
+    foot, head = (
+        pull.error * layout.post_spacing for pull in (solution.foot, solution.head)
+    )
+    sizes: dict[str, float] = {}
+    for pull, at_foot in (((head, 0.0), 0.0), ((0.0, head), 0.0), ((0.0, 0.0), foot)):
+        caused = _resolve(pull, at_foot, points)
+        if caused is None:
+            return None
+        sizes = {name: sizes.get(name, 0.0) + abs(caused[name]) for name in caused}
+    return sizes
+
+
+def _resolve(
+    pull: tuple[float, float], foot: float, points: SupportPoints
+) -> dict[str, float] | None:
+    """Signed forces that hold a pull on the head, and one of the foot's size [N]."""
     pairs = [
         resolve_signed(pull, points.head, points.post_base, anchor)
         for anchor in (points.uphill_anchor, points.downhill_anchor)
@@ -43,7 +74,6 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
         return None
     (post_up, uphill), (post_down, downhill) = pairs[0], pairs[1]
     across = points.head[1] / _length(points.head, points.post_base)
-    foot = anchors.foot_anchor.size
     return {
         _NET: foot,
         _SHARED: foot + uphill,
