@@ -17,6 +17,8 @@ OBJECTS = (
     "resistance_derivation",
     "derivation",
     "sideways",
+    "load",
+    "held_sideways",
 )
 WORDS = ([*Verdict], [*Outcome])
 

@@ -112,6 +112,7 @@ def check_member(
         design_resistance=strength,
         utilisation=utilisation,
         assumed=list_assumed(on_action, on_resistance),
+        correlation=find_correlation(resistance, standard),
     )
 
 
@@ -166,18 +167,27 @@ def find_characteristic(
         return value, say("check.resistance_not_usable", value=value, what=what)
     if resistance.tests is None:
         return None, resistance.lack or say("check.no_resistance", what=what)
-    factors = [
-        table.find(resistance.tests.count) if table else None
-        for table in map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
-    ]
-    on_mean, on_least = factors
-    if on_mean is None or on_least is None:
+    factors = find_correlation(resistance, standard)
+    if factors is None:
         count = resistance.tests.count
         return None, say("check.no_correlation", count=count, what=what)
+    on_mean, on_least = factors
     value = compute_pull_out_from_tests(
         resistance.tests, correlation_mean=on_mean, correlation_least=on_least
     )
     return value, None
+
+
+def find_correlation(
+    resistance: GivenResistance, standard: Standard
+) -> tuple[float, float] | None:
+    """Factors on mean and least of tests; None without tests, or without factors."""
+    if resistance.value is not None or resistance.tests is None:
+        return None
+    tables = map(standard.find_table, (CORRELATION_MEAN, CORRELATION_LEAST))
+    factors = [one.find(resistance.tests.count) if one else None for one in tables]
+    on_mean, on_least = factors
+    return None if on_mean is None or on_least is None else (on_mean, on_least)
 
 
 def _name_place(resistance: GivenResistance) -> Message:
@@ -219,15 +229,34 @@ def _missing(
     """List the factors that a utilisation lacks, by their names."""
     lacks = []
     if on_action is None:
-        lacks.append(say("check.no_factor", factor=ACTION_FACTOR))
+        lacks.append(lack_factor(ACTION_FACTOR))
     if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
-        factor = f"resistance.{resistance.mode}"
-        if resistance.basis:
-            basis = name("basis", resistance.basis)
-            lacks.append(say("check.no_factor_of_basis", factor=factor, basis=basis))
-        else:
-            lacks.append(say("check.no_factor", factor=factor))
+        lacks.append(_lack_resistance_factor(resistance, standard))
     return lacks
+
+
+def lack_factor(factor: str) -> Message:
+    """Lack of a profile's value, by its name and its id."""
+    return say("check.no_factor", factor=name("factor", factor), id=factor)
+
+
+def _lack_resistance_factor(resistance: GivenResistance, standard: Standard) -> Message:
+    """Lack of a factor of a mode; it may have one on another basis."""
+    mode = name_mode(resistance.mode)
+    of_mode = f"resistance.{resistance.mode}"
+    ids = (value.id for value in standard.values)
+    known = [
+        one.removeprefix(f"{of_mode}.") for one in ids if one.startswith(f"{of_mode}.")
+    ]
+    if not known:
+        factor = say("factor.resistance", mode=mode)
+        return say("check.no_factor", factor=factor, id=of_mode)
+    return say(
+        "check.no_factor_of_basis",
+        mode=mode,
+        basis=name("basis", resistance.basis),
+        known=tuple(name("basis", one) for one in known),
+    )
 
 
 def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -> bool:

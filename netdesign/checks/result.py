@@ -93,6 +93,9 @@ class Declaration:
         Net row; "" for all of them.
     member, mode : str
         Which check.
+    position : str
+        "edge": on a row's first and last support only. "": inside the row, and there
+        too where its member is of the same type.
     document, author, date : str
         Where it is proven, by whom and when; the date may be "".
     source : str
@@ -106,6 +109,7 @@ class Declaration:
     author: str
     date: str
     source: str
+    position: str = ""
 
     @property
     def proof(self) -> Message:
@@ -139,6 +143,8 @@ class CheckResult:
         Ids of the profile's values in this check that are only assumed.
     declaration : Declaration or None
         Where it is said to be proven, whatever the verdict.
+    correlation : tuple of float or None
+        Factors on mean and least of the tests that gave the resistance [-].
     """
 
     id: str
@@ -156,3 +162,4 @@ class CheckResult:
     utilisation: Band | None = None
     assumed: tuple[str, ...] = ()
     declaration: Declaration | None = None
+    correlation: tuple[float, float] | None = None

@@ -7,6 +7,7 @@ solved roughly first, then again where they may matter. Theory: envelope/THEORY.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.rows import RowTask, build_point_task, roughen_settings
@@ -64,17 +65,23 @@ class Cases:
         for point in self._jobs:
             if point not in self._ends:
                 self._ends[point] = self._skip.recall(point)
-        return [
-            resolve_case(task, self._ends.get(point))
-            for point, task in zip(self._points, self._tasks, strict=True)
-        ]
+        known: dict[int, CaseResult] = {}
+        results = []
+        for point, task in zip(self._points, self._tasks, strict=True):
+            end = self._ends.get(point)
+            same = known.get(id(end)) if end else None  # one end of several frictions
+            result = replace(same, case=task.case) if same else resolve_case(task, end)
+            known[id(end)] = result
+            results.append(result)
+        return results
 
 
 class FirstCases:
     """Cases of the first design: on the two coarsest meshes, then as they deserve.
 
-    A case that failed there, or may come near a largest force, is solved again as the
-    row asks for, unless it is that accurate already. The others stay rough.
+    A case that failed there, has no panel, or may come near a largest force, is solved
+    again as the row asks for, unless it is that accurate already. The others stay
+    rough.
 
     Attributes
     ----------

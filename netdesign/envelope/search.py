@@ -110,7 +110,9 @@ class RowSearch:
     def _begin(self, search: MaximaSearch | Repetition) -> None:
         """Begin with nothing known of the row's cases."""
         self._search = search
-        self._reader = ResultReader(layout=self.task.layout)
+        self._reader = ResultReader(
+            layout=self.task.layout, has_panel=self.task.panel is not None
+        )
         self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []
         self._maxima: Maxima | None = None  # known once only confirmations are open

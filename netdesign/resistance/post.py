@@ -117,15 +117,16 @@ class PostSection:
         That the snow presses on [m].
     length : float
         Between the hinges [m].
-    moment_resistance : float
-        W f_y [N m].
+    modulus, strength : float
+        Section modulus W and f_y [m3, Pa].
     critical, buckling : float
         N_cr and chi A f_y of `BucklingResistance` [N].
     """
 
     width: float
     length: float
-    moment_resistance: float
+    modulus: float
+    strength: float
     critical: float
     buckling: float
 
@@ -133,9 +134,15 @@ class PostSection:
         """Refuse impossible numbers."""
         require_within("post width", self.width, 0.01, 1.0, "m")
         require_positive("buckling length", self.length, "m")
-        require_positive("moment resistance", self.moment_resistance, "N m")
+        require_positive("section modulus", self.modulus, "m3")
+        require_positive("yield strength", self.strength, "Pa")
         require_positive("critical load", self.critical, "N")
         require_positive("buckling resistance", self.buckling, "N")
+
+    @property
+    def moment_resistance(self) -> float:
+        """W f_y [N m]."""
+        return self.modulus * self.strength
 
 
 def compute_post_moment(

@@ -92,7 +92,7 @@ class Surrogate:
         return Prediction(mean=mean, standard_error=scale * spread[:, None])
 
     def find_sway(self, at: Floats, quantities: Sequence[int]) -> Floats:
-        """Most by which errors of the values move the mean, eq. (M2a).
+        """Most by which errors of the values move the mean, eq. (M3a).
 
         Of some quantities, shape (n, len(quantities)).
         """

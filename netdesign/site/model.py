@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import get_args
 
 from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
@@ -22,7 +24,7 @@ from netdesign.snow.snowpack import (
     scale_layers,
 )
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message
@@ -47,6 +49,21 @@ NAMED_BY: Mapping[Member, Member] = {Member.POST_BASE: Member.POST}
 DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
     (Member.POST, "compression_bending"),
     (Member.POST_BASE, "sliding"),
+)
+
+
+# What a row takes of a case, beside the usual three; glide if its ground slides.
+_GLIDE = frozenset(("slip_length", "glide_factor"))
+_OF_ROW = _GLIDE | {
+    *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
+}
+# Of the ends of a row of panels.
+END_MODES: tuple[tuple[EndMember, str], ...] = (
+    (EndMember.LATERAL_ANCHOR, "tendon"),
+    (EndMember.LATERAL_ANCHOR, "pull_out"),
+    (EndMember.END_GUY, "rope"),
+    (EndMember.END_GUY_ANCHOR, "tendon"),
+    (EndMember.END_GUY_ANCHOR, "pull_out"),
 )
 
 
@@ -84,7 +101,7 @@ class Resistance:
     demand, from ``dimensions``; ``source`` is its cell.
     """
 
-    member: Member
+    member: Member | EndMember
     mode: str
     value: float | None
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
@@ -94,6 +111,48 @@ class Resistance:
     tests: PullOutTests | None = None  # instead of a value
     dimensions: AnchorType | PostSection | BaseFriction | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BorderRope:
+    """What a border rope bears.
+
+    Attributes
+    ----------
+    type_id, source : str
+        Id of the rope type, and the cell of its breaking force, else of that id.
+    breaking : float or None
+        Minimum breaking force [N]; None where none is given.
+    """
+
+    type_id: str
+    breaking: float | None
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowPanel:
+    """The panel between two posts of a row, and what its two ropes bear."""
+
+    panel: Panel
+    lower: BorderRope
+    upper: BorderRope
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEnd:
+    """What holds a row of panels along the row, at its first and last support.
+
+    Attributes
+    ----------
+    guy_angle : float or None
+        Between the end guy and the row [rad]; None where none is given.
+    resistances : tuple of Resistance
+        Of all ``END_MODES``, given or not.
+    """
+
+    guy_angle: float | None
+    resistances: tuple[Resistance, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +195,9 @@ class NetRow:
     # of the first and last support; None: those of all others
     end_resistances: tuple[Resistance, ...] | None = None
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
+    panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
+    row_end: RowEnd | None = None  # of a row with panel and end
+    panel_lack: Message | None = None  # why there is none; None also without ropes
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""
@@ -170,6 +232,14 @@ class NetRow:
             return self.end_resistances
         return self.resistances
 
+    def has_same_type_at_end(self, member: str) -> bool:
+        """Whether a member is of one type at the row's end and inside it."""
+        inside, end = (
+            {one.type_id for one in self.resistances_at(place) if one.member == member}
+            for place in get_args(Position)
+        )
+        return inside == end
+
     @property
     def is_overtopped(self) -> bool:
         """Whether the snow is thicker than the net is high."""
@@ -195,10 +265,20 @@ class NetRow:
         return scale_layers(self.layers, self.held_thickness, density)
 
     def at(self, case: Case) -> NetRow:
-        """Row with what the case has of its own; itself where that is nothing."""
+        """Row with what the case has of its own; itself where that is nothing.
+
+        Raises
+        ------
+        ValueError
+            If a quantity of the case has no place in a row: a fault of the program.
+        """
         values = dict(case.others)
         if not values:
             return self
+        can_glide = self.ground.kind == "sliding" or self.glide_factor is not None
+        unknown = values.keys() - (_OF_ROW if can_glide else _OF_ROW - _GLIDE)
+        if unknown:
+            raise ValueError(f"a net row does not take {sorted(unknown)} of a case")
         if "snow_height" in values:
             height = values["snow_height"]
             values["thickness"] = compute_thickness(height, self.slope_angle)
@@ -281,15 +361,19 @@ class Site:
     declared: tuple[Declaration, ...] = ()
 
     def find_declaration(
-        self, row_id: str, member: str, mode: str
+        self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:
-        """Declaration of a check of a net row; None if it is proven here or nowhere."""
-        return next(
-            (
-                one
-                for one in self.declared
-                if one.row_id in ("", row_id)
-                and (one.member, one.mode) == (member, mode)
-            ),
-            None,
-        )
+        """Declaration of a check of a net row; None if it is proven here or nowhere.
+
+        ``position`` is that of its support. What is declared of no support is not
+        proven of an anchor of another type at the row's end.
+        """
+        found = {
+            one.position: one
+            for one in self.declared
+            if one.row_id in ("", row.id) and (one.member, one.mode) == (member, mode)
+        }
+        if position != "edge":
+            return found.get("")
+        general = found.get("") if row.has_same_type_at_end(member) else None
+        return found.get("edge", general)

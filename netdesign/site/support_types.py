@@ -148,7 +148,8 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
     section = PostSection(
         width=line["post_width"].si,
         length=line["buckling_length"].si,
-        moment_resistance=line["section_modulus"].si * line["yield_strength"].si,
+        modulus=line["section_modulus"].si,
+        strength=line["yield_strength"].si,
         critical=buckling.critical,
         buckling=buckling.value,
     )

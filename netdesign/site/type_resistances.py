@@ -216,6 +216,11 @@ def _buckling(row: Row) -> tuple[float, Message]:
         strength=row["yield_strength"].number,
         slenderness=found.slenderness,
         curve=curve,
+        imperfection=imperfection.value,
+        critical=kilonewton_from_newton(found.critical),
+        modulus=load_catalogue()["buckling"]["E_MPa"],
+        second_moment=row["second_moment"].number,
+        length=row["buckling_length"].number,
         origin=_tell_origin(imperfection),
     )
 

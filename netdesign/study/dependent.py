@@ -9,11 +9,13 @@ import math
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
+from netdesign.checks.check import lack_factor
 from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
 from netdesign.envelope.ranges import Ranges
 from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
     LoadModel,
+    SnowLoad,
     compute_altitude_factor,
     compute_snow_load,
     read_load_model,
@@ -122,7 +124,7 @@ def _settle_post(
     on_action = known.standard.find(ACTION_FACTOR)
     on_post = known.standard.find_resistance_factor(given.mode, given.basis)
     if efficiency is None:
-        lack = say("check.no_factor", factor=POST_EFFICIENCY)
+        lack = lack_factor(POST_EFFICIENCY)
         return replace(given, lack=lack)
     if on_action is None or on_post is None:
         return given
@@ -131,14 +133,22 @@ def _settle_post(
     except ModelError as error:  # outside the guideline's closed forms
         return replace(given, lack=error.message)
     moment = compute_post_moment(
-        section, pressure=pressure, efficiency=efficiency.value
+        section, pressure=pressure.value, efficiency=efficiency.value
     )
     value = compute_bent_post_resistance(
         section, moment=on_action.value * moment, partial_factor=on_post.value
     )
     told = {
         "efficiency": efficiency.value,
-        "pressure": pressure / 1e3,
+        "pressure": pressure.value / 1e3,
+        "density": pressure.density,
+        "gravity": pressure.gravity,
+        "height": pressure.height_vertical,
+        "creep": pressure.load.creep_factor,
+        "glide": pressure.load.glide_factor,
+        "slope": degree_from_radian(known.row.slope_angle),
+        "modulus": 1e6 * section.modulus,
+        "strength": section.strength / 1e6,
         "width": 1e3 * section.width,
         "length": section.length,
         "moment": moment / 1e3,
@@ -153,8 +163,29 @@ def _settle_post(
     return replace(given, value=value, derivation=say("post_bending.beside", **told))
 
 
-def find_snow_pressure(row: NetRow, ranges: Ranges) -> float:
-    """Largest mean pressure of the snow on a plane across the slope [Pa].
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SnowPressure:
+    """Mean pressure of the guideline's snow on a plane across the slope.
+
+    Attributes
+    ----------
+    value : float
+        S'_N / d [Pa].
+    density, gravity, height_vertical : float
+        That it follows from [kg/m3, m/s2, m].
+    load : SnowLoad
+        With the factors of creep and glide.
+    """
+
+    value: float
+    density: float
+    gravity: float
+    height_vertical: float
+    load: SnowLoad[float]
+
+
+def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
+    """Largest mean pressure of the snow on a plane across the slope.
 
     The guideline's S'_N over the snow's thickness, of its two load cases and of the
     densest snow, over the ranges of height and glide factor. Theory:
@@ -165,31 +196,40 @@ def find_snow_pressure(row: NetRow, ranges: Ranges) -> float:
         _find_pressure(model, one, ranges["density"].high)
         for one in list_corners(row, ranges)
     )
-    return max(pressures)
+    return max(pressures, key=lambda one: one.value)
 
 
-def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> float:
+def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> SnowPressure:
     height = row.held_thickness / math.cos(row.slope_angle)
-    on_density = (
-        1.0 if row.altitude is None else compute_altitude_factor(model, row.altitude)
-    )
+    on_density = compute_altitude_factor(model, row.altitude)
     cases = (
         (densest, height),
         (on_density * model.density, height),
         (model.case_2_density, model.case_2_height * height),
     )
-    return max(
-        compute_snow_load(
-            model,
-            density=density,
-            height_vertical=vertical,
-            slope_angle=row.slope_angle,
-            glide_factor=find_row_glide_factor(row),
-            net_height=row.net_height,
-            inclination=0.0,
-        ).rigid
-        / (vertical * math.cos(row.slope_angle))
-        for density, vertical in cases
+    found = (_press(model, row, density, vertical) for density, vertical in cases)
+    return max(found, key=lambda one: one.value)
+
+
+def _press(
+    model: LoadModel, row: NetRow, density: float, vertical: float
+) -> SnowPressure:
+    """Pressure of snow of a density [kg/m3] and a vertical height [m]."""
+    load = compute_snow_load(
+        model,
+        density=density,
+        height_vertical=vertical,
+        slope_angle=row.slope_angle,
+        glide_factor=find_row_glide_factor(row),
+        net_height=row.net_height,
+        inclination=0.0,
+    )
+    return SnowPressure(
+        value=load.rigid / (vertical * math.cos(row.slope_angle)),
+        density=density,
+        gravity=model.gravity,
+        height_vertical=vertical,
+        load=load,
     )
 
 

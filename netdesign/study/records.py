@@ -216,14 +216,35 @@ class ActionRecord:
     guideline_kN: float | None = None  # the same on this support
     floor_case: str = ""  # "load_case_1" or "load_case_2"
     floor_inclination_deg: float | None = None  # at which it is largest
-    governs: str = "coupled"  # or "guideline": the larger of the two
+    governs: str = "coupled"  # or "panel", "guideline": the largest of the three
     share: float = 1.0  # of the solved force, in this member or along the slope
     added_kN: float = 0.0  # by the load along the row at the head
     added_low_kN: float = 0.0
     added_high_kN: float = 0.0
     sideways: SidewaysRecord | None = None  # what ``added_kN`` follows from
+    solved_low_kN: float | None = None  # ends of the band of ``solved_kN``;
+    solved_high_kN: float | None = None  # the upper one with what may hide
     foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
     guy_part_kN: float | None = None
+    panel_kN: float | None = None  # by the panel between posts, as ``solved_kN``
+    panel_low_kN: float | None = None
+    panel_support_kN: float | None = None  # as ``coupled_kN``
+    along_kN: float = 0.0  # of it by the end guy, on the post at the row's end
+    along_low_kN: float = 0.0
+    along_high_kN: float = 0.0
+
+    @property
+    def governing(self) -> str:
+        """Load of the three that governs, by their numbers."""
+        largest = max(self.coupled_kN, self.panel_support_kN or 0.0)
+        if self.guideline_kN and self.guideline_kN >= largest:
+            return "guideline"
+        return "panel" if self.is_by_panel else "coupled"
+
+    @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        return (self.panel_support_kN or 0.0) > self.coupled_kN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -454,6 +475,9 @@ class FloorForceRecord:
     force_kN: float  # characteristic
     load_case: str  # "load_case_1" or "load_case_2"
     inclination_deg: float  # of the net, where the force is largest
+    snow_thickness_m: float  # of the snow that is held, there as well
+    slack: float
+    stiffness_kN_per_m: float
     density_kg_m3: float
     height_vertical_m: float
     creep_factor: float
@@ -470,7 +494,83 @@ class FloorRecord:
     profile: str  # whose load model
     sha256: str
     forces: list[FloorForceRecord]  # empty where the floor is not available
+    altitude_factor: float  # on the density of load case 1
+    assumed: list[Text] = field(default_factory=list)  # of the row, for its load
     reason: Text | None = None  # why it is not
+
+
+@dataclass(frozen=True, kw_only=True)
+class GuidelineLoadRecord:
+    """The guideline's load on a net, for each metre of width: (G1) to (G9)."""
+
+    load_case: str  # "load_case_1" or "load_case_2"
+    inclination_deg: float
+    snow_thickness_m: float
+    density_kg_m3: float
+    height_vertical_m: float
+    creep_factor: float
+    glide_factor: float
+    rigid_kN_per_m: float
+    parallel_kN_per_m: float
+    normal_kN_per_m: float
+    prism_kN_per_m: float
+    load_along_kN_per_m: float
+    load_across_kN_per_m: float
+    loaded_share: float  # of the chord, from the foot
+    stiffness_kN_per_m: float
+    slack: float
+    chord_tension_kN_per_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticsRecord:
+    """Way from the net's end pulls to the members of a support inside the row.
+
+    (S1) to (S8). X along the slope from the net's foot, Y out of the ground.
+    """
+
+    brings: list[str]  # members that it loads most; "head_pull", "foot_least", ...
+    case: CasePoint | None  # None under the guideline's load
+    load: GuidelineLoadRecord | None
+    foot_x_kN_per_m: float
+    foot_y_kN_per_m: float
+    foot_error_kN_per_m: float
+    head_x_kN_per_m: float
+    head_y_kN_per_m: float
+    head_error_kN_per_m: float
+    head_x_m: float
+    head_y_m: float
+    base_x_m: float
+    uphill_x_m: float
+    downhill_x_m: float
+    foot_anchor_kN: float  # of the net alone
+    uphill_guy_kN: float
+    downhill_guy_kN: float
+    post_kN: float
+    post_base_kN: float  # across the plate
+    is_by_panel: bool = False  # pulls are the means of a bay between two posts
+    mid_foot_kN: float = 0.0  # of an anchor in mid-panel
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldSidewaysRecord:
+    """Numbers of a row that the load along it follows from: (S15) to (S18)."""
+
+    share: float
+    splay_deg: float
+    pull_low_kN: float  # largest pull on a head, over cases and floor
+    pull_kN: float
+    pull_high_kN: float
+    solved_tension_kN: float  # least of the guys at work, low end over the cases
+    hidden_tension_kN: float  # what may hide of it between the cases
+    floor_tension_kN: float | None
+    least_tension_kN: float
+    uphill_part: float  # c of the uphill guy, and the inclination where it is largest
+    uphill_at_deg: float
+    downhill_part: float
+    downhill_at_deg: float
+    post_part: float  # w
+    post_at_deg: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -481,6 +581,63 @@ class IndependentRecord:
     value: float | None  # a share or a ratio [-]
     limit: float | None  # None where nothing bounds it
     is_met: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class RopeRecord:
+    """A border rope: what it is, and its largest forces, upper ends.
+
+    They are upper figures to a tenth, and information: no check rests on them alone.
+    """
+
+    rope: str  # "lower" or "upper"
+    type: str  # id of sheet Ropes
+    stiffness_kN: float  # EA
+    sag: float  # as built, over the post spacing
+    along_kN: float | None  # along the row; None where no case has a panel
+    tension_kN: float | None
+    breaking_kN: float | None  # None where none is given
+    cell: str  # of the breaking force, else of the id
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelDrawing:
+    """Panel of the drawn case: half of it, from a post to mid-panel.
+
+    Axes of the section: X downslope from the net's foot, Y out of the ground.
+    """
+
+    case: CasePoint
+    places_m: list[float]  # along the row, from beside the post to mid-panel
+    post_head_m: tuple[float, float]
+    lower_m: list[tuple[float, float]]
+    upper_m: list[tuple[float, float]]
+    mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel
+    rope_places_m: list[float]  # those of the tensions, from the post on
+    lower_tensions_kN: list[float]
+    upper_tensions_kN: list[float]
+    foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
+    mid_foot_kN: tuple[float, float]
+    head_kN: tuple[float, float]  # on a post head
+    section_foot_kN: tuple[float, float]  # the same by the section
+    section_head_kN: tuple[float, float]
+    lower_along_kN: float
+    upper_along_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelRecord:
+    """Panel between two posts of a row, inside it."""
+
+    cut: str  # "uniform", "upper" or "fitted"
+    has_mid_anchors: bool
+    ropes: list[RopeRecord]
+    extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
+    failed: int = 0  # solved cases without forces by the panel
+    effective_height_m: float | None = None  # least in mid-panel, normal to the slope
+    lift_m: float | None = None  # largest of the lower rope in mid-panel
+    end_guy_deg: float | None = None  # angle to the row; None where none is given
+    drawing: PanelDrawing | None = None  # None where the drawn case has no panel
 
 
 def list_verdicts(
@@ -512,6 +669,9 @@ class RowStudy:
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
+    panel: PanelRecord | None = None  # None: a metre of net times the post spacing
+    statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
+    held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from netdesign.checks import check_member
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import Resistance
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
 from netdesign.study.changes import find_row_holds, list_changes
@@ -21,6 +22,7 @@ from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
     CheckRecord,
 )
+from netdesign.study.row_end import find_lack
 from netdesign.study.settle import (
     find_gap,
     judge_forces,
@@ -31,8 +33,9 @@ from netdesign.study.settle import (
     settle_check,
 )
 from netdesign.study.sideways import check_sideways
-from netdesign.study.spreads import list_spreads
+from netdesign.study.spreads import list_end_spreads, list_spreads
 from netdesign.words.message import Message, say
+from netdesign.words.names import name
 
 # A program that fails beside the cases of a check is not trusted in them.
 _FAULT_BESIDE = say("check.fault_beside")
@@ -63,6 +66,7 @@ def check_row(
         checks = [_distrust(task, one, check) for one, check in told]
     return [
         *checks,
+        *_check_end(task, loads),
         *_check_directions(task, loads, find_open(judged)),
         *record_geometry(task.site, task.row, task.standard),
     ]
@@ -74,6 +78,29 @@ def find_open(judged: Sequence[MemberCheck]) -> Message | None:
     return next((one for one in points if one is not None), None)
 
 
+def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
+    """Checks of what holds the ropes' pull along the row, at its end."""
+    end, row = loads.end, task.row
+    checks = []
+    for given in row.row_end.resistances if row.row_end else ():
+        extreme = end.find_extreme(given.member) if end else None
+        gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme)
+        doubt = _find_doubt(task, extreme) if extreme else None
+        action = end.demand(given.member) if end else None
+        result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
+        settled = settle_check(task.site, row, result, "edge")
+        check = place_check(record_result(settled, given), "edge")
+        if end is not None and extreme is not None:
+            check = replace(
+                check,
+                case=record_point(extreme.governing.case),
+                action=end.record(given.member, loads.effects.post_spacing),
+                spreads=list_end_spreads(result, extreme),
+            )
+        checks.append(check)
+    return checks
+
+
 def _check_directions(
     task: RowCheck, loads: RowLoads, gap: Message | None
 ) -> list[CheckRecord]:
@@ -83,7 +110,9 @@ def _check_directions(
     return [
         record_result(settle_check(task.site, task.row, lateral)),
         *(
-            place_check(record_result(settle_check(task.site, task.row, one)), place)
+            place_check(
+                record_result(settle_check(task.site, task.row, one, place)), place
+            )
             for place, one in directions
         ),
     ]
@@ -98,21 +127,28 @@ def _judge_member(
 ) -> MemberCheck:
     extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
-        demand = loads.demand(given, extreme, width)
+        panel = extremes.get(name_in_panel(given.member))
+        demand = loads.demand(given, extreme, width, panel)
+        brings = [one for one in (extreme, panel) if one is not None]
+        pressing = loads.press(extreme, width, panel)
+        if panel is not None and demand.largest is not demand.solved:
+            extreme = panel
         known = Circumstances(
             row=task.row,
             ranges=task.site.ranges,
             standard=task.standard,
             pull=find_pull(loads.pulls, given.member, width.position),
-            pressing=loads.press(extreme, width),
+            pressing=pressing,
         )
         given = settle_resistance(given, known)
-        brings = [extreme]
         if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
             brings.append(extremes[Member.POST])
         doubts = (_find_doubt(task, one) for one in brings)
         doubt = next((one for one in doubts if one), None)
-    gap = find_gap(task.solved.gap, loads.floor)
+    seen = (extreme, extremes.get(name_in_panel(given.member)))
+    gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(*seen)
+    if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
+        gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
     return MemberCheck(
         given=given,
@@ -123,6 +159,15 @@ def _judge_member(
         doubt=doubt,
         result=judge_forces(action, given, task.standard, gap=gap, doubt=doubt),
     )
+
+
+def _find_unseen(*extremes: Extreme | None) -> Message | None:
+    """Quantities between whose samples nothing is known of some largest force."""
+    unknown = dict.fromkeys(axis for one in extremes if one for axis in one.unknown)
+    if not unknown:
+        return None
+    axes = tuple(name("axis", axis) for axis in unknown)
+    return say("check.unseen_between", axes=axes)
 
 
 def _find_doubt(task: RowCheck, extreme: Extreme) -> Message | None:
@@ -136,12 +181,12 @@ def _record_member(
 ) -> CheckRecord:
     given, result = one.given, one.result
     if one.extreme is None or one.demand is None:
-        settled = settle_check(task.site, task.row, result)
+        settled = settle_check(task.site, task.row, result, one.width.position)
         return place_check(record_result(settled, given), one.width.position)
     before = task.probe.faults if task.probe else 0
     spreads = list_spreads(task, one, one.extreme)
     changes = list_changes(task, one, effects, is_worst=is_worst)
-    settled = settle_check(task.site, task.row, result)
+    settled = settle_check(task.site, task.row, result, one.width.position)
     plain = one.demand.record(effects, given.member)
     action = add_parts(plain, one.extreme.governing, given.member)
     check = replace(
@@ -163,6 +208,6 @@ def _distrust(task: RowCheck, one: MemberCheck, check: CheckRecord) -> CheckReco
     result = judge_forces(
         one.demand.action, one.given, task.standard, gap=_FAULT_BESIDE, doubt=one.doubt
     )
-    settled = settle_check(task.site, task.row, result)
+    settled = settle_check(task.site, task.row, result, one.width.position)
     reason = tell_governing(settled.reason, check.action)
     return replace(check, verdict=settled.verdict, reason=reason)

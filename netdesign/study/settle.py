@@ -70,15 +70,17 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
-    """Check with what the workbook says beside its numbers.
+def settle_check(
+    site: Site, row: NetRow, result: CheckResult, position: Position | None = None
+) -> CheckResult:
+    """Check on a support, if it has one, with what the workbook says of it.
 
     Forces of a net below its snow are those of snow up to its head: information.
     A check may be declared as proven elsewhere.
     """
     if row.is_overtopped and result.member != Member.NET:
         result = withhold(result, say("check.overtopped"))
-    declaration = site.find_declaration(row.id, result.member, result.mode)
+    declaration = site.find_declaration(row, result.member, result.mode, position or "")
     return declare(result, declaration)
 
 
@@ -146,7 +148,8 @@ def _record_declaration(given: Declaration | None) -> DeclarationRecord | None:
 def _describe_derivation(
     given: Resistance | None, result: CheckResult
 ) -> Message | None:
-    if given is None or given.tests is None or result.resistance is None:
+    factors = result.correlation
+    if given is None or given.tests is None or factors is None:
         return given.derivation if given else None
     tests = given.tests
     return say(
@@ -154,4 +157,6 @@ def _describe_derivation(
         mean=kilonewton_from_newton(tests.mean),
         least=kilonewton_from_newton(tests.least),
         count=tests.count,
+        on_mean=factors[0],
+        on_least=factors[1],
     )

@@ -193,6 +193,9 @@ def build_floor(extreme: ExtremeRecord) -> FloorRecord:
                 force_kN=0.4 * extreme.max_kN / 1.1,
                 load_case="load_case_1",
                 inclination_deg=35.0,
+                snow_thickness_m=4.0,
+                slack=0.02,
+                stiffness_kN_per_m=5400.0,
                 density_kg_m3=270.0,
                 height_vertical_m=5.22,
                 creep_factor=0.741,
@@ -202,6 +205,8 @@ def build_floor(extreme: ExtremeRecord) -> FloorRecord:
                 chord_tension_kN_per_m=17.1,
             )
         ],
+        altitude_factor=1.3,
+        assumed=[say("row.altitude_assumed", factor=1.3)],
     )
 
 

@@ -19,7 +19,12 @@ from netdesign.resistance.steel import (
 )
 
 POST = PostSection(
-    width=0.12, length=3.1, moment_resistance=31e3, critical=6.9e5, buckling=3.96e5
+    width=0.12,
+    length=3.1,
+    modulus=131e-6,
+    strength=237e6,
+    critical=6.9e5,
+    buckling=3.96e5,
 )
 
 

@@ -75,7 +75,7 @@ def test_up_to_three_parameters_every_score_counts_far_away_alike():
 
 
 def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
-    """Eq. (M2a), against models of values that are moved by their doubts."""
+    """Eq. (M3a), against models of values that are moved by their doubts."""
     doubts = np.zeros_like(KINKED)
     doubts[[3, 11, 20]] = [[0.31, 0.02], [0.07, 0.0], [0.0, 0.13]]
     model = fit_surrogate(PLACES, KINKED, 0.0, doubts)

@@ -1,4 +1,4 @@
-"""The use case on a small site: two rows, two densities, two friction angles."""
+"""The use case on a small site: two rows, three densities, three friction angles."""
 
 import math
 import random
@@ -87,7 +87,7 @@ def test_study_is_complete(results, standard):
             "geometry.slope",
             "geometry.height",
         ]
-        assert len(row.cases) == 4
+        assert len(row.cases) == 9
         assert {extreme.quantity for extreme in row.extremes} == set(REPORTED_MEMBERS)
         assert all(check.reason for check in row.checks)
         assert row.inputs[0].cell == "default"
@@ -97,17 +97,13 @@ def test_study_is_complete(results, standard):
 
 def test_cases_are_counted_and_listed_in_the_order_of_the_grid(results, standard):
     study = judge_site(SITE, gather(results), standard, RUN)
-    assert count_cases(SITE) == 8 == sum(len(of_row) for of_row in results)
+    assert count_cases(SITE) == 18 == sum(len(of_row) for of_row in results)
     cases = build_cases(RANGES)
     for of_row, row in zip(results, study.rows, strict=True):
         assert [result.case for result in of_row] == list(cases)
-        assert [record.case.density_kg_m3 for record in row.cases] == [
-            270.0,
-            270.0,
-            400.0,
-            400.0,
-        ]
-        assert [record.case.friction_deg for record in row.cases] == [15, 45, 15, 45]
+        densities = [record.case.density_kg_m3 for record in row.cases]
+        assert densities == [270.0] * 3 + [335.0] * 3 + [400.0] * 3
+        assert [record.case.friction_deg for record in row.cases] == [15, 30, 45] * 3
         assert {record.case.inclination_deg for record in row.cases} == {30.0}
 
 
@@ -153,14 +149,15 @@ def test_numbers_of_a_check_follow_from_each_other(judge):
     assert check.demand_kN == pytest.approx(
         factors["action.snow"] * check.action_kN, rel=1e-12
     )
-    # two samples on each axis: nothing is known between the cases, and told
-    between = next(s for s in check.spreads if s.source.key == "spread.between_cases")
+    numerical, between = check.spreads[:2]
+    assert between.source.key == "spread.between_cases"
     assert between.low == check.utilisation
-    assert between.high == pytest.approx(check.utilisation, rel=1e-12)
-    assert "density, friction angle" in str(between.note)
-    assert check.demand_high_kN == pytest.approx(
-        factors["action.snow"] * on_row * action.high_kN, rel=1e-12
-    )
+    hidden = between.high - between.low
+    assert hidden > 0.0
+    assert between.note is None
+    at_cases = factors["action.snow"] * on_row * action.high_kN / check.resistance_kN
+    assert numerical.high == pytest.approx(at_cases, rel=1e-12)
+    assert check.utilisation_band[1] == pytest.approx(at_cases + hidden, rel=1e-12)
     assert check.resistance_characteristic_kN == 400.0
     assert check.resistance_kN == pytest.approx(
         400.0 / factors["resistance.pull_out.tested"], rel=1e-12
@@ -212,13 +209,13 @@ def test_a_missing_resistance_is_named(judge):
 
 
 def test_one_failed_case_is_a_gap_in_every_check(judge, results):
-    study = judge([*results[0][:3], fail(results[0][3])])
+    study = judge([*results[0][:-1], fail(results[0][-1])])
     row = study.rows[0]
     assert row.verdict == Verdict.NOT_PROVEN
     for check in row.checks[:-3]:
         assert check.verdict == Verdict.NOT_PROVEN
-        assert "1 of 4 cases failed (snow flow: spoilt)" in str(check.reason)
-    record = row.cases[3]
+        assert "1 of 9 cases failed (snow flow: spoilt)" in str(check.reason)
+    record = row.cases[-1]
     assert (record.outcome, str(record.reason)) == (
         Outcome.DIVERGED,
         "snow flow: spoilt",
@@ -227,12 +224,26 @@ def test_one_failed_case_is_a_gap_in_every_check(judge, results):
     assert record.error_percent is None
 
 
+def test_between_two_samples_nothing_is_known_and_nothing_passes(judge, results):
+    """The first and the last of three friction angles."""
+    ends = [one for k, one in enumerate(results[0]) if k % 3 != 1]
+    study = judge(ends)
+    assert study.verdict is Verdict.NOT_PROVEN
+    for check in study.rows[0].checks[:-3]:
+        verdict, reason = check.verdict, str(check.reason)
+        assert verdict is Verdict.NOT_PROVEN
+        assert "friction angle" in reason
+        assert "take three samples or more, or leave their number empty" in reason
+    weak = judge(ends, resistances=resist(foot_anchor__tendon=WEAK))
+    assert check_of(weak, "foot_anchor.tendon").verdict is Verdict.FAIL
+
+
 def test_a_sure_fail_stays_one_despite_a_failed_case(judge, results):
     resistances = resist(foot_anchor__tendon=WEAK)
     study = judge([fail(results[0][0]), *results[0][1:]], resistances=resistances)
     check = check_of(study, "foot_anchor.tendon")
     assert study.verdict == check.verdict == Verdict.FAIL
-    assert "1 of 4 cases failed" in str(check.reason)
+    assert "1 of 9 cases failed" in str(check.reason)
 
 
 def test_without_any_result_nothing_is_proven(judge, results):
@@ -255,7 +266,7 @@ def test_without_any_result_nothing_is_proven(judge, results):
     ],
 )
 def test_range_of_inclination_is_checked(judge, low, high, verdict):
-    inclination = Interval(low=math.radians(low), high=math.radians(high), count=2)
+    inclination = Interval(low=math.radians(low), high=math.radians(high), count=3)
     site = build_site(
         ROWS[0],
         ranges=Ranges.of(**dict(RANGES.intervals) | {"inclination": inclination}),
@@ -307,7 +318,7 @@ def test_drawn_forces_are_those_of_the_drawn_case(judge):
     ],
 )
 def test_densities_outside_the_calibration_are_noted(judge, low, high, is_noted):
-    density = Interval(low=low, high=high, count=2)
+    density = Interval(low=low, high=high, count=3)
     ranges = Ranges.of(**dict(RANGES.intervals) | {"density": density})
     site = build_site(ROWS[0], ranges=ranges)
     notes = [str(note) for note in judge(site=site).notes]

@@ -17,6 +17,7 @@ from netdesign.site.columns.dimension_columns import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
+from netdesign.site.columns.panel_columns import PANEL, ROPE_STIFFNESS, ROW_ENDS
 from netdesign.site.columns.support_columns import (
     ANCHOR_BENDING,
     GUYS_AND_AXES,
@@ -210,6 +211,7 @@ NETS = word_plan(
             _reference("post", "Posts"),
             *ROW_POSITION,
             *GUYS_AND_AXES,
+            *PANEL,
         ),
     )
 )
@@ -236,6 +238,7 @@ ENDS = word_plan(
                     ("post", "Posts"),
                 )
             ),
+            *ROW_ENDS,
         ),
     )
 )
@@ -331,6 +334,7 @@ ROPES = word_plan(
             _TYPE_ID,
             _resistance("rope", "breaking force"),
             *ROPE_DIMENSIONS,
+            *ROPE_STIFFNESS,
         ),
     )
 )
@@ -549,7 +553,9 @@ DECLARED = word_plan(
                 key="check",
                 kind="text",
                 required=True,
-                note="as the reports name it: Post base, bearing",
+                note='as the reports name it: Post base, bearing; without "end of the '
+                'row" it holds at the ends of the row only where the type there is the '
+                "same",
             ),
             Field(
                 key="document",

@@ -13,6 +13,7 @@ from netdesign.site.model import Site
 from netdesign.study.audit.check_audit import audit_checks
 from netdesign.study.audit.comparing import is_of_steady_states, tell_verdict
 from netdesign.study.audit.envelope_audit import Spans, audit_envelope
+from netdesign.study.audit.statics_audit import audit_statics
 from netdesign.study.audit.support_audit import audit_support
 from netdesign.study.notes import list_reasons
 from netdesign.study.records import RowStudy, Study, list_verdicts
@@ -54,6 +55,7 @@ def audit_study(
         found += audit_envelope(row, spans, tolerance)
         found += audit_checks(row, study.profile, accepts_law=accepts_law)
         found += audit_support(row, study.profile, is_steady=is_steady)
+        found += audit_statics(row) if is_steady else ()
         found += _audit_verdict(row)
     if site is not None and site.sha256 == study.provenance.site_sha256:
         from netdesign.study.audit.site_audit import audit_site

@@ -23,6 +23,9 @@ def as_given(text):
     return {"key": "text.as_given", "arguments": {"text": text}}
 
 
+SOLVED = ("solved_kN", "solved_low_kN", "solved_high_kN")
+
+
 def forces(study):
     """Checks of forces that carry something, of every row."""
     return [c for row in study["rows"] for c in row["checks"] if c["action_kN"]]
@@ -32,7 +35,7 @@ def scale_demand(check, factor):
     """Scale the coupled part; the guideline's load stays below the demand."""
     action, safety = check["action"], check["action_factor"]
     parts = ("added_kN", "added_low_kN", "added_high_kN")
-    scale_all(action, ("solved_kN", "coupled_kN", *parts), factor)
+    scale_all(action, (*SOLVED, "coupled_kN", *parts), factor)
     if action["sideways"]:
         scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
     on_row = action["loaded_width_m"] / action["post_spacing_m"]
@@ -109,6 +112,17 @@ def scale_drawn(row, factor):
         scale_all(one, ("x_kN", "y_kN"), factor)
 
 
+def scale_statics(row, factor):
+    """States of solved cases; those of the guideline's load stay."""
+    for state in row["statics"]:
+        if state["load"] is None:
+            keys = [key for key in state if "_kN" in key]
+            scale_all(state, keys, factor)
+    if row["held_sideways"]:
+        keys = [key for key in row["held_sideways"] if key.endswith("_kN")]
+        scale_all(row["held_sideways"], keys, factor)
+
+
 def scale_guideline(record, factor):
     scale_all(record, ("solved_foot_anchor_kN", "solved_load_kN_per_m"), factor)
     for case in record["cases"]:
@@ -140,6 +154,7 @@ def every_force_a_tenth_smaller(study):
     for row in study["rows"]:
         scale_extremes(row, 0.9)
         scale_drawn(row, 0.9)
+        scale_statics(row, 0.9)
         for case in row["cases"]:
             scale_all(case, [f"{member}_kN" for member in MEMBERS], 0.9)
         scale_guideline(row["guideline"], 0.9)
@@ -620,7 +635,7 @@ def a_loaded_width_narrowed(study):
         ratio = action["post_spacing_m"] / action["loaded_width_m"] * 0.9
         action["loaded_width_m"] *= ratio
         scale_demand(check, ratio)
-        action["solved_kN"] /= ratio
+        scale_all(action, SOLVED, 1.0 / ratio)
 
 
 @alteration
@@ -629,7 +644,7 @@ def a_share_along_the_row_left_out(study):
         ratio = 1.0 / check["action"]["lateral_factor"]
         check["action"]["lateral_factor"] = 1.0
         scale_demand(check, ratio)
-        check["action"]["solved_kN"] /= ratio
+        scale_all(check["action"], SOLVED, 1.0 / ratio)
 
 
 @alteration

@@ -1,0 +1,308 @@
+"""Statics of the cases that bring the largest forces, so that they can be redone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from netdesign.coupling.solution import EndPull
+from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+from netdesign.envelope.run import CaseResult
+from netdesign.guideline.floor import SPANS, Floor, FloorForce
+from netdesign.site.model import NetRow
+from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.axis import measure_pull
+from netdesign.structure.layout import SupportPoints, place_support
+from netdesign.structure.members import Member, RopeForce
+from netdesign.structure.splay import SplayWeights, weigh_splay
+from netdesign.study.record_cases import record_point
+from netdesign.study.records import (
+    CasePoint,
+    GuidelineLoadRecord,
+    HeldSidewaysRecord,
+    StaticsRecord,
+)
+from netdesign.study.sideways import (
+    GUYS,
+    GUYS_BY_PANEL,
+    Sideways,
+    find_hidden,
+    place_row,
+)
+from netdesign.units import (
+    degree_from_radian,
+    given_degree_from_radian,
+    kilonewton_from_newton,
+    kilonewton_if_known,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Pulls:
+    """End pulls of a state with the support that they act on.
+
+    ``mid_foot`` is the force on an anchor in mid-panel [N].
+    """
+
+    foot: EndPull
+    head: EndPull
+    points: SupportPoints
+    anchors: AnchorForces
+    is_by_panel: bool = False
+    mid_foot: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """A solved case, by its section or by the panel between posts."""
+
+    result: CaseResult
+    is_by_panel: bool = False
+
+
+def record_statics(
+    row: NetRow,
+    results: Sequence[CaseResult],
+    extremes: Mapping[str, Extreme],
+    floor: Floor | None,
+) -> list[StaticsRecord]:
+    """States of a row that bring its largest forces: solved cases, then the floor's.
+
+    A member that is slack in every state is left out.
+    """
+    solved = [one for one in results if one.is_converged and one.anchors is not None]
+    return [*_record_cases(row, solved, extremes), *_record_floor(floor)]
+
+
+def _record_cases(
+    row: NetRow, solved: Sequence[CaseResult], extremes: Mapping[str, Extreme]
+) -> Iterable[StaticsRecord]:
+    found = [
+        (key, _find_state(key, one.governing))
+        for key, one in extremes.items()
+        if one.force.value > 0.0 and key not in tuple(RopeForce)
+    ]
+    states = _list_states(solved)
+    if states:
+        found += [
+            (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
+        ]
+    for state, keys in _group(found):
+        pulls = _read_pulls(row, state)
+        if pulls is not None:
+            case = record_point(state.result.case)
+            yield _record_state(keys, pulls, case=case, load=None)
+
+
+def _list_states(solved: Sequence[CaseResult]) -> list[_State]:
+    """States of solved cases, by section and by panel where there is one."""
+    by_panel = [one for one in solved if isinstance(one.panel, PanelForces)]
+    return [*map(_State, solved), *(_State(one, True) for one in by_panel)]
+
+
+def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
+    result = state.result
+    solution, anchors, panel = result.solution, result.anchors, result.panel
+    if solution is None or anchors is None:
+        return None
+    points = place_row(row, result)
+    if not (state.is_by_panel and isinstance(panel, PanelForces)):
+        return _Pulls(
+            foot=solution.foot, head=solution.head, points=points, anchors=anchors
+        )
+    return _Pulls(
+        foot=panel.foot,
+        head=panel.head,
+        points=points,
+        anchors=panel.anchors,
+        is_by_panel=True,
+        mid_foot=math.hypot(*panel.solution.mid_foot),
+    )
+
+
+def _find_state(member: str, result: CaseResult) -> _State:
+    """The case at rest or followed in time, whichever brings the member's force."""
+    both = result.compared
+    if member in PANEL_QUANTITIES:
+        return _State(result, True)
+    if both is None:
+        return _State(result)
+    return _State(both.history if both.exceeds(member) else both.steady)
+
+
+def _measure(state: _State) -> dict[str, float]:
+    """Sizes of a state of which the largest counts, by the keys `SPANS`."""
+    result, panel = state.result, state.result.panel
+    anchors = result.anchors
+    guys: Sequence[str] = GUYS
+    if state.is_by_panel and isinstance(panel, PanelForces):
+        anchors, guys = panel.anchors, GUYS_BY_PANEL
+    if anchors is None:
+        return dict.fromkeys(SPANS, -math.inf)
+    foot = anchors.foot_anchor
+    turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
+    tension = sum(result.member_forces[guy].low for guy in guys)
+    sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
+    return dict(zip(SPANS, sizes, strict=True))
+
+
+def _group(found: Iterable[tuple[str, _State]]) -> list[tuple[_State, list[str]]]:
+    """States in the order of what they bring, each with all of it."""
+    groups: list[tuple[_State, list[str]]] = []
+    for key, state in found:
+        keys = next((keys for known, keys in groups if _is_same(known, state)), None)
+        if keys is None:
+            groups.append((state, [key]))
+        else:
+            keys.append(key)
+    return groups
+
+
+def _is_same(one: _State, other: _State) -> bool:
+    return one.result is other.result and one.is_by_panel is other.is_by_panel
+
+
+def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
+    groups: list[tuple[FloorForce, list[str]]] = []
+    for one in (*floor.forces, *floor.spans) if floor else ():
+        if one.member not in SPANS and one.force == 0.0:
+            continue
+        same = (g for g in groups if g[0].at == one.at and g[0].case == one.case)
+        group = next(same, None)
+        if group is None:
+            groups.append((one, [one.member]))
+        else:
+            group[1].append(one.member)
+    for state, keys in groups:
+        yield _record_floor_state(state, keys)
+
+
+def _record_floor_state(state: FloorForce, keys: list[str]) -> StaticsRecord:
+    net = state.at.net
+    points = place_support(
+        net.layout, (net.net_height * math.tan(net.inclination), net.net_height)
+    )
+    foot, head = state.pull.foot, state.pull.head
+    anchors = compute_anchor_forces(
+        points,
+        foot_pull_per_m=foot,
+        head_pull_per_m=head,
+        post_spacing=net.layout.post_spacing,
+    )
+    if not isinstance(anchors, AnchorForces):  # the floor has held it before
+        raise TypeError("a state of the floor has no equilibrium")
+    pulls = _Pulls(
+        foot=EndPull(x=foot[0], y=foot[1], error=0.0),
+        head=EndPull(x=head[0], y=head[1], error=0.0),
+        points=points,
+        anchors=anchors,
+    )
+    return _record_state(keys, pulls, case=None, load=_record_load(state))
+
+
+def _record_load(state: FloorForce) -> GuidelineLoadRecord:
+    net, case, load = state.at.net, state.case, state.load
+    along, across = load.resultant
+    filled = case.height_vertical * math.cos(net.slope_angle) / net.net_height
+    return GuidelineLoadRecord(
+        load_case=case.name,
+        inclination_deg=given_degree_from_radian(net.inclination),
+        snow_thickness_m=net.snow_thickness,
+        density_kg_m3=case.density,
+        height_vertical_m=case.height_vertical,
+        creep_factor=load.creep_factor,
+        glide_factor=load.glide_factor,
+        rigid_kN_per_m=kilonewton_from_newton(load.rigid),
+        parallel_kN_per_m=kilonewton_from_newton(load.parallel),
+        normal_kN_per_m=kilonewton_from_newton(load.normal),
+        prism_kN_per_m=kilonewton_from_newton(load.prism),
+        load_along_kN_per_m=kilonewton_from_newton(along),
+        load_across_kN_per_m=kilonewton_from_newton(across),
+        loaded_share=min(1.0, filled),
+        stiffness_kN_per_m=kilonewton_from_newton(net.stiffness),
+        slack=net.slack,
+        chord_tension_kN_per_m=kilonewton_from_newton(state.pull.chord_tension),
+    )
+
+
+def _record_state(
+    keys: list[str],
+    pulls: _Pulls,
+    *,
+    case: CasePoint | None,
+    load: GuidelineLoadRecord | None,
+) -> StaticsRecord:
+    foot, head, points, anchors = pulls.foot, pulls.head, pulls.points, pulls.anchors
+    return StaticsRecord(
+        brings=keys,
+        case=case,
+        load=load,
+        foot_x_kN_per_m=kilonewton_from_newton(foot.x),
+        foot_y_kN_per_m=kilonewton_from_newton(foot.y),
+        foot_error_kN_per_m=kilonewton_from_newton(foot.error),
+        head_x_kN_per_m=kilonewton_from_newton(head.x),
+        head_y_kN_per_m=kilonewton_from_newton(head.y),
+        head_error_kN_per_m=kilonewton_from_newton(head.error),
+        head_x_m=points.head[0],
+        head_y_m=points.head[1],
+        base_x_m=points.post_base[0],
+        uphill_x_m=points.uphill_anchor[0],
+        downhill_x_m=points.downhill_anchor[0],
+        foot_anchor_kN=kilonewton_from_newton(anchors.foot_anchor.size),
+        uphill_guy_kN=kilonewton_from_newton(anchors.head.uphill_guy_tension),
+        downhill_guy_kN=kilonewton_from_newton(anchors.head.downhill_guy_tension),
+        post_kN=kilonewton_from_newton(anchors.head.post_compression),
+        post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
+        is_by_panel=pulls.is_by_panel,
+        mid_foot_kN=kilonewton_from_newton(pulls.mid_foot),
+    )
+
+
+def record_held_sideways(
+    row: NetRow,
+    results: Sequence[CaseResult],
+    extremes: Mapping[str, Extreme],
+    sideways: Sideways,
+    floor: Floor | None,
+) -> HeldSidewaysRecord | None:
+    """Numbers that the load along the row follows from; None where it is not held."""
+    solved = [one for one in results if one.is_converged and one.anchors is not None]
+    weights = [(one, weigh_splay(place_row(row, one))) for one in solved]
+    known = [(one, found) for one, found in weights if found is not None]
+    if sideways.gap is not None or not known:
+        return None
+    states = _list_states(solved)
+    tensions = [-_measure(one)["least_tension"] for one in states]
+    hidden = sum(find_hidden(guy, extremes) for guy in GUYS if guy in extremes)
+    head = floor.head if floor else None
+    uphill, uphill_at = _find_largest(known, "largest_uphill")
+    downhill, downhill_at = _find_largest(known, "largest_downhill")
+    post, post_at = _find_largest(known, "post")
+    return HeldSidewaysRecord(
+        share=sideways.share,
+        splay_deg=degree_from_radian(sideways.splay),
+        pull_low_kN=kilonewton_from_newton(sideways.pull.low),
+        pull_kN=kilonewton_from_newton(sideways.pull.value),
+        pull_high_kN=kilonewton_from_newton(sideways.pull.high),
+        solved_tension_kN=kilonewton_from_newton(min(tensions)),
+        hidden_tension_kN=kilonewton_from_newton(hidden),
+        floor_tension_kN=kilonewton_if_known(head.least_tension if head else None),
+        least_tension_kN=kilonewton_from_newton(sideways.least_tension),
+        uphill_part=uphill,
+        uphill_at_deg=uphill_at,
+        downhill_part=downhill,
+        downhill_at_deg=downhill_at,
+        post_part=post,
+        post_at_deg=post_at,
+    )
+
+
+def _find_largest(
+    known: Sequence[tuple[CaseResult, SplayWeights]], name: str
+) -> tuple[float, float]:
+    """Largest value over the cases [-], and the inclination that it has there [deg]."""
+    result, weights = max(known, key=lambda pair: getattr(pair[1], name))
+    at = given_degree_from_radian(result.case.inclination)
+    return float(getattr(weights, name)), at
