@@ -410,6 +410,20 @@ def test_force_is_in_proportion_to_the_post_spacing():
     assert two.head.foot_least == pytest.approx(one.head.foot_least, rel=1e-12)
 
 
+def test_least_tension_where_one_guy_alone_works():
+    """At one net, the smaller one of both load cases."""
+    lean, working = math.radians(30.0), set()
+    for net in (a_net(), a_net(slack=0.001, stiffness=9e6, snow_thickness=1.1)):
+        one = find(build_ranges(net, 1.9, inclinations=(lean, lean)))
+        guys = (Member.UPHILL_GUY, DOWNHILL)
+        forces = list(solve(net, 1.9, 1742.0, lean))
+        tensions = [sum(of_case[guy] for guy in guys) for of_case in forces]
+        assert one.head.least_tension == pytest.approx(min(tensions), rel=1e-12)
+        assert one.head.least_tension > 0.0
+        working |= {guy for of_case in forces for guy in guys if of_case[guy] > 0.0}
+    assert working == set(guys)
+
+
 def test_states_of_the_spans_bring_what_the_head_says():
     """By the scalar closed forms; where a guy may be slack, the least state is told."""
     draw = random.Random(29)
