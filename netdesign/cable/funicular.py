@@ -186,9 +186,19 @@ def tension_offsets(forces: Floats, bend: Floats) -> Floats:
 
 
 def integrate_curve(slope: Floats, lengths: Floats) -> Floats:
-    """Node positions from dx/dS at the Gauss points, shape (.., 2, 2, n).
+    """Node positions of cables from their slopes at the Gauss points.
 
-    Lengths of the elements, shape (.., n), fit to that.
+    Parameters
+    ----------
+    slope : ndarray, shape (.., 2, 2, n)
+        dx/dS: component, Gauss point, element [-].
+    lengths : ndarray, shape (n,) or (.., 1, n)
+        Unstressed lengths of the elements, any unit.
+
+    Returns
+    -------
+    ndarray, shape (.., 2, 2 n + 1)
+        From the first node on, in the unit of the lengths.
     """
     mean = (slope[..., 0, :] + slope[..., 1, :]) / 2.0
     change = (slope[..., 1, :] - slope[..., 0, :]) / (2.0 * _GAUSS)

@@ -282,7 +282,7 @@ class _Scan:
     altitude: float | None
 
     def list_sought(self, points: Floats) -> Floats:
-        """What is made as large as it can be, at points, shape (3, n).
+        """Values that are made as large as they can be, at points, shape (3, n).
 
         Member forces, pull on the head, direction of the foot's pull and less that
         direction, and of each load case the tension with a sign and less that.

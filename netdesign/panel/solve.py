@@ -115,7 +115,22 @@ def solve_panel(
 def solve_strips(
     strip: Strip, panel: Panel, *, stations: int = STATIONS
 ) -> PanelSolution | FailedPanel:
-    """Panel of strips like the one at the post; otherwise as ``solve_panel``."""
+    """Panel of strips like the one at the post; otherwise as ``solve_panel``.
+
+    Parameters
+    ----------
+    strip : Strip
+        At the post.
+    panel : Panel
+        Spacing, ropes and cut.
+    stations : int
+        K, strips on half the panel, 1 to 10 [-].
+
+    Raises
+    ------
+    ModelError
+        If K is out of its range.
+    """
     require_within("stations", stations, 1, LARGEST_COUNT)
     try:
         return _solve(_build_problem(strip, panel, stations))

@@ -141,7 +141,7 @@ class RowPanel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowEnd:
-    """What holds a row of panels along the row, at its first and last support.
+    """Members that hold a row of panels along itself, at its end.
 
     Attributes
     ----------

@@ -379,7 +379,7 @@ def _build_layout(row: Row) -> SupportLayout:
 
 
 def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
-    """What holds a row along the row; of all members, given or not."""
+    """Members that hold a row along itself, all of them, given or not."""
     angle = end["end_guy_angle"] if end else None
     return RowEnd(
         guy_angle=angle.si if angle and angle.state == "given" else None,

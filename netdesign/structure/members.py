@@ -25,7 +25,7 @@ CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
 
 
 class EndMember(StrEnum):
-    """What holds the ropes' pull along the row, at its first and last support."""
+    """A member that holds the ropes' pull along the row, at its end."""
 
     LATERAL_ANCHOR = "lateral_anchor"
     END_GUY = "end_guy"

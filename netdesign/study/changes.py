@@ -1,4 +1,4 @@
-"""What would turn a check of forces: limits of single values, changes that mend it."""
+"""Limits of single values of a check of forces, and changes that mend it."""
 
 from __future__ import annotations
 

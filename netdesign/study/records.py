@@ -235,7 +235,7 @@ class ActionRecord:
 
     @property
     def governing(self) -> str:
-        """Which of the three governs, by their numbers."""
+        """Largest one of the three by their numbers, as ``governs`` has it."""
         largest = max(self.coupled_kN, self.panel_support_kN or 0.0)
         if self.guideline_kN and self.guideline_kN >= largest:
             return "guideline"

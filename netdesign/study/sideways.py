@@ -282,7 +282,7 @@ def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
 
 
 def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
-    """What may hide of a member's force, by section or panel [N]."""
+    """Part of a member's force that may hide, by section or panel [N]."""
     names = (member, name_in_panel(member))
     return max(extremes[name].hidden for name in names if name in extremes)
 

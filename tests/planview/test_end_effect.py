@@ -1,6 +1,7 @@
 """End effect of a row: limits, ranges, and what is refused."""
 
 import math
+import random
 from dataclasses import replace
 from itertools import pairwise
 
@@ -123,3 +124,21 @@ def test_what_is_no_end_is_refused(changed, named):
 def test_what_is_no_slab_is_refused(changed, named):
     with pytest.raises(ModelError, match=named):
         replace(SLAB, **changed)
+
+
+def test_drawn_rows_keep_their_bounds():
+    """A free gap sheds less than half of itself, and less than half of l_z."""
+    draw = random.Random(20)
+    for _ in range(150):
+        slab = Slab(
+            thickness=draw.uniform(0.5, 7.0),
+            slope_angle=math.radians(draw.uniform(25.0, 60.0)),
+            density=draw.uniform(120.0, 600.0),
+        )
+        gap, length = 10.0 ** draw.uniform(-6, 3), 10.0 ** draw.uniform(-2, 2)
+        one = effect(slab, gap=gap, length=length, glide_factor=draw.uniform(1.0, 4.0))
+        assert one.free.width < min(gap, one.scales.lateral * (1.0 + 1e-5)) / 2.0
+        for side in (one.free, one.pulled):
+            assert 0.0 < side.factor * length <= side.width * (1.0 + 1e-5)
+        assert one.free.factor <= one.pulled.factor
+        assert one.free.width <= one.pulled.width

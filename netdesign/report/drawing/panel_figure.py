@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
+from netdesign.report.view.panel_tables import ROPE_NAMES
 from netdesign.report.words import ENGLISH, Words, show_with_unit
 from netdesign.study.records import PanelDrawing, PanelRecord
 
@@ -153,7 +154,7 @@ def _draw_tensions(
         sketch.line(points, stroke=INK, width=1.1, dash=dash)
         at = (points[-1][0] + 6.0, points[-1][1] + TEXT_PT / 3)
         rope = next(one for one in panel.ropes if one.rope == name)
-        text = f"{words(f'panel_view.{name}')} {rope.type}".strip()
+        text = f"{words(ROPE_NAMES[name])} {rope.type}".strip()
         sketch.words(at, text)
     sketch.words(
         (_LEFT + _SPAN / 2.0, top + _CHART + 26.0),

@@ -24,6 +24,8 @@ from netdesign.study.records import (
     RowStudy,
 )
 
+ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PanelView:
@@ -94,7 +96,7 @@ def _list_forces(
 
 
 def _build_ropes(panel: PanelRecord, words: Words) -> Table:
-    """What the ropes are, what they carry at most, and what they bear."""
+    """Both ropes: what each is, carries at most, and bears."""
     return Table(
         caption=words("panel_view.ropes"),
         columns=(
@@ -117,7 +119,7 @@ def _list_rope(rope: RopeRecord, words: Words) -> tuple[Cell, ...]:
     if rope.tension_kN is not None and rope.breaking_kN:
         share = rope.tension_kN / rope.breaking_kN
     return (
-        text_cell(words(f"panel_view.{rope.rope}")),
+        text_cell(words(ROPE_NAMES[rope.rope])),
         text_cell(rope.type),
         given_cell(rope.stiffness_kN),
         given_cell(rope.sag),
@@ -129,7 +131,7 @@ def _list_rope(rope: RopeRecord, words: Words) -> tuple[Cell, ...]:
 
 
 def _tell_guy(panel: PanelRecord, words: Words) -> list[str]:
-    """Why the uphill guy is larger, with what both sets have in the drawn case."""
+    """Cause of the larger uphill guy, with what both sets have in the drawn case."""
     drawn = panel.drawing
     if drawn is None:
         return [words("panel_view.no_drawing")] if panel.failed else []
@@ -179,7 +181,7 @@ def _tell_end(row: RowStudy, panel: PanelRecord, words: Words) -> list[str]:
 
 
 def find_end_factor(end: CheckRecord) -> float:
-    """What the end effect makes of a rope's pull, (P8) [-]."""
+    """Factor of the end effect on a rope's pull, (P8) [-]."""
     action = end.action
     return action.loaded_width_m / action.post_spacing_m if action else 1.0
 

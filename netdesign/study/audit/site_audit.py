@@ -426,7 +426,7 @@ def _read_panel(stored: ActionRecord, factor: float, load: MemberLoad) -> Band |
 
 
 def _read_along(stored: ActionRecord) -> Band:
-    """What the end guy adds to the post at the row's end [N]."""
+    """Push of the end guy on the post at the row's end [N]."""
     low, value, high = sorted(
         newton_from_kilonewton(max(one, 0.0))
         for one in (stored.along_low_kN, stored.along_kN, stored.along_high_kN)
