@@ -1,7 +1,7 @@
 """Cables under the same forces, of different lengths and ends, pulled all at once.
 
 Newton's method on (C4) for many cables together: one pass through arrays takes hardly
-longer than for one. Only pulls come out; ``solve_funicular`` draws the curve of one.
+longer than for one.
 Theory: cable/THEORY.md, eqs (C3) to (C5).
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.funicular import tension_offsets
+from netdesign.cable.funicular import integrate_curve, tension_offsets
 from netdesign.numerics.arrays import Floats
 
 _MOST_STEPS = 100
@@ -96,20 +96,51 @@ def find_pulls(
     for _ in range(_MOST_STEPS):
         if not np.isfinite(gap).all():
             return None
-        if np.hypot(*gap).max() <= tolerance:
+        is_open = np.hypot(*gap) > tolerance
+        if not is_open.any():
             return pulls
         descent = -np.einsum("ik,ik->k", gap, step)
         share = np.ones(descent.size)
         for _ in range(_MOST_HALVINGS):
             new_gap, new_step = _step(cables, ends, pulls + share * step)
             climb = np.einsum("ik,ik->k", new_gap, step)
-            climbs = ~(climb <= _ACCEPTED_CLIMB * descent)
+            # what is closed has rounding left: it cannot climb any better
+            climbs = ~(climb <= _ACCEPTED_CLIMB * descent) & is_open
             if not climbs.any():
                 break
             share[climbs] /= 2.0
         pulls = pulls + share * step
         gap, step = new_gap, new_step
     return None
+
+
+def draw_curves(cables: AlikeCables, lengths: Floats, pulls: Floats) -> Floats:
+    """Curves of some cables from their pulls, each from its foot on.
+
+    Parameters
+    ----------
+    cables : AlikeCables
+        What they have in common.
+    lengths : ndarray, shape (K,)
+        Unstressed.
+    pulls : ndarray, shape (2, K)
+        As ``find_pulls`` gives them.
+
+    Returns
+    -------
+    ndarray, shape (K, 2, 2 n + 1)
+        Nodes, foot to head, in the unit of the lengths.
+
+    Verified by
+    -----------
+    tests/panel/test_strips.py
+    """
+    count = cables.weights.size // 2
+    vector = pulls.T[:, :, None] + cables.offsets
+    give = 1.0 / np.hypot(vector[:, 0], vector[:, 1]) + 1.0 / cables.stiffness
+    slope = vector * give[:, None]
+    own = 2.0 * cables.weights[:count] * lengths[:, None]
+    return integrate_curve(slope.reshape(lengths.size, 2, 2, count), own[:, None])
 
 
 def _step(cables: AlikeCables, ends: Floats, pulls: Floats) -> tuple[Floats, Floats]:

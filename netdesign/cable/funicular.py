@@ -112,7 +112,7 @@ def solve_funicular(
     middle = (vector[:, 0] + vector[:, 1]) / 2.0
     return Funicular(
         outcome=Outcome.CONVERGED if converged else Outcome.NO_EQUILIBRIUM,
-        curve=_integrate_curve(vector * (1.0 / size + 1.0 / stiffness), lengths),
+        curve=integrate_curve(vector * (1.0 / size + 1.0 / stiffness), lengths),
         pull=minimum.point,
         tension=size,
         foot_pull=middle[:, 0] - 2.0 / 3.0 * bend[:, 0] + forces[:, 0],
@@ -157,7 +157,7 @@ def linearise_curve(
         np.einsum("kiqe,e->ik", slopes, lengths),
     )
     slopes -= np.einsum("ijqe,jk->kiqe", give, closing)
-    moved = _integrate_curve(slopes, lengths).reshape(2, count, 2, count)
+    moved = integrate_curve(slopes, lengths).reshape(2, count, 2, count)
     return np.asarray(moved.transpose(2, 3, 0, 1))
 
 
@@ -185,12 +185,25 @@ def tension_offsets(forces: Floats, bend: Floats) -> Floats:
     return offsets
 
 
-def _integrate_curve(slope: Floats, lengths: Floats) -> Floats:
-    """Node positions from dx/dS at the Gauss points, shape (.., 2, 2, n)."""
+def integrate_curve(slope: Floats, lengths: Floats) -> Floats:
+    """Node positions of cables from their slopes at the Gauss points.
+
+    Parameters
+    ----------
+    slope : ndarray, shape (.., 2, 2, n)
+        dx/dS: component, Gauss point, element [-].
+    lengths : ndarray, shape (n,) or (.., 1, n)
+        Unstressed lengths of the elements, any unit.
+
+    Returns
+    -------
+    ndarray, shape (.., 2, 2 n + 1)
+        From the first node on, in the unit of the lengths.
+    """
     mean = (slope[..., 0, :] + slope[..., 1, :]) / 2.0
     change = (slope[..., 1, :] - slope[..., 0, :]) / (2.0 * _GAUSS)
     ends = _sum_from_zero(lengths * mean)
-    curve = np.empty((*mean.shape[:-1], 2 * lengths.size + 1))
+    curve = np.empty((*mean.shape[:-1], 2 * mean.shape[-1] + 1))
     curve[..., ::2] = ends
     curve[..., 1::2] = ends[..., :-1] + lengths / 2.0 * (mean - change / 2.0)
     return curve

@@ -93,7 +93,8 @@ def _confirm_again(before: Confirmation, results: Sequence[CaseResult]) -> Confi
         compared = one.compared
         if compared is None or compared.steady is not before.screened:
             continue
-        if compared.exceeds(before.member):
+        in_history = compared.history.member_forces
+        if before.member in in_history and compared.exceeds(before.member):
             return replace(before, confirmed=compared.history)
     return before
 
@@ -118,10 +119,14 @@ def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
         reason = say("envelope.history_failed", reason=history.reason or "")
         return replace(history, reason=reason)
     compared = Compared(steady=steady, history=history)
-    forces = {member: _take_demand(compared, member) for member in steady.member_forces}
+    forces = {
+        member: _take_demand(compared, member) for member in history.member_forces
+    }
     raised = any(compared.exceeds(member) for member in forces)
+    if raised:  # then nothing is known of the panel: its forces are of a state at rest
+        return replace(history, member_forces=forces, compared=compared)
     return replace(
-        history if raised else steady, member_forces=forces, compared=compared
+        steady, member_forces=steady.member_forces | forces, compared=compared
     )
 
 

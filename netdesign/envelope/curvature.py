@@ -32,7 +32,7 @@ def estimate_hidden(extreme: Extreme, results: Sequence[CaseResult]) -> Extreme:
     forces = {
         result.case: result.member_forces[extreme.member].value
         for result in results
-        if result.is_converged
+        if extreme.member in result.member_forces
     }
     cases = [result.case.values for result in results]
     size, unknown = 0.0, []

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks.result import Band
 from netdesign.envelope.run import CaseResult
+from netdesign.panel.solution import FailedPanel
 from netdesign.words.message import Message, say
 
 
@@ -63,9 +64,8 @@ def find_extremes(results: Sequence[CaseResult]) -> dict[str, Extreme]:
     converged = [result for result in results if result.is_converged]
     if not converged:
         return {}
-    return {
-        member: find_extreme(member, converged) for member in converged[0].member_forces
-    }
+    members = dict.fromkeys(one for result in converged for one in result.member_forces)
+    return {member: find_extreme(member, converged) for member in members}
 
 
 def describe_gap(results: Sequence[CaseResult]) -> Message | None:
@@ -73,20 +73,25 @@ def describe_gap(results: Sequence[CaseResult]) -> Message | None:
     failed = [result for result in results if not result.is_converged]
     if not results:
         return say("envelope.no_case")
-    if not failed:
-        return None
-    reasons = {str(one.reason): one.reason for one in failed if one.reason is not None}
-    return say(
-        "envelope.failed_cases",
-        failed=len(failed),
-        count=len(results),
-        reasons=tuple(reasons[text] for text in sorted(reasons)),
-    )
+    if failed:
+        return _tell_failed("envelope.failed_cases", failed, len(results))
+    without = [one for one in results if isinstance(one.panel, FailedPanel)]
+    if without:
+        return _tell_failed("panel.failed_cases", without, len(results))
+    return None
+
+
+def _tell_failed(key: str, failed: Sequence[CaseResult], count: int) -> Message:
+    reasons = {str(one.lack): one.lack for one in failed if one.lack is not None}
+    told = [reasons[text] for text in sorted(reasons)]
+    if key == "panel.failed_cases":  # one of each kind: every case has its own depth
+        told = list({one.key: one for one in told}.values())
+    return say(key, failed=len(failed), count=count, reasons=tuple(told))
 
 
 def find_extreme(member: str, results: Sequence[CaseResult]) -> Extreme:
-    """Extreme of one member over the converged cases, of which there has to be one."""
-    converged = [result for result in results if result.is_converged]
+    """Extreme of one member over the cases that have its force; there has to be one."""
+    converged = [result for result in results if member in result.member_forces]
     bands = [result.member_forces[member] for result in converged]
     # Equal forces: the first case of the grid, whatever the order of the results.
     governing = min(

@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.signed import choose_watched, name_sources, read_signed
+from netdesign.envelope.signed import (
+    choose_watched,
+    name_sources,
+    read_signed,
+    read_signed_errors,
+)
 from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, RopeForce, name_in_panel
 
 # A gap closer than this share of the numerical error is not worth a case.
 _RESOLUTION = 0.5
+# Share of its largest value from which a quantity is near it; as much makes a case a
+# rival in a study.
+_NEAR = 0.9
+# Ropes are known to a tenth: a bound that is closer than this is worth no case.
+_ROPES_SHARE = 0.02
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
+_PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
+_BY_PANEL = name_in_panel("")  # how the names of its quantities begin
+
+ReadSigned = Callable[[CaseResult, SupportLayout], dict[str, float] | None]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -24,18 +41,25 @@ class ResultReader:
     ----------
     layout : SupportLayout or None
         Support of the net; None follows the net's own tensions.
+    has_panel : bool
+        The row has a panel between its posts.
     members, signed : tuple of str
         Quantities of the results, and the signed forces behind them.
     is_shared : bool
         Net and uphill guy end at one anchor.
+    is_without_panel : bool
+        Some case has no forces by its panel: they are not searched any longer, and
+        count as 0 where they are missing. That gap is told of the row.
     errors, largest : dict of str to float
         Smallest numerical error and largest force of each member [N].
     """
 
     layout: SupportLayout | None
+    has_panel: bool = False
     members: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     is_shared: bool = False
+    is_without_panel: bool = False
     errors: dict[str, float] = field(default_factory=dict)
     largest: dict[str, float] = field(default_factory=dict)
 
@@ -46,7 +70,7 @@ class ResultReader:
 
     def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
         """Values of some cases; the first decide whether signed forces exist."""
-        behind = [self._find_signed(result) for result in results]
+        self._name_quantities(results)
         for result in results:
             for member, band in result.member_forces.items():
                 known = self.largest.get(member, 0.0)
@@ -54,21 +78,67 @@ class ResultReader:
                 if band.value > 0.0:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
-        converged = [k for k, result in enumerate(results) if result.is_converged]
-        if converged and not self.members:
-            first = results[converged[0]]
-            self.members = tuple(first.member_forces)
-            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-            if all(behind[k] is not None for k in converged):
-                self.signed = tuple(behind[converged[0]] or ())
+        self.is_without_panel |= any(map(self._lacks_panel, results))
+        return [self._read_one(result) for result in results]
+
+    def read_doubts(
+        self, results: Sequence[CaseResult], rough: Collection[int]
+    ) -> list[Values | None]:
+        """Numerical errors of the rough cases, by their places; None of the others."""
         return [
-            self._read_one(result, signed)
-            for result, signed in zip(results, behind, strict=True)
+            self._read_errors(result) if place in rough else None
+            for place, result in enumerate(results)
         ]
+
+    def find_near(self, results: Sequence[CaseResult]) -> set[int]:
+        """Places of the cases that failed, or may come near the largest of a quantity.
+
+        Errors count on the safe side: the upper end of a force against the largest
+        lower end.
+        """
+        self._name_quantities(results)
+        known = {
+            place: (value, self._read_errors(result))
+            for place, result in enumerate(results)
+            if (value := self._read_one(result)) and not self._lacks_panel(result)
+        }
+        if not known:
+            return set(range(len(results)))
+        values, errors = (np.array(one) for one in zip(*known.values(), strict=True))
+        least = _NEAR * np.maximum(np.max(values - errors, axis=0), 0.0)
+        is_near = (values + errors >= least)[:, list(self.watch())].any(axis=1)
+        far = {place for place, near in zip(known, is_near, strict=True) if not near}
+        return set(range(len(results))) - far
+
+    def _lacks_panel(self, result: CaseResult) -> bool:
+        has_panel = isinstance(result.panel, PanelForces)
+        return self.has_panel and result.is_converged and not has_panel
+
+    def _name_quantities(self, results: Sequence[CaseResult]) -> None:
+        """Name what is modelled, from the first cases that converged."""
+        converged = [result for result in results if result.is_converged]
+        if self.members or not converged:
+            return
+        first, behind = converged[0], [self._find_signed(one) for one in converged]
+        self.members = self._list_members(first)
+        self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
+        if all(one is not None for one in behind):
+            self.signed = self._list_signed(behind[0] or {})
+
+    def _list_members(self, first: CaseResult) -> tuple[str, ...]:
+        """Members of the section, and all quantities of a panel, found or not."""
+        own = [one for one in first.member_forces if one not in PANEL_QUANTITIES]
+        return (*own, *(PANEL_QUANTITIES if self.has_panel else ()))
+
+    def _list_signed(self, first: Mapping[str, float]) -> tuple[str, ...]:
+        own = [name for name in first if not name.startswith(_BY_PANEL)]
+        return (*own, *(map(name_in_panel, own) if self.has_panel else ()))
 
     def watch(self) -> dict[int, Watched]:
         """Quantities to be bounded, by place, and how closely each."""
         names = choose_watched(self.members, self.signed, is_shared=self.is_shared)
+        if self.is_without_panel:
+            names = tuple(one for one in names if not one.startswith(_BY_PANEL))
         return {self.quantities.index(name): self._ask_for(name) for name in names}
 
     def _ask_for(self, name: str) -> Watched:
@@ -80,7 +150,11 @@ class ResultReader:
         ]
         floor = min((self.largest.get(member, 0.0) for member in behind), default=0.0)
         if name not in self.members and "guy" in name:
-            behind += [member for member in self.members if member in _GUYS]
+            guys = _PANEL_GUYS if name.startswith(_BY_PANEL) else _GUYS
+            behind += [member for member in self.members if member in guys]
+        if name in tuple(RopeForce):
+            closest = _ROPES_SHARE * self.largest.get(name, 0.0)
+            return Watched(resolution=closest, floor=floor)
         errors = [self.errors[member] for member in behind if member in self.errors]
         return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
 
@@ -99,12 +173,27 @@ class ResultReader:
     def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
         return None if self.layout is None else read_signed(result, self.layout)
 
-    def _read_one(
-        self, result: CaseResult, signed: dict[str, float] | None
-    ) -> Values | None:
+    def _read_errors(self, result: CaseResult) -> Values | None:
+        """Numerical errors of what ``_read_one`` gives [N]."""
+        known = {
+            one: band.high - band.value for one, band in result.member_forces.items()
+        }
+        return self._line_up(known, read_signed_errors, result)
+
+    def _read_one(self, result: CaseResult) -> Values | None:
         if not result.is_converged:
             return None
-        forces = tuple(band.value for band in result.member_forces.values())
-        if not self.signed:
+        known = {one: band.value for one, band in result.member_forces.items()}
+        return self._line_up(known, read_signed, result)
+
+    def _line_up(
+        self, known: Mapping[str, float], read: ReadSigned, result: CaseResult
+    ) -> Values | None:
+        """Members, then signed forces; what is missing counts as 0."""
+        forces = tuple(known.get(member, 0.0) for member in self.members)
+        if not self.signed or self.layout is None:
             return forces
-        return None if signed is None else (*forces, *signed.values())
+        signed = read(result, self.layout)
+        if signed is None:
+            return None
+        return (*forces, *(signed.get(name, 0.0) for name in self.signed))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -16,6 +17,7 @@ from netdesign.envelope.extremes import (
 from netdesign.envelope.parameters import place_scene
 from netdesign.envelope.ranges import Case, Ranges, build_case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task
+from netdesign.panel.inputs import Panel
 from netdesign.search.maxima import Maxima, SearchSettings
 from netdesign.search.surrogate import Point
 from netdesign.solving.solve import Settings
@@ -49,6 +51,8 @@ class RowTask:
     build : callable or None
         Scene of a case, where the values of the ranges cannot be put into ``scene`` one
         by one.
+    panel : Panel or None
+        Between the posts; its forces are searched beside those of the section.
     """
 
     scene: Scene
@@ -58,6 +62,7 @@ class RowTask:
     search: SearchSettings
     confirmed_by: Settings | None
     build: Callable[[Case], Scene] | None = None
+    panel: Panel | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -71,7 +76,7 @@ class Confirmation:
     @property
     def difference(self) -> float | None:
         """Confirmed over screened force, less 1 [-]; None without a result."""
-        if not self.confirmed.is_converged:
+        if self.member not in self.confirmed.member_forces:
             return None
         screened = self.screened.member_forces[self.member].value
         confirmed = self.confirmed.member_forces[self.member].value
@@ -142,11 +147,11 @@ class RowEnvelope:
     def _describe_unconfirmed(self) -> Message | None:
         """Governing case that could not be solved again; None if all could."""
         for one in self.confirmations:
-            if not one.confirmed.is_converged:
+            if one.member not in one.confirmed.member_forces:
                 return say(
                     "envelope.unconfirmed",
                     member=name_member(one.member),
-                    reason=one.confirmed.reason or "",
+                    reason=one.confirmed.lack or "",
                 )
         return None
 
@@ -159,10 +164,12 @@ class RowEnvelope:
     def _bound(self, extreme: Extreme) -> Extreme:
         place, member = self.members.index(extreme.member), extreme.member
         hidden = max(0.0, self.maxima.upper_bound[place] - self.maxima.maximum[place])
+        if math.isinf(hidden):  # not searched, since some case has no panel: a gap
+            hidden = 0.0
         confirmed = [
             one.confirmed.member_forces[member].high - hidden
             for one in self.confirmations
-            if one.confirmed.is_converged
+            if member in one.confirmed.member_forces
         ]
         force = replace(extreme.force, high=max([extreme.force.high, *confirmed]))
         return replace(extreme, force=force, hidden=hidden, is_bounded=True)
@@ -179,6 +186,15 @@ def refine_settings(settings: SolverSettings) -> SolverSettings:
     return replace(settings, accuracy=accuracy, levels=settings.levels[left_out:])
 
 
+def roughen_settings(settings: SolverSettings) -> SolverSettings:
+    """Settings of a first look at a case: the two coarsest meshes, whatever they say.
+
+    They end their rounds as those of the row do. Where two meshes are as accurate as
+    the row asks for, the results are equal, bit by bit.
+    """
+    return replace(settings, levels=settings.levels[:2])
+
+
 def build_point_task(
     task: RowTask, point: Point, settings: Settings | None = None
 ) -> CaseTask:
@@ -189,6 +205,7 @@ def build_point_task(
         task.build or (lambda _: place_scene(task.scene, values)),
         task.layout,
         settings or task.settings,
+        task.panel,
     )
 
 

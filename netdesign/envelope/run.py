@@ -6,18 +6,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
+from netdesign.envelope.panel_forces import PanelForces, resolve_panel
 from netdesign.envelope.ranges import Case
+from netdesign.envelope.support_bands import resolve_pulls
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
+from netdesign.panel.inputs import Panel
+from netdesign.panel.solution import FailedPanel
 from netdesign.solving.describe import describe_case
 from netdesign.solving.runner import Runner
 from netdesign.solving.solve import Settings
 from netdesign.solving.state import CaseEnd, SolvedState
 from netdesign.solving.workers import Job
-from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
+from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import SupportLayout, SupportPoints, place_support
 from netdesign.words.message import Message
@@ -28,13 +33,15 @@ class CaseTask:
     """Everything that a worker needs for one case.
 
     ``job`` is None where the model refuses the case; ``refusal`` says why. Without
-    a ``layout`` the net's own tensions are followed, per metre of width.
+    a ``layout`` the net's own tensions are followed, per metre of width; with a
+    ``panel`` its forces, too.
     """
 
     case: Case
     job: Job | None
     refusal: Message | None
     layout: SupportLayout | None
+    panel: Panel | None = None
 
     def solved_by(self, settings: Settings) -> CaseTask:
         """The same case by other settings: their kind chooses steady or history."""
@@ -55,7 +62,7 @@ class CaseResult:
         Why it failed; "" if converged.
     member_forces : dict of str to Band
         Characteristic force of each member with its numerical band [N per anchor, or
-        N/m without a layout].
+        N/m without a layout]; those by the panel between posts beside them.
     anchors : AnchorForces or None
         Force vectors on the ground.
     solution : SolvedState or None
@@ -64,6 +71,9 @@ class CaseResult:
         What failed in the program, where it was the program.
     compared : Compared or None
         The steady state and the history of a case that was followed in time.
+    panel : PanelForces, FailedPanel or None
+        The panel between posts, or why it has no forces in this case; None of a row
+        without one.
     """
 
     case: Case
@@ -74,11 +84,19 @@ class CaseResult:
     solution: SolvedState | None = None
     fault: Fault | None = None
     compared: Compared | None = None
+    panel: PanelForces | FailedPanel | None = None
 
     @property
     def is_converged(self) -> bool:
         """Its numbers may be used."""
         return self.outcome is Outcome.CONVERGED
+
+    @property
+    def lack(self) -> Message | None:
+        """Reason why it has no forces, or none by the panel between posts."""
+        if self.is_converged and isinstance(self.panel, FailedPanel):
+            return self.panel.reason
+        return self.reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -89,7 +107,12 @@ class Compared:
     history: CaseResult
 
     def exceeds(self, member: str) -> bool:
-        """The history's force is larger by more than both state as their errors."""
+        """The history's force is larger by more than both state as their errors.
+
+        A force by the panel between posts is of a state at rest.
+        """
+        if member not in self.history.member_forces:
+            return False
         history = self.history.member_forces[member]
         return history.low > self.steady.member_forces[member].high
 
@@ -158,76 +181,29 @@ def _resolve_support(
     task: CaseTask, layout: SupportLayout, solution: SolvedState
 ) -> CaseResult:
     points = place_support(layout, solution.head_point)
-    width = layout.post_spacing
-    anchors = _anchor_forces(points, width, solution)
-    if isinstance(anchors, FailedSupport):
-        return _failed(task, anchors.outcome, anchors.reason)
-    bands = _force_bands(points, width, solution, anchors)
-    if isinstance(bands, FailedSupport):
-        return _failed(task, bands.outcome, bands.reason)
+    found = resolve_pulls(points, layout.post_spacing, solution.foot, solution.head)
+    if isinstance(found, FailedSupport):
+        return _failed(task, found.outcome, found.reason)
+    anchors, bands = found
+    panel = _resolve_panel(task, points, solution)
     return CaseResult(
         case=task.case,
         outcome=Outcome.CONVERGED,
-        member_forces=bands,
+        member_forces=bands | (panel.bands if isinstance(panel, PanelForces) else {}),
         anchors=anchors,
         solution=solution,
+        panel=panel,
     )
 
 
-def _anchor_forces(
-    points: SupportPoints,
-    width: float,
-    solution: SolvedState,
-    shift: Sequence[float] = (0.0, 0.0, 0.0, 0.0),
-) -> AnchorForces | FailedSupport:
-    """Anchor forces with the end pulls moved by ``shift`` times their error.
-
-    The four shares are for x and y of the foot's pull, x and y of the head's.
-    """
-    foot, head = solution.foot, solution.head
-    return compute_anchor_forces(
-        points,
-        foot_pull_per_m=(
-            foot.x + shift[0] * foot.error,
-            foot.y + shift[1] * foot.error,
-        ),
-        head_pull_per_m=(
-            head.x + shift[2] * head.error,
-            head.y + shift[3] * head.error,
-        ),
-        post_spacing=width,
-    )
-
-
-def _force_bands(
-    points: SupportPoints, width: float, solution: SolvedState, anchors: AnchorForces
-) -> dict[str, Band] | FailedSupport:
-    """Member forces with the band that the error of the end pulls can cause.
-
-    Within one set of working members the forces are linear in the pulls, so moving
-    each component by its error, and adding the changes, bounds them.
-    """
-    values = anchors.member_forces
-    spread = dict.fromkeys(values, 0.0)
-    for component in range(4):
-        change = dict.fromkeys(values, 0.0)
-        for share in (-1.0, 1.0):
-            shift = [share if place == component else 0.0 for place in range(4)]
-            moved = _anchor_forces(points, width, solution, shift)
-            if isinstance(moved, FailedSupport):
-                return moved
-            for member, force in moved.member_forces.items():
-                change[member] = max(change[member], abs(force - values[member]))
-        for member in spread:
-            spread[member] += change[member]
-    return {
-        member: Band(
-            low=max(0.0, value - spread[member]),
-            value=value,
-            high=value + spread[member],
-        )
-        for member, value in values.items()
-    }
+def _resolve_panel(
+    task: CaseTask, points: SupportPoints, solution: SolvedState
+) -> PanelForces | FailedPanel | None:
+    """Forces by the panel between posts, or why there are none."""
+    net = task.job.scene.net if task.job else None
+    if task.panel is None or not isinstance(net, Net):
+        return None
+    return resolve_panel(task.panel, net, points, solution)
 
 
 def build_task(
@@ -235,6 +211,7 @@ def build_task(
     build_scene: Callable[[Case], Scene],
     layout: SupportLayout | None,
     settings: Settings,
+    panel: Panel | None = None,
 ) -> CaseTask:
     """Task of a case; a scene that the model refuses becomes a named refusal."""
     job: Job | None = None
@@ -243,7 +220,7 @@ def build_task(
         job = Job(scene=build_scene(case), settings=settings)
     except ModelError as error:
         refusal = error.message
-    return CaseTask(case=case, job=job, refusal=refusal, layout=layout)
+    return CaseTask(case=case, job=job, refusal=refusal, layout=layout, panel=panel)
 
 
 def _failed(task: CaseTask, outcome: Outcome, reason: Message | None) -> CaseResult:

@@ -106,6 +106,13 @@ class GuidelineResult:
     anchors: AnchorForces | None = None
     reason: Message | None = None
 
+    @property
+    def solved(self) -> tuple[SnowLoad[float], NetPull[float], AnchorForces] | None:
+        """Load, pull and anchors; None unless there are all."""
+        if self.load is None or self.pull is None or self.anchors is None:
+            return None
+        return self.load, self.pull, self.anchors
+
 
 def find_glide_factor(
     ground: GroundLaw, snow_thickness: Number, limits: tuple[float, float]

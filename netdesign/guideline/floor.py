@@ -195,15 +195,16 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
         case, end, number = np.unravel_index(own.argmax(), own.shape)
         point = tuple(points[:, columns][:, number])
         at, snow, result = solve(point, int(case), int(end))
-        if result.anchors is None or result.load is None or result.pull is None:
+        if result.solved is None:
             return Floor(reason=_explain(at, result))
+        load, pull, anchors = result.solved
         found[key] = FloorForce(
             member=key,
-            force=_measure(result.anchors)[key],
+            force=_measure(anchors)[key],
             at=at,
             case=snow,
-            load=result.load,
-            pull=result.pull,
+            load=load,
+            pull=pull,
         )
     return Floor(
         forces=tuple(found[member] for member in CARRYING_MEMBERS),
@@ -291,7 +292,7 @@ class _Scan:
     altitude: float | None
 
     def list_sought(self, points: Floats) -> Floats:
-        """What is made as large as it can be, at points, shape (3, n).
+        """Values that are made as large as they can be, at points, shape (3, n).
 
         Member forces, pull on the head, direction of the foot's pull and less that
         direction, and of each load case the tension with a sign and less that.

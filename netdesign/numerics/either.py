@@ -69,7 +69,7 @@ def choose(condition: Truth, one: Number, other: Number) -> Number:
 
 
 def find_none(*conditions: Truth) -> Truth:
-    """Where none of the conditions holds."""
+    """Truth that none of the conditions holds."""
     first, *others = conditions
     for one in others:
         first = first | one

@@ -11,7 +11,7 @@ from netdesign.structure.layout import Point
 from netdesign.words.message import Message
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RopeForces:
     """A border rope under load.
 
@@ -23,11 +23,14 @@ class RopeForces:
         T, at the support where it is largest [N].
     mid_displacement : tuple of float, shape (2,)
         (x, y) in mid-panel, from the straight line between the supports [m].
+    tensions : ndarray, shape (24,)
+        Tension at ``ROPE_POINTS``, from mid-panel to the post [N].
     """
 
     along: float
     tension: float
     mid_displacement: Point
+    tensions: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

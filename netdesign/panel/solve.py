@@ -28,10 +28,10 @@ from netdesign.panel.solution import (
 from netdesign.panel.stations import Span, Stations, build_stations
 from netdesign.panel.strips import (
     Strip,
-    build_strip,
     cut_lengths,
-    draw_strip,
+    draw_strips,
     pull_strips,
+    take_strip,
 )
 from netdesign.structure.layout import Point
 from netdesign.words.message import say
@@ -43,6 +43,7 @@ LARGEST_COUNT = 10  # the polynomial through more loses digits
 _STILL = 1e-10  # movement of a rope in the last round, over the chord
 _MOST_ROUNDS = 200
 _DEPTH = 8
+_DAMPING = 1.0  # 8 rounds instead of the 10 that one half takes
 _HALVINGS = 8
 _START_SAG = 0.02  # at least: a straight rope would have no direction
 _BALANCED = 1e-8
@@ -108,8 +109,29 @@ def solve_panel(
     -----------
     tests/verification/test_panel.py
     """
+    return solve_strips(take_strip(solution), panel, stations=stations)
+
+
+def solve_strips(
+    strip: Strip, panel: Panel, *, stations: int = STATIONS
+) -> PanelSolution | FailedPanel:
+    """Panel of strips like the one at the post; otherwise as ``solve_panel``.
+
+    Parameters
+    ----------
+    strip : Strip
+        At the post.
+    panel : Panel
+        Spacing, ropes and cut.
+    stations : int
+        K, strips on half the panel, 1 to 10 [-].
+
+    Raises
+    ------
+    ModelError
+        If K is out of its range.
+    """
     require_within("stations", stations, 1, LARGEST_COUNT)
-    strip = build_strip(solution)
     try:
         return _solve(_build_problem(strip, panel, stations))
     except SolveError as failure:
@@ -137,7 +159,7 @@ def _solve(problem: _Problem) -> PanelSolution:
         if moved <= _STILL * problem.strip.chord:
             return _build_solution(problem, now, len(played))
         points, images = [one.point for one in played], [one.image for one in played]
-        wanted = mix_anderson(points, images, depth=_DEPTH)
+        wanted = mix_anderson(points, images, depth=_DEPTH, damping=_DAMPING)
     raise SolveError(Outcome.MAX_ITERATIONS)
 
 
@@ -220,8 +242,8 @@ def _build_solution(problem: _Problem, end: _Round, rounds: int) -> PanelSolutio
         foot=_as_point(lower[:, 0]),
         mid_foot=_as_point(lower[:, 1]),
         head=_as_point(upper[:, 0]),
-        lower=_describe_rope(end.along[0], lower, end.image[0]),
-        upper=_describe_rope(end.along[1], upper, end.image[1]),
+        lower=_describe_rope(problem, end, 0, lower),
+        upper=_describe_rope(problem, end, 1, upper),
         stations=problem.half * (1.0 - np.append(problem.stations.xi, 0.0)),
         curves=curves,
         balance=balance,
@@ -229,21 +251,28 @@ def _build_solution(problem: _Problem, end: _Round, rounds: int) -> PanelSolutio
     )
 
 
-def _describe_rope(along: float, supports: Floats, moved: Floats) -> RopeForces:
-    """Rope from the forces of both bays on its supports (2, 2)."""
+def _describe_rope(
+    problem: _Problem, end: _Round, which: int, supports: Floats
+) -> RopeForces:
+    """Lower (0) or upper rope, from the forces of both bays on its supports (2, 2)."""
+    along = end.along[which]
     across = float(np.hypot(*supports).max()) / 2.0
+    _, span = problem.ropes[which]
+    shear = problem.half * end.pulls[which] @ span.shear.T
     return RopeForces(
         along=along,
         tension=math.hypot(along, across),
-        mid_displacement=_as_point(moved[:, -1]),
+        mid_displacement=_as_point(end.image[which][:, -1]),
+        tensions=np.asarray(np.hypot(along, np.hypot(*shear))),
     )
 
 
 def _draw_curves(problem: _Problem, end: _Round) -> Floats:
     """Curves of the strips and of the one in mid-panel, in the section's axes."""
+    strip, lengths = problem.strip, problem.lengths
     known = np.column_stack([end.pulls[0], end.pulls[0][:, -1]])
-    each = zip(problem.lengths, end.image.transpose(2, 0, 1), known.T, strict=True)
-    return np.array([draw_strip(problem.strip, *one) for one in each])
+    pulls = pull_strips(strip, lengths, end.image, known)
+    return draw_strips(strip, lengths, end.image, pulls[0])
 
 
 def _require_clear_of_ground(problem: _Problem, curves: Floats) -> None:

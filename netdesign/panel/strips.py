@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.alike import AlikeCables, build_alike, find_pulls
-from netdesign.cable.funicular import solve_funicular, tension_offsets
+from netdesign.cable.alike import AlikeCables, build_alike, draw_curves, find_pulls
+from netdesign.cable.funicular import tension_offsets
 from netdesign.cable.net import Net
-from netdesign.coupling.solution import Solution
+from netdesign.coupling.solution import EndPull, Solution
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
@@ -66,11 +66,8 @@ class Strip:
         return float(np.hypot(*self.head))
 
 
-def build_strip(solution: Solution) -> Strip:
-    """Strip of a net at rest.
-
-    The unstressed lengths follow from the curve: each element is as long as it would
-    be without the tension that the forces leave in it.
+def take_strip(solution: Solution) -> Strip:
+    """Strip of a solution.
 
     Parameters
     ----------
@@ -85,10 +82,27 @@ def build_strip(solution: Solution) -> Strip:
     net = solution.scene.net
     if solution.method != "steady" or not isinstance(net, Net):
         raise ModelError(say("panel.steady_only", method=solution.method))
-    curve, forces = solution.net_curve, solution.net_forces
+    return build_strip(net, solution.net_curve, solution.net_forces, solution.foot)
+
+
+def build_strip(net: Net, curve: Floats, forces: Floats, foot: EndPull) -> Strip:
+    """Strip of a net at rest.
+
+    The unstressed lengths follow from the curve: each element is as long as it would
+    be without the tension that the forces leave in it.
+
+    Parameters
+    ----------
+    net : Net
+        Its stiffness and slack.
+    curve, forces : ndarray, shape (2, 2 n + 1) and (2, m)
+        Its nodes [m], and the forces on those that the snow reaches [N/m].
+    foot : EndPull
+        Its pull on the foot [N/m].
+    """
     above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
     forces = np.concatenate([forces, above], axis=1)
-    foot_pull = np.array([solution.foot.x, solution.foot.y])
+    foot_pull = np.array([foot.x, foot.y])
     bend = -0.75 * forces[:, 1::2]
     pull = foot_pull + 2.0 / 3.0 * bend[:, 0] - forces[:, 0]  # (C5)
     tension = pull[:, None, None] + tension_offsets(forces, bend)
@@ -177,37 +191,27 @@ def pull_strips(
     return np.array([foot, cables.load[:, None] - foot])
 
 
-def draw_strip(strip: Strip, length: float, ends: Floats, foot_pull: Floats) -> Floats:
-    """Curve of a strip in the section's axes.
+def draw_strips(
+    strip: Strip, lengths: Floats, displacements: Floats, foot_pulls: Floats
+) -> Floats:
+    """Curves of strips in the section's axes.
 
     Parameters
     ----------
     strip : Strip
         Forces and shares of the length.
-    length : float
+    lengths : ndarray, shape (K,)
         Unstressed [m].
-    ends : ndarray, shape (2, 2)
-        Displacement of its foot and of its head [m].
-    foot_pull : ndarray, shape (2,)
-        About what it pulls with on its foot [N/m].
+    displacements : ndarray, shape (2, 2, K)
+        Of the lower and the upper rope [m].
+    foot_pulls : ndarray, shape (2, K)
+        What each pulls with on the lower rope [N/m].
 
     Returns
     -------
-    ndarray, shape (2, 2 n + 1)
+    ndarray, shape (K, 2, 2 n + 1)
         Nodes, foot to head [m].
-
-    Raises
-    ------
-    SolveError
-        If it finds no equilibrium.
     """
-    cable = solve_funicular(
-        strip.forces,
-        strip.shares * length,
-        strip.stiffness,
-        strip.head + ends[1] - ends[0],
-        foot_pull,
-    )
-    if cable.outcome is not Outcome.CONVERGED:
-        raise SolveError(cable.outcome, say("panel.strip_not_found"))
-    return np.asarray(cable.curve + ends[0][:, None])
+    cables = strip.alike
+    curves = draw_curves(cables, lengths, foot_pulls - cables.to_foot[:, None])
+    return np.asarray(curves + displacements[0].T[:, :, None])

@@ -10,7 +10,7 @@ from itertools import product
 from netdesign.checks import Declaration
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.columns.fields import normalise
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.site.readings import Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.structure.members import Member
@@ -35,6 +35,7 @@ _OF_DIRECTIONS = (
 DECLARABLE: tuple[tuple[str, str], ...] = (
     *MEMBER_MODES,
     *DEPENDENT_MODES,
+    *END_MODES,
     *_OF_DIRECTIONS,
     *_OF_GEOMETRY,
 )

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.model import InputEcho
-from netdesign.site.readings import Row, refuse
+from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.tables import Table, read_rows
+from netdesign.structure.members import EndMember
 from netdesign.words.message import say
 
 EndsByRow = Mapping[str, Row]  # one line by net row
@@ -40,13 +41,22 @@ def refuse_unknown_ends(
             refuse(line["row"], say("nets.no_id", sheet=sheet), accepted, findings)
 
 
+def list_end_types(end: Row) -> list[Reading]:
+    """Cells that name what holds a row of panels along the row."""
+    return [end[key] for key in EndMember if end[key].word]
+
+
 def replace_types(row: Row, end: Row) -> Row:
     """Line of sheet Nets with the types that its end has instead."""
-    named = {key: reading for key, reading in end.items() if key != "row"}
+    named = {key: reading for key, reading in end.items() if key in row}
     return {**row, **{key: one for key, one in named.items() if one.word}}
 
 
 def echo_ends(end: Row | None) -> tuple[InputEcho, ...]:
     """Types of the ends as typed; those left empty are those of the row."""
     readings = end.values() if end else ()
-    return tuple(one.echo() for one in readings if one.word and one.field.key != "row")
+    return tuple(
+        one.echo()
+        for one in readings
+        if one.state == "given" and one.field.key != "row"
+    )

@@ -11,6 +11,7 @@ from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
 from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guards import require_positive, require_within
+from netdesign.panel.inputs import Panel
 from netdesign.resistance.post import PostSection
 from netdesign.resistance.pull_out import PullOutTests
 from netdesign.resistance.steel import RoundSection
@@ -23,7 +24,7 @@ from netdesign.snow.snowpack import (
     scale_layers,
 )
 from netdesign.structure.layout import SupportLayout
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
 from netdesign.words.message import Message
@@ -56,6 +57,14 @@ _GLIDE = frozenset(("slip_length", "glide_factor"))
 _OF_ROW = _GLIDE | {
     *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
 }
+# Of the ends of a row of panels.
+END_MODES: tuple[tuple[EndMember, str], ...] = (
+    (EndMember.LATERAL_ANCHOR, "tendon"),
+    (EndMember.LATERAL_ANCHOR, "pull_out"),
+    (EndMember.END_GUY, "rope"),
+    (EndMember.END_GUY_ANCHOR, "tendon"),
+    (EndMember.END_GUY_ANCHOR, "pull_out"),
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +101,7 @@ class Resistance:
     demand, from ``dimensions``; ``source`` is its cell.
     """
 
-    member: Member
+    member: Member | EndMember
     mode: str
     value: float | None
     basis: str  # "tested", "computed", "declared" or "" where nothing is given
@@ -102,6 +111,48 @@ class Resistance:
     tests: PullOutTests | None = None  # instead of a value
     dimensions: AnchorType | PostSection | BaseFriction | None = None
     lack: Message | None = None  # why there is no value, where that needs more words
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BorderRope:
+    """What a border rope bears.
+
+    Attributes
+    ----------
+    type_id, source : str
+        Id of the rope type, and the cell of its breaking force, else of that id.
+    breaking : float or None
+        Minimum breaking force [N]; None where none is given.
+    """
+
+    type_id: str
+    breaking: float | None
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowPanel:
+    """The panel between two posts of a row, and what its two ropes bear."""
+
+    panel: Panel
+    lower: BorderRope
+    upper: BorderRope
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEnd:
+    """Members that hold a row of panels along itself, at its end.
+
+    Attributes
+    ----------
+    guy_angle : float or None
+        Between the end guy and the row [rad]; None where none is given.
+    resistances : tuple of Resistance
+        Of all ``END_MODES``, given or not.
+    """
+
+    guy_angle: float | None
+    resistances: tuple[Resistance, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,6 +195,9 @@ class NetRow:
     # of the first and last support; None: those of all others
     end_resistances: tuple[Resistance, ...] | None = None
     end_anchors: tuple[tuple[Member, AnchorType], ...] | None = None
+    panel: RowPanel | None = None  # None: forces of a metre of net times the spacing
+    row_end: RowEnd | None = None  # of a row with panel and end
+    panel_lack: Message | None = None  # why there is none; None also without ropes
 
     def __post_init__(self) -> None:
         """Refuse values that no scene can have."""

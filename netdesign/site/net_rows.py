@@ -13,17 +13,21 @@ from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
 from netdesign.site.end_supports import (
     EndsByRow,
     echo_ends,
+    list_end_types,
     refuse_unknown_ends,
     replace_types,
 )
 from netdesign.site.model import (
+    END_MODES,
     MEMBER_MODES,
     NAMED_BY,
     AnchorType,
     InputEcho,
     NetRow,
     Resistance,
+    RowEnd,
 )
+from netdesign.site.panel_inputs import check_panel, list_ropes, read_panel
 from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
@@ -54,7 +58,7 @@ from netdesign.structure.layout import (
     DEFAULT_UPHILL_RATIO,
     SupportLayout,
 )
-from netdesign.structure.members import Member
+from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
 
 Types = Mapping[str, Row]  # the lines of one type sheet, by id
@@ -140,11 +144,17 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
 def _list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
     """Cells that name an id of a type sheet."""
     return [
-        row[member]
+        reading
         for row in rows
-        for member in _MEMBERS
-        if row[member].word and row[member].field.refers_to == sheet
+        for reading in _list_named(row)
+        if reading.field.refers_to == sheet
     ]
+
+
+def _list_named(row: Row) -> list[Reading]:
+    """Cells of a line of sheet Nets or Ends that name a type."""
+    further = list_ropes(row) if "panel_system" in row else list_end_types(row)
+    return [*(row[member] for member in _MEMBERS if row[member].word), *further]
 
 
 def _refuse_missing_sheets(
@@ -201,6 +211,7 @@ def _build_net_row(
     named = [row, end] if end else [row]
     for one in named:
         _check_types(one, type_sheets, findings)
+    check_panel(row, findings)
     readings = [reading for one in named for reading in one.values()]
     is_faulty = any(reading.state == "faulty" for reading in readings) or any(
         _list_references(named, name)
@@ -212,6 +223,8 @@ def _build_net_row(
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
+    has_end = row["gap"].state != "given" or row["gap"].si > 0.0
+    panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -241,6 +254,9 @@ def _build_net_row(
         guys=read_guys(row),
         axes=tuple(read_axes(row).items()),
         anchors=_find_anchors(row, type_sheets),
+        panel=panel,
+        row_end=_build_row_end(end, type_sheets) if panel and has_end else None,
+        panel_lack=panel_lack,
     )
 
 
@@ -340,11 +356,10 @@ def _build_sliding_ground(
 
 
 def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> None:
-    for member in _MEMBERS:
-        reading = row[member]
+    for reading in _list_named(row):
         sheet = reading.field.refers_to
         types = type_sheets[sheet]
-        if types is not None and reading.word and reading.word not in types:
+        if types is not None and reading.word not in types:
             title = say(f"sheet.{sheet}")
             accepted = say("nets.id_or_empty", sheet=title)
             places = {name: line["id"].place for name, line in types.items()}
@@ -360,6 +375,20 @@ def _build_layout(row: Row) -> SupportLayout:
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=base.si if base.state == "given" else None,
+    )
+
+
+def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
+    """Members that hold a row along itself, all of them, given or not."""
+    angle = end["end_guy_angle"] if end else None
+    return RowEnd(
+        guy_angle=angle.si if angle and angle.state == "given" else None,
+        resistances=tuple(
+            _find_resistance(end[member], mode, member, type_sheets)
+            if end
+            else _lack_resistance(member, mode, "Ends")
+            for member, mode in END_MODES
+        ),
     )
 
 
@@ -382,18 +411,11 @@ def _find_resistances(row: Row, type_sheets: TypeSheets) -> tuple[Resistance, ..
 
 
 def _find_resistance(
-    reading: Reading, mode: str, member: Member, type_sheets: TypeSheets
+    reading: Reading, mode: str, member: Member | EndMember, type_sheets: TypeSheets
 ) -> Resistance:
     """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:
-        return Resistance(
-            member=member,
-            mode=mode,
-            value=None,
-            basis="",
-            type_id="",
-            source=reading.place or "Nets",
-        )
+        return _lack_resistance(member, mode, reading.place or "Nets")
     kind = (type_sheets[reading.field.refers_to] or {})[reading.word]
     resistance = kind[mode]
     tests = find_tests(kind) if mode == "pull_out" else None
@@ -413,6 +435,13 @@ def _find_resistance(
         source=place or reading.field.refers_to,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
+    )
+
+
+def _lack_resistance(member: Member | EndMember, mode: str, source: str) -> Resistance:
+    """Resistance of a member whose type is not named."""
+    return Resistance(
+        member=member, mode=mode, value=None, basis="", type_id="", source=source
     )
 
 

@@ -22,6 +22,7 @@ from netdesign.words.message import Message, dump, restore
 _BY_FOOT = 5e-3
 _SHAPE_ARRAYS = (
     ("net_curve", "<f8"),
+    ("net_forces", "<f8"),
     ("net_slides", "|b1"),
     ("mesh_nodes", "<f8"),
     ("mesh_edges", "<u4"),
@@ -44,7 +45,7 @@ class SolvedState:
         Tests that it passed.
     elements, linear_solves : int
         What it took.
-    net_curve, net_slides, mesh_nodes, mesh_edges
+    net_curve, net_forces, net_slides, mesh_nodes, mesh_edges
         As in ``Solution``.
     """
 
@@ -56,6 +57,7 @@ class SolvedState:
     elements: int
     linear_solves: int
     net_curve: Floats
+    net_forces: Floats
     net_slides: Mask
     mesh_nodes: Floats
     mesh_edges: NDArray[np.uint32]
@@ -88,7 +90,7 @@ class SolvedState:
             for key in one.__dataclass_fields__
         )
         numbers = [self.tension_max, *(part for part in parts if part is not None)]
-        shape = (self.net_curve, self.mesh_nodes)
+        shape = (self.net_curve, self.net_forces, self.mesh_nodes)
         return (
             all(math.isfinite(number) for number in numbers)
             and all(bool(np.isfinite(array).all()) for array in shape)
@@ -125,6 +127,7 @@ def keep_state(solution: Solution) -> SolvedState:
         elements=solution.cost.elements,
         linear_solves=solution.cost.linear_solves,
         net_curve=np.asarray(solution.net_curve, dtype="<f8"),
+        net_forces=np.asarray(solution.net_forces, dtype="<f8"),
         net_slides=np.asarray(solution.net_slides, dtype="|b1"),
         mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
         mesh_edges=np.asarray(solution.mesh_edges, dtype="<u4"),

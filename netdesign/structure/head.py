@@ -131,7 +131,7 @@ def hold_head(
 
     Verified by
     -----------
-    tests/structure/test_many_heads.py
+    tests/structure/test_many_forces.py
     """
     across = _cross(pull, post)
     size = measure_length(*pull)

@@ -22,6 +22,40 @@ class Member(StrEnum):
 
 # Those that carry a force to be resisted: all but the net.
 CARRYING_MEMBERS = tuple(one for one in Member if one is not Member.NET)
+
+
+class EndMember(StrEnum):
+    """A member that holds the ropes' pull along the row, at its end."""
+
+    LATERAL_ANCHOR = "lateral_anchor"
+    END_GUY = "end_guy"
+    END_GUY_ANCHOR = "end_guy_anchor"
+
+
+class RopeForce(StrEnum):
+    """A force of a border rope: along the row, or its tension at a support."""
+
+    LOWER_ALONG = "panel_lower_along"
+    UPPER_ALONG = "panel_upper_along"
+    LOWER_TENSION = "panel_lower_tension"
+    UPPER_TENSION = "panel_upper_tension"
+
+
+# What pulls on each of those at the row's end.
+ROPE_OF: Mapping[str, RopeForce] = MappingProxyType(
+    {
+        EndMember.LATERAL_ANCHOR: RopeForce.LOWER_ALONG,
+        EndMember.END_GUY: RopeForce.UPPER_ALONG,
+        EndMember.END_GUY_ANCHOR: RopeForce.UPPER_ALONG,
+    }
+)
+
+
+def name_in_panel(member: str) -> str:
+    """Key of a member's force by the panel, beside that by the section."""
+    return f"panel_{member}"
+
+
 # Those whose force is reported; each guy stands for its anchor too.
 REPORTED_MEMBERS = (
     Member.FOOT_ANCHOR,

@@ -193,12 +193,21 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         search=SearchSettings(gap=max(run.settings.accuracy, _CLOSEST_GAP)),
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
+        panel=row.panel.panel if row.panel else None,
     )
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
-    bare = replace(row, inputs=(), resistances=(), end_resistances=None)
+    bare = replace(
+        row,
+        inputs=(),
+        resistances=(),
+        end_resistances=None,
+        panel=None,
+        row_end=None,
+        panel_lack=None,
+    )
     return _RowScenes(row=bare, law=law)
 
 
@@ -279,4 +288,5 @@ def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[Case
     def build(case: Case) -> Scene:
         return build_scene(row, case, run.creep_law)
 
-    return [build_task(case, build, row.layout, run.settings) for case in cases]
+    panel = row.panel.panel if row.panel else None
+    return [build_task(case, build, row.layout, run.settings, panel) for case in cases]

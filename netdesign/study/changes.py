@@ -1,4 +1,4 @@
-"""What would turn a check of forces: limits of single values, changes that mend it."""
+"""Limits of single values of a check of forces, and changes that mend it."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from dataclasses import replace
 from functools import partial
 
 from netdesign.checks import (
+    Band,
     CheckResult,
     Standard,
 )
 from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Ranges
+from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import BaseFriction, NetRow, Resistance
+from netdesign.structure.members import name_in_panel
 from netdesign.study.calibration import find_doubt
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.flips import (
@@ -81,7 +84,8 @@ def list_changes(
     changes = _list_resistance_changes(task, one.given, result)
     if used is None or result.design_resistance is None:
         return changes
-    changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
+    if task.row.panel is None:  # its forces are in no proportion to the spacing
+        changes.append(find_spacing_change(effects.post_spacing, one.width, used.high))
     if gap or one.doubt:
         note = say("change.as_far_as_solved" if gap else "change.if_law_accepted")
         return [replace(change, note=note) for change in changes]
@@ -104,11 +108,16 @@ def _has_target(one: MemberCheck) -> bool:
     demand = one.demand
     if demand is None or one.given.dimensions or one.use is None:
         return False
-    return demand.solved.high > 0.0 or demand.load.added.high == 0.0
+    if demand.along.high > 0.0:  # by another force, of the ropes
+        return False
+    return demand.largest.high > 0.0 or demand.load.added.high == 0.0
 
 
 def _build_target(task: RowCheck, one: MemberCheck) -> Target:
-    """The check as a function of a solved case and of the row."""
+    """The check as a function of a solved case and of the row.
+
+    Of section and panel that one which is larger is followed, the other beside it.
+    """
     extreme, demand, use = one.extreme, one.demand, one.use
     if extreme is None or demand is None or use is None:
         raise ValueError("a check without a demand has no target")
@@ -123,13 +132,20 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
             return 0.0
         return use * (load.share * least.force + _add_by_floor(load, floor))
 
-    at_cases = find_extreme(member, task.solved.results).force.high
-    widened = extreme.widened.high / at_cases if at_cases else 1.0
+    pair: list[tuple[str, Band]] = [(member, demand.solved)]
+    if demand.panel is not None:
+        pair.append((name_in_panel(member), demand.panel))
+    scales = {
+        name: use * load.share * _widen(name, band, task.solved.results)
+        for name, band in pair
+    }
+    followed = extreme.member
     return Target(
         row=task.row,
         ranges=task.site.ranges,
-        member=member,
-        scale=use * load.share * widened,
+        member=followed,
+        scale=scales.pop(followed),
+        beside=tuple(scales.items()),
         added=use * load.added.high,
         rise=use * load.rise,
         governing=extreme.governing.case,
@@ -137,6 +153,12 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         use_floor=use_floor,
         widen=partial(_find_width, task.standard, one),
     )
+
+
+def _widen(name: str, band: Band, results: Sequence[CaseResult]) -> float:
+    """Upper end with what may hide, over the largest one of the solved cases [-]."""
+    at_cases = find_extreme(name, results).force.high
+    return band.high / at_cases if at_cases else 1.0
 
 
 def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:

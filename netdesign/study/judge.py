@@ -15,8 +15,14 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
-from netdesign.structure.members import REPORTED_MEMBERS, Member
+from netdesign.structure.members import (
+    REPORTED_MEMBERS,
+    ROPE_OF,
+    Member,
+    name_in_panel,
+)
 from netdesign.study.cases import CheckRun
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import find_loads
@@ -34,6 +40,7 @@ from netdesign.study.record_cases import record_case, record_extreme
 from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
+from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_statics import record_held_sideways, record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
@@ -149,8 +156,10 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
+        panel=record_panel(row, solved.results, extremes, governing),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
+            *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
             *list_test_notes(checks, task.standard),
             *list_case_notes(cases),
             *list_history_notes(extremes),
@@ -173,7 +182,8 @@ def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, flo
     for check in checks:
         action = check.action
         if check.resistance_kN is not None and check.action_factor and action:
-            if _fails_by_floor(check):
+            is_other = action.governs == "panel" or check.member in ROPE_OF
+            if _fails_by_floor(check) or is_other:
                 continue  # no coupled force turns it
             on_row = check.action_factor * action.lateral_factor
             on_row *= action.loaded_width_m / action.post_spacing_m
@@ -190,13 +200,21 @@ def _fails_by_floor(check: CheckRecord) -> bool:
     return check.resistance_kN is not None and demand > check.resistance_kN
 
 
+def _name_largest(check: CheckRecord) -> str:
+    """Force that a check follows: of section, panel, or a rope at the row's end."""
+    if check.member in ROPE_OF:
+        return ROPE_OF[check.member]
+    is_by_panel = check.action is not None and check.action.is_by_panel
+    return name_in_panel(check.member) if is_by_panel else check.member
+
+
 def _governing_result(
     checks: Sequence[CheckRecord], extremes: Mapping[str, Extreme]
 ) -> CaseResult | None:
     """Case of the largest utilisation; without any, of the largest foot force."""
-    rated = [c for c in checks if c.utilisation is not None and c.member in extremes]
+    rated = [c for c in checks if c.utilisation is not None and c.case]
     if rated:
         worst = max(rated, key=lambda check: check.utilisation or 0.0)
-        return extremes[worst.member].governing
+        return extremes[_name_largest(worst)].governing
     foot = extremes.get(Member.FOOT_ANCHOR)
     return foot.governing if foot else None

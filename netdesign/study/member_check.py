@@ -44,7 +44,8 @@ class RowCheck:
 class MemberCheck:
     """One member of one support in one mode, judged.
 
-    ``extreme`` and ``demand`` are None where no case was solved; ``gap`` says why the
+    ``extreme``, the larger of section and panel, and ``demand`` are None where no case
+    was solved; ``gap`` says why the
     demand is not known as a whole, ``doubt`` why the creep law may not hold for the
     governing snow; both are None if all is well.
     """
@@ -56,6 +57,11 @@ class MemberCheck:
     gap: Message | None
     doubt: Message | None
     result: CheckResult
+
+    @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        return self.demand is not None and self.demand.largest is not self.demand.solved
 
     @property
     def name(self) -> tuple[str, str]:

@@ -6,19 +6,23 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from netdesign.checks import Standard
+from netdesign.checks import Band, Standard
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import LoadedWidth
-from netdesign.study.demand import Demand, build_demand
+from netdesign.study.demand import NOTHING, Demand, build_demand
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.pulls import AnchorPull, list_pulls
 from netdesign.study.records import ActionRecord
+from netdesign.study.row_end import EndLoads, find_end_loads
 from netdesign.study.sideways import MemberLoad, Sideways, find_sideways, place_row
 from netdesign.units import kilonewton_from_newton
+
+_PUSHED = (Member.POST, Member.POST_BASE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +41,8 @@ class RowLoads:
         Directions at the anchors.
     tilt : float
         Largest force along the slope at the post's base over that across, (S19) [-].
+    end : EndLoads or None
+        Pulls of the ropes along the row, at its end; None without any.
     """
 
     effects: RowEffects
@@ -44,24 +50,67 @@ class RowLoads:
     sideways: Sideways
     pulls: tuple[AnchorPull, ...]
     tilt: float
+    end: EndLoads | None = None
 
-    def demand(self, given: Resistance, extreme: Extreme, width: LoadedWidth) -> Demand:
-        """Demand of a check on the support of that width."""
+    def demand(
+        self,
+        given: Resistance,
+        extreme: Extreme,
+        width: LoadedWidth,
+        panel: Extreme | None = None,
+    ) -> Demand:
+        """Demand of a check on the support of that width.
+
+        ``panel`` is the largest force by the panel between posts.
+        """
         load = self.sideways.load(given.member)
         if given.mode == "sliding":
             load = self._turn(load)
         least = self.floor.find(given.member) if self.floor else None
-        solved = extreme.widened
-        return build_demand(self.effects, given.member, width, solved, least, load)
+        return build_demand(
+            self.effects,
+            given.member,
+            width,
+            extreme.widened,
+            least,
+            load,
+            panel.widened if panel else None,
+            self._find_along(given, width),
+        )
 
-    def press(self, extreme: Extreme, width: LoadedWidth) -> float:
-        """Characteristic force across the base plate, from one in the section [N]."""
+    def press(
+        self, extreme: Extreme, width: LoadedWidth, panel: Extreme | None = None
+    ) -> float:
+        """Characteristic force across the base plate, from one in the section [N].
+
+        ``panel`` is that by the panel between posts.
+        """
         load = self.sideways.load(Member.POST_BASE)
         least = self.floor.find(Member.POST_BASE) if self.floor else None
         found = build_demand(
-            self.effects, Member.POST_BASE, width, extreme.widened, least, load
+            self.effects,
+            Member.POST_BASE,
+            width,
+            extreme.widened,
+            least,
+            load,
+            panel.widened if panel else None,
+            self._find_push(width),
         )
         return found.action.value
+
+    def _find_along(self, given: Resistance, width: LoadedWidth) -> Band:
+        """Part of a force that the ropes' pull along the row brings at its end [N]."""
+        if given.member not in _PUSHED:
+            return NOTHING
+        tilt = self.tilt if given.mode == "sliding" else 1.0
+        return self._find_push(width).times(tilt)
+
+    def _find_push(self, width: LoadedWidth) -> Band:
+        """Compression by the end guy of a post at the row's end [N]."""
+        if self.end is None or width.position != "edge":
+            return NOTHING
+        return self.end.on_post
 
     def _turn(self, load: MemberLoad) -> MemberLoad:
         """Force along the slope instead of that across the base plate, (S19)."""
@@ -78,6 +127,9 @@ class RowLoads:
 def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> ActionRecord:
     """Record with both forces on one anchor that carries net and uphill guy, (S7)."""
     anchors = governing.anchors
+    if record.is_by_panel:  # parts of that force, in its own case
+        panel = governing.panel
+        anchors = panel.anchors if isinstance(panel, PanelForces) else None
     both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
     if anchors is None or not anchors.is_foot_shared or member not in both:
         return record
@@ -104,6 +156,7 @@ def find_loads(
         sideways=find_sideways(row, results, extremes, standard, head),
         pulls=tuple(list_pulls(row, results, effects.lateral_share, head)),
         tilt=_find_tilt(row, results),
+        end=find_end_loads(row, extremes, effects),
     )
 
 

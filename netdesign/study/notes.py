@@ -103,6 +103,8 @@ def list_row_notes(
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
     notes += list_assumed(row)
+    if row.panel_lack is not None:
+        notes.append(say("panel.plain_figure", lack=row.panel_lack))
     return [*notes, *_list_pull_notes(pulls)]
 
 

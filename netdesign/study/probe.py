@@ -87,5 +87,9 @@ class Probe:
 
     def _build_task(self, row: NetRow, case: Case, law: CreepLaw) -> CaseTask:
         return build_task(
-            case, lambda c: build_scene(row, c, law), row.layout, self._settings
+            case,
+            lambda c: build_scene(row, c, law),
+            row.layout,
+            self._settings,
+            row.panel.panel if row.panel else None,
         )

@@ -9,10 +9,12 @@ from dataclasses import dataclass, replace
 from netdesign.checks import CheckResult, Standard
 from netdesign.checks.check import judge, list_assumed, not_proven
 from netdesign.checks.schema import BAR_ANGLE, ROPE_ANGLE
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import AnchorType, NetRow
+from netdesign.structure.anchors import GroundForce
 from netdesign.structure.axis import (
     PullRange,
     find_pull_range,
@@ -85,7 +87,7 @@ def list_pulls(
     """
     solved = [one for one in results if one.is_converged]
     points = [place_row(row, one) for one in solved]
-    feet = [one.anchors.foot_anchor for one in solved if one.anchors is not None]
+    feet = [one for result in solved for one in _list_feet(result)]
     directions = {
         anchor: [_measure_guy(place, anchor, row.guys) for place in points]
         for anchor in ANCHORS
@@ -105,6 +107,17 @@ def list_pulls(
         for anchor, pulls in ranges.items()
         if pulls is not None
     ]
+
+
+def _list_feet(result: CaseResult) -> list[GroundForce]:
+    """Forces of the net on foot anchors in a case, also by the panel between posts."""
+    feet = [] if result.anchors is None else [result.anchors.foot_anchor]
+    if isinstance(result.panel, PanelForces):
+        x, y = result.panel.solution.mid_foot
+        feet.append(result.panel.anchors.foot_anchor)
+        if x or y:
+            feet.append(GroundForce(member=Member.NET, x=x, y=y))
+    return feet
 
 
 def list_positions(row: NetRow) -> tuple[Position, ...]:

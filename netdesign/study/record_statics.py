@@ -8,13 +8,14 @@ from dataclasses import dataclass
 
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.extremes import Extreme
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import SPANS, Floor, FloorForce
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import SupportPoints, place_support
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, RopeForce
 from netdesign.structure.splay import SplayWeights, weigh_splay
 from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
@@ -23,7 +24,13 @@ from netdesign.study.records import (
     HeldSidewaysRecord,
     StaticsRecord,
 )
-from netdesign.study.sideways import GUYS, Sideways, place_row
+from netdesign.study.sideways import (
+    GUYS,
+    GUYS_BY_PANEL,
+    Sideways,
+    find_hidden,
+    place_row,
+)
 from netdesign.units import (
     degree_from_radian,
     given_degree_from_radian,
@@ -34,12 +41,25 @@ from netdesign.units import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Pulls:
-    """End pulls of a state with the support that they act on."""
+    """End pulls of a state with the support that they act on.
+
+    ``mid_foot`` is the force on an anchor in mid-panel [N].
+    """
 
     foot: EndPull
     head: EndPull
     points: SupportPoints
     anchors: AnchorForces
+    is_by_panel: bool = False
+    mid_foot: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """A solved case, by its section or by the panel between posts."""
+
+    result: CaseResult
+    is_by_panel: bool = False
 
 
 def record_statics(
@@ -62,57 +82,86 @@ def _record_cases(
     found = [
         (key, _find_state(key, one.governing))
         for key, one in extremes.items()
-        if one.force.value > 0.0
+        if one.force.value > 0.0 and key not in tuple(RopeForce)
     ]
-    if solved:
+    states = _list_states(solved)
+    if states:
         found += [
-            (key, max(solved, key=lambda one: _measure(one)[key])) for key in SPANS
+            (key, max(states, key=lambda one: _measure(one)[key])) for key in SPANS
         ]
-    for result, keys in _group(found):
-        solution, anchors = result.solution, result.anchors
-        if solution is None or anchors is None:
-            continue
-        pulls = _Pulls(
-            foot=solution.foot,
-            head=solution.head,
-            points=place_row(row, result),
-            anchors=anchors,
+    for state, keys in _group(found):
+        pulls = _read_pulls(row, state)
+        if pulls is not None:
+            case = record_point(state.result.case)
+            yield _record_state(keys, pulls, case=case, load=None)
+
+
+def _list_states(solved: Sequence[CaseResult]) -> list[_State]:
+    """States of solved cases, by section and by panel where there is one."""
+    by_panel = [one for one in solved if isinstance(one.panel, PanelForces)]
+    return [*map(_State, solved), *(_State(one, True) for one in by_panel)]
+
+
+def _read_pulls(row: NetRow, state: _State) -> _Pulls | None:
+    result = state.result
+    solution, anchors, panel = result.solution, result.anchors, result.panel
+    if solution is None or anchors is None:
+        return None
+    points = place_row(row, result)
+    if not (state.is_by_panel and isinstance(panel, PanelForces)):
+        return _Pulls(
+            foot=solution.foot, head=solution.head, points=points, anchors=anchors
         )
-        yield _record_state(keys, pulls, case=record_point(result.case), load=None)
+    return _Pulls(
+        foot=panel.foot,
+        head=panel.head,
+        points=points,
+        anchors=panel.anchors,
+        is_by_panel=True,
+        mid_foot=math.hypot(*panel.solution.mid_foot),
+    )
 
 
-def _find_state(member: str, result: CaseResult) -> CaseResult:
+def _find_state(member: str, result: CaseResult) -> _State:
     """The case at rest or followed in time, whichever brings the member's force."""
     both = result.compared
+    if member in PANEL_QUANTITIES:
+        return _State(result, True)
     if both is None:
-        return result
-    return both.history if both.exceeds(member) else both.steady
+        return _State(result)
+    return _State(both.history if both.exceeds(member) else both.steady)
 
 
-def _measure(result: CaseResult) -> dict[str, float]:
-    """Sizes of a case of which the largest counts, by the keys `SPANS`."""
+def _measure(state: _State) -> dict[str, float]:
+    """Sizes of a state of which the largest counts, by the keys `SPANS`."""
+    result, panel = state.result, state.result.panel
     anchors = result.anchors
+    guys: Sequence[str] = GUYS
+    if state.is_by_panel and isinstance(panel, PanelForces):
+        anchors, guys = panel.anchors, GUYS_BY_PANEL
     if anchors is None:
         return dict.fromkeys(SPANS, -math.inf)
     foot = anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
-    tension = sum(result.member_forces[guy].low for guy in GUYS)
+    tension = sum(result.member_forces[guy].low for guy in guys)
     sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
     return dict(zip(SPANS, sizes, strict=True))
 
 
-def _group(
-    found: Iterable[tuple[str, CaseResult]],
-) -> list[tuple[CaseResult, list[str]]]:
-    """Cases in the order of what they bring, each with all of it."""
-    groups: list[tuple[CaseResult, list[str]]] = []
-    for key, result in found:
-        keys = next((keys for known, keys in groups if known is result), None)
+def _group(found: Iterable[tuple[str, _State]]) -> list[tuple[_State, list[str]]]:
+    """States in the order of what they bring, each with all of it."""
+    groups: list[tuple[_State, list[str]]] = []
+    for key, state in found:
+        keys = next((keys for known, keys in groups if _is_same(known, state)), None)
         if keys is None:
-            groups.append((result, [key]))
+            groups.append((state, [key]))
         else:
             keys.append(key)
     return groups
+
+
+def _is_same(one: _State, other: _State) -> bool:
+    return one.result is other.result and one.is_by_panel is other.is_by_panel
 
 
 def _record_floor(floor: Floor | None) -> Iterable[StaticsRecord]:
@@ -206,6 +255,8 @@ def _record_state(
         downhill_guy_kN=kilonewton_from_newton(anchors.head.downhill_guy_tension),
         post_kN=kilonewton_from_newton(anchors.head.post_compression),
         post_base_kN=kilonewton_from_newton(max(-anchors.post_base.y, 0.0)),
+        is_by_panel=pulls.is_by_panel,
+        mid_foot_kN=kilonewton_from_newton(pulls.mid_foot),
     )
 
 
@@ -222,8 +273,9 @@ def record_held_sideways(
     known = [(one, found) for one, found in weights if found is not None]
     if sideways.gap is not None or not known:
         return None
-    tensions = [-_measure(one)["least_tension"] for one in solved]
-    hidden = sum(extremes[guy].hidden for guy in GUYS if guy in extremes)
+    states = _list_states(solved)
+    tensions = [-_measure(one)["least_tension"] for one in states]
+    hidden = sum(find_hidden(guy, extremes) for guy in GUYS if guy in extremes)
     head = floor.head if floor else None
     uphill, uphill_at = _find_largest(known, "largest_uphill")
     downhill, downhill_at = _find_largest(known, "largest_downhill")

@@ -216,7 +216,7 @@ class ActionRecord:
     guideline_kN: float | None = None  # the same on this support
     floor_case: str = ""  # "load_case_1" or "load_case_2"
     floor_inclination_deg: float | None = None  # at which it is largest
-    governs: str = "coupled"  # or "guideline": the larger of the two
+    governs: str = "coupled"  # or "panel", "guideline": the largest of the three
     share: float = 1.0  # of the solved force, in this member or along the slope
     added_kN: float = 0.0  # by the load along the row at the head
     added_low_kN: float = 0.0
@@ -226,6 +226,25 @@ class ActionRecord:
     solved_high_kN: float | None = None  # the upper one with what may hide
     foot_part_kN: float | None = None  # of an anchor that carries net and uphill guy
     guy_part_kN: float | None = None
+    panel_kN: float | None = None  # by the panel between posts, as ``solved_kN``
+    panel_low_kN: float | None = None
+    panel_support_kN: float | None = None  # as ``coupled_kN``
+    along_kN: float = 0.0  # of it by the end guy, on the post at the row's end
+    along_low_kN: float = 0.0
+    along_high_kN: float = 0.0
+
+    @property
+    def governing(self) -> str:
+        """Largest one of the three by their numbers, as ``governs`` has it."""
+        largest = max(self.coupled_kN, self.panel_support_kN or 0.0)
+        if self.guideline_kN and self.guideline_kN >= largest:
+            return "guideline"
+        return "panel" if self.is_by_panel else "coupled"
+
+    @property
+    def is_by_panel(self) -> bool:
+        """The force by the panel between posts is larger than that of the section."""
+        return (self.panel_support_kN or 0.0) > self.coupled_kN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -529,6 +548,8 @@ class StaticsRecord:
     downhill_guy_kN: float
     post_kN: float
     post_base_kN: float  # across the plate
+    is_by_panel: bool = False  # pulls are the means of a bay between two posts
+    mid_foot_kN: float = 0.0  # of an anchor in mid-panel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -562,6 +583,63 @@ class IndependentRecord:
     is_met: bool
 
 
+@dataclass(frozen=True, kw_only=True)
+class RopeRecord:
+    """A border rope: what it is, and its largest forces, upper ends.
+
+    They are upper figures to a tenth, and information: no check rests on them alone.
+    """
+
+    rope: str  # "lower" or "upper"
+    type: str  # id of sheet Ropes
+    stiffness_kN: float  # EA
+    sag: float  # as built, over the post spacing
+    along_kN: float | None  # along the row; None where no case has a panel
+    tension_kN: float | None
+    breaking_kN: float | None  # None where none is given
+    cell: str  # of the breaking force, else of the id
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelDrawing:
+    """Panel of the drawn case: half of it, from a post to mid-panel.
+
+    Axes of the section: X downslope from the net's foot, Y out of the ground.
+    """
+
+    case: CasePoint
+    places_m: list[float]  # along the row, from beside the post to mid-panel
+    post_head_m: tuple[float, float]
+    lower_m: list[tuple[float, float]]
+    upper_m: list[tuple[float, float]]
+    mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel
+    rope_places_m: list[float]  # those of the tensions, from the post on
+    lower_tensions_kN: list[float]
+    upper_tensions_kN: list[float]
+    foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
+    mid_foot_kN: tuple[float, float]
+    head_kN: tuple[float, float]  # on a post head
+    section_foot_kN: tuple[float, float]  # the same by the section
+    section_head_kN: tuple[float, float]
+    lower_along_kN: float
+    upper_along_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelRecord:
+    """Panel between two posts of a row, inside it."""
+
+    cut: str  # "uniform", "upper" or "fitted"
+    has_mid_anchors: bool
+    ropes: list[RopeRecord]
+    extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
+    failed: int = 0  # solved cases without forces by the panel
+    effective_height_m: float | None = None  # least in mid-panel, normal to the slope
+    lift_m: float | None = None  # largest of the lower rope in mid-panel
+    end_guy_deg: float | None = None  # angle to the row; None where none is given
+    drawing: PanelDrawing | None = None  # None where the drawn case has no panel
+
+
 def list_verdicts(
     checks: Sequence[CheckRecord], independent: Sequence[IndependentRecord]
 ) -> list[Verdict]:
@@ -591,6 +669,7 @@ class RowStudy:
     notes: list[Text] = field(default_factory=list)
     independent: list[IndependentRecord] = field(default_factory=list)
     envelope: EnvelopeRecord | None = None  # None for a grid of cases
+    panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from netdesign.checks import check_member
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import Resistance
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
 from netdesign.study.changes import find_row_holds, list_changes
@@ -21,6 +22,7 @@ from netdesign.study.record_cases import record_point
 from netdesign.study.records import (
     CheckRecord,
 )
+from netdesign.study.row_end import find_lack
 from netdesign.study.settle import (
     find_gap,
     judge_forces,
@@ -31,7 +33,7 @@ from netdesign.study.settle import (
     settle_check,
 )
 from netdesign.study.sideways import check_sideways
-from netdesign.study.spreads import list_spreads
+from netdesign.study.spreads import list_end_spreads, list_spreads
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -64,6 +66,7 @@ def check_row(
         checks = [_distrust(task, one, check) for one, check in told]
     return [
         *checks,
+        *_check_end(task, loads),
         *_check_directions(task, loads, find_open(judged)),
         *record_geometry(task.site, task.row, task.standard),
     ]
@@ -73,6 +76,29 @@ def find_open(judged: Sequence[MemberCheck]) -> Message | None:
     """Gap of the forces, else a doubt about any of them; None if all is well."""
     points = (one.gap or one.doubt for one in judged)
     return next((one for one in points if one is not None), None)
+
+
+def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
+    """Checks of what holds the ropes' pull along the row, at its end."""
+    end, row = loads.end, task.row
+    checks = []
+    for given in row.row_end.resistances if row.row_end else ():
+        extreme = end.find_extreme(given.member) if end else None
+        gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme)
+        doubt = _find_doubt(task, extreme) if extreme else None
+        action = end.demand(given.member) if end else None
+        result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
+        settled = settle_check(task.site, row, result, "edge")
+        check = place_check(record_result(settled, given), "edge")
+        if end is not None and extreme is not None:
+            check = replace(
+                check,
+                case=record_point(extreme.governing.case),
+                action=end.record(given.member, loads.effects.post_spacing),
+                spreads=list_end_spreads(result, extreme),
+            )
+        checks.append(check)
+    return checks
 
 
 def _check_directions(
@@ -101,21 +127,28 @@ def _judge_member(
 ) -> MemberCheck:
     extreme, demand, doubt = extremes.get(given.member), None, None
     if extreme is not None:
-        demand = loads.demand(given, extreme, width)
+        panel = extremes.get(name_in_panel(given.member))
+        demand = loads.demand(given, extreme, width, panel)
+        brings = [one for one in (extreme, panel) if one is not None]
+        pressing = loads.press(extreme, width, panel)
+        if panel is not None and demand.largest is not demand.solved:
+            extreme = panel
         known = Circumstances(
             row=task.row,
             ranges=task.site.ranges,
             standard=task.standard,
             pull=find_pull(loads.pulls, given.member, width.position),
-            pressing=loads.press(extreme, width),
+            pressing=pressing,
         )
         given = settle_resistance(given, known)
-        brings = [extreme]
         if demand.load.added.high > 0.0:  # by the net's pull, as the post's force is
             brings.append(extremes[Member.POST])
         doubts = (_find_doubt(task, one) for one in brings)
         doubt = next((one for one in doubts if one), None)
-    gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(extreme)
+    seen = (extreme, extremes.get(name_in_panel(given.member)))
+    gap = find_gap(task.solved.gap, loads.floor) or _find_unseen(*seen)
+    if given.member in (Member.POST, Member.POST_BASE) and width.position == "edge":
+        gap = gap or find_lack(task.row, given)  # its end guy presses it
     action = demand.action if demand else None
     return MemberCheck(
         given=given,
@@ -128,11 +161,12 @@ def _judge_member(
     )
 
 
-def _find_unseen(extreme: Extreme | None) -> Message | None:
-    """Quantities between whose samples nothing is known of a largest force."""
-    if extreme is None or not extreme.unknown:
+def _find_unseen(*extremes: Extreme | None) -> Message | None:
+    """Quantities between whose samples nothing is known of some largest force."""
+    unknown = dict.fromkeys(axis for one in extremes if one for axis in one.unknown)
+    if not unknown:
         return None
-    axes = tuple(name("axis", axis) for axis in extreme.unknown)
+    axes = tuple(name("axis", axis) for axis in unknown)
     return say("check.unseen_between", axes=axes)
 
 

@@ -14,14 +14,14 @@ from netdesign.checks import Band, CheckResult, Standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import LATERAL_SHARE
 from netdesign.envelope.extremes import Extreme, describe_gap
+from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import HeadSpan
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
-from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
 from netdesign.structure.layout import Point, SupportPoints, place_support
-from netdesign.structure.members import Member
+from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.splay import SplayWeights, compute_splayed_head, weigh_splay
 from netdesign.study.records import SidewaysRecord
 from netdesign.units import (
@@ -38,6 +38,7 @@ _SIDES: Mapping[str, str] = {
     Member.DOWNHILL_ANCHOR: "downhill",
 }
 GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
+GUYS_BY_PANEL: Sequence[str] = tuple(map(name_in_panel, GUYS))
 _NOTHING = Band(low=0.0, value=0.0, high=0.0)
 
 
@@ -175,11 +176,7 @@ def find_sideways(
     gap = find_lack(row)
     if gap is not None or splay is None:
         return Sideways(share=value.value, gap=gap)
-    heads = [
-        _read_head(row, one, one.anchors)
-        for one in results
-        if one.is_converged and one.anchors is not None
-    ]
+    heads = [head for one in results for head in _list_heads(row, one)]
     if not heads:
         lack = describe_gap(results) or say("check.no_case_solved")
         return Sideways(share=value.value, gap=lack)
@@ -188,7 +185,7 @@ def find_sideways(
         if failed is not None:
             return Sideways(share=value.value, gap=failed)
     hidden = {
-        member: extremes[member].hidden
+        member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
         if member in extremes
     }
@@ -258,17 +255,36 @@ def place_row(row: NetRow, result: CaseResult) -> SupportPoints:
     return place_support(row.layout, head)
 
 
-def _read_head(row: NetRow, result: CaseResult, anchors: AnchorForces) -> _Head:
-    points = place_row(row, result)
+def _list_heads(row: NetRow, result: CaseResult) -> list[_Head]:
+    """Head of a case, also with the pull of its panel; none of a failed case."""
+    if not result.is_converged or result.anchors is None:
+        return []
+    points, bands = place_row(row, result), result.member_forces
     error = result.solution.head.error if result.solution else 0.0
-    bands = result.member_forces
-    return _Head(
-        pull=anchors.head_pull,
-        error=error * row.layout.post_spacing,
-        tension=sum(bands[guy].low for guy in GUYS),
-        points=points,
-        weights=weigh_splay(points),
-    )
+    error *= row.layout.post_spacing
+    pulls: list[tuple[Point, float, Sequence[str]]] = [
+        (result.anchors.head_pull, error, GUYS)
+    ]
+    if isinstance(result.panel, PanelForces):
+        panel = result.panel
+        error = panel.head.error * row.layout.post_spacing
+        pulls.append((panel.anchors.head_pull, error, GUYS_BY_PANEL))
+    return [
+        _Head(
+            pull=pull,
+            error=wrong,
+            tension=sum(bands[guy].low for guy in guys),
+            points=points,
+            weights=weigh_splay(points),
+        )
+        for pull, wrong, guys in pulls
+    ]
+
+
+def find_hidden(member: str, extremes: Mapping[str, Extreme]) -> float:
+    """Part of a member's force that may hide, by section or panel [N]."""
+    names = (member, name_in_panel(member))
+    return max(extremes[name].hidden for name in names if name in extremes)
 
 
 def _widen(heads: Sequence[_Head], hidden: float, least: float) -> Band:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from netdesign.checks import CheckResult
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CREEP_LAWS
@@ -49,12 +50,35 @@ def list_spreads(
     return spreads
 
 
+def list_end_spreads(result: CheckResult, extreme: Extreme) -> list[SpreadRecord]:
+    """Parts of the interval of an end member, in proportion to its rope's force."""
+    used, largest = result.utilisation, extreme.widened.high
+    if used is None or used.value == 0.0:
+        return []
+    numerical = max(used.value, used.high * extreme.force.high / largest)
+    return [
+        SpreadRecord(
+            source=say("spread.numerical_error"),
+            low=used.low,
+            high=numerical,
+            in_verdict=True,
+        ),
+        SpreadRecord(
+            source=say("spread.between_cases"),
+            low=used.value,
+            high=used.value + used.high - numerical,
+            in_verdict=True,
+        ),
+    ]
+
+
 def _use_at_cases(one: MemberCheck, extreme: Extreme) -> float:
     """Utilisation by the coupled force without what may hide between the cases [-]."""
     use, demand = one.use, one.demand
     if demand is None or use is None:
         return 0.0
-    return use * demand.load.apply(extreme.force).high
+    along = demand.along.high / demand.on_support if one.is_by_panel else 0.0
+    return use * (demand.load.apply(extreme.force).high + along)
 
 
 def _find_scale(one: MemberCheck) -> float | None:
@@ -65,10 +89,11 @@ def _find_scale(one: MemberCheck) -> float | None:
     use, demand = one.use, one.demand
     if demand is None or use is None:
         return None
-    solved = demand.solved.high
-    if solved == 0.0:
+    largest = demand.largest
+    if largest.high == 0.0:
         return use * demand.load.share
-    return use * demand.load.apply(demand.solved).high / solved
+    along = demand.along.high / demand.on_support if one.is_by_panel else 0.0
+    return use * (demand.load.apply(largest).high + along) / largest.high
 
 
 def _note_floor(one: MemberCheck) -> Message | None:

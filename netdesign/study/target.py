@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
-from netdesign.structure.members import Member
 from netdesign.study.probe import Probe
 
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
@@ -44,6 +43,9 @@ class Target:
         Utilisation by what is added to the largest force [-], and what that grows by
         for each such force more. Another force brings it: it is taken to stay where
         the member's falls, and to grow as the member's does.
+    beside : tuple of (str, float)
+        Another force of the same member, by the section or by the panel between posts,
+        with its ``scale``: the larger utilisation counts.
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
@@ -58,7 +60,7 @@ class Target:
 
     row: NetRow
     ranges: Ranges
-    member: Member
+    member: str
     scale: float
     governing: Case
     results: Sequence[CaseResult]
@@ -66,11 +68,17 @@ class Target:
     widen: Callable[[NetRow], float] = lambda _: 1.0
     added: float = 0.0
     rise: float = 0.0
+    beside: tuple[tuple[str, float], ...] = ()
 
     @property
     def largest(self) -> float:
         """Largest force of the member over the solved cases [N]."""
-        return max(self.force(one) for one in self.results if one.is_converged)
+        return max(self.force(one) for one in self.results if self.has_result(one))
+
+    def has_result(self, result: CaseResult) -> bool:
+        """All forces are known that the check follows."""
+        names = (self.member, *(name for name, _ in self.beside))
+        return all(name in result.member_forces for name in names)
 
     def force(self, result: CaseResult) -> float:
         """Upper end of the member's force in a case [N]."""
@@ -93,9 +101,11 @@ class Target:
 
         ``move`` is what was moved in the case.
         """
-        if not result.is_converged:
+        if not self.has_result(result):
             return None
         used = self.use(self.force(result))
+        for name, scale in self.beside:
+            used = max(used, scale * result.member_forces[name].high + self.added)
         return used * self._compare_width(move)
 
     def use_least(self, move: Move | None = None) -> float:
@@ -128,7 +138,7 @@ def list_near(target: Target) -> list[Case]:
     forces = {
         result.case: target.force(result)
         for result in target.results
-        if result.is_converged
+        if target.has_result(result)
     }
     least = _RIVAL * max(forces.values())
     near = [case for case in forces if forces[case] >= least]

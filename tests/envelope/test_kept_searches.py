@@ -20,7 +20,7 @@ from netdesign.solving.workers import OwnProcess
 from netdesign.words.message import say
 from tests.search.synthetic import assert_same
 from tests.solving.made_up_workers import Spoiling
-from tests.solving.small_scene import COARSE, LAYOUT, build_scene
+from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
 
 RANGES = Ranges(
     intervals=(
@@ -52,6 +52,8 @@ OPEN = replace(TASK, search=SearchSettings(gap=1e-3, certainty=10.0, max_cases=1
         replace(TASK, search=replace(TASK.search, certainty=2.0)),
         replace(TASK, confirmed_by=COARSE),
         replace(TASK, build=replace(COARSE)),
+        replace(TASK, panel=PANEL),
+        replace(TASK, panel=replace(PANEL, cut="fitted")),
     ],
 )
 def test_everything_that_is_given_is_in_the_name(other):
@@ -60,7 +62,8 @@ def test_everything_that_is_given_is_in_the_name(other):
 
 def test_every_field_of_a_task_was_changed_above():
     assert {field.name for field in fields(RowTask)} == {
-        *("scene", "ranges", "layout", "settings", "search", "confirmed_by", "build")
+        *("scene", "ranges", "layout", "settings", "search", "confirmed_by", "build"),
+        "panel",
     }
 
 

@@ -16,7 +16,7 @@ from netdesign.guideline.comparison import (
     place_head,
     solve_load_case,
 )
-from netdesign.guideline.floor import SCAN_STEP, NetRanges, find_floor
+from netdesign.guideline.floor import SCAN_STEP, SPANS, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
 from netdesign.snow.ground import GroundLaw
 from netdesign.structure.anchors import compute_many_forces
@@ -204,6 +204,36 @@ def test_foot_of_a_short_snowpack_by_hand():
     assert max(expected) == expected[1] > 1.05 * expected[0]
 
 
+@pytest.mark.parametrize(("degrees", "count"), [(11.81, 49), (0.1, 3), (0.0, 1)])
+def test_grid_has_the_distances_that_theory_tells(degrees, count):
+    """A quarter of a degree at most, eight parts of the others, snow to the head."""
+    tried, glides = [], [1.3, 2.7]
+
+    def find_glide_factors(d):
+        tried.append(d)
+        return 0.0 * d + glides[0], 0.0 * d + glides[1]
+
+    ends = (0.43, 0.43 + math.radians(degrees))
+    net = a_net()
+    for top, thicknesses, most in ((1.0, 9, 2.7), (1.3, 10, 2.7), (1.3, 10, 1.3)):
+        tried.clear()
+        glides[1] = most
+        wide = (0.5 * net.snow_thickness, top * net.net_height)
+        find(
+            build_ranges(
+                net,
+                inclinations=ends,
+                thicknesses=wide,
+                find_glide_factors=find_glide_factors,
+            )
+        )
+        _, grid, *_ = tried
+        assert grid.size == count * thicknesses * (9 if most > 1.3 else 1)
+        assert {grid.min(), grid.max()} == set(wide)
+        assert np.unique(grid).size == thicknesses
+        assert net.net_height in grid
+
+
 def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
     """Sixteen times as many inclinations find no force that is larger by 1e-5.
 
@@ -374,3 +404,41 @@ def test_force_is_in_proportion_to_the_post_spacing():
         assert twice.force == pytest.approx(2.0 * narrow.force, rel=1e-12)
     assert two.head.pull == pytest.approx(2.0 * one.head.pull, rel=1e-12)
     assert two.head.foot_least == pytest.approx(one.head.foot_least, rel=1e-12)
+
+
+def test_states_of_the_spans_bring_what_the_head_says():
+    """By the scalar closed forms; where a guy may be slack, the least state is told."""
+    draw = random.Random(29)
+    drawn = [build_ranges(), *(draw_ranges(draw) for _ in range(9))]
+    seen = set()
+    for ranges in drawn:
+        floor = find(ranges)
+        if floor.reason is not None:
+            continue
+        head, keys = floor.head, [one.member for one in floor.spans]
+        assert keys == list(SPANS)
+        found = []
+        for one in floor.spans:
+            glide = one.at.glide_factor
+            anchors = solve_load_case(MODEL, one.at.net, one.case, glide).anchors
+            guys = anchors.head
+            foot = anchors.foot_anchor
+            found.append(
+                {
+                    "pull": math.hypot(*anchors.head_pull),
+                    "tension": guys.uphill_guy_tension + guys.downhill_guy_tension,
+                    "turn": math.atan2(foot.y, foot.x),
+                }
+            )
+        assert found[0]["pull"] == pytest.approx(head.pull, rel=1e-12)
+        assert found[2]["turn"] == pytest.approx(head.foot_least, abs=1e-12)
+        assert found[3]["turn"] == pytest.approx(head.foot_largest, abs=1e-12)
+        is_held = head.least_tension > 0.0
+        seen.add(is_held)
+        if is_held:
+            least = head.least_tension
+            assert found[1]["tension"] == pytest.approx(least, rel=1e-12)
+        sizes = (found[0]["pull"], -found[1]["tension"], -found[2]["turn"])
+        told = [one.force for one in floor.spans]
+        assert told == pytest.approx([*sizes, found[3]["turn"]], rel=1e-12)
+    assert seen == {True, False}

@@ -13,10 +13,10 @@ from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.stations import build_stations
 from netdesign.panel.strips import (
-    build_strip,
     cut_lengths,
-    draw_strip,
+    draw_strips,
     pull_strips,
+    take_strip,
 )
 from netdesign.snow.snowpack import Layer, Snowpack
 
@@ -54,11 +54,11 @@ def test_strip_hangs_as_the_section_does(a_scene, kind):
         if kind == "layered"
         else solve_steady(scene, QUICK, on_failure="raise")
     )
-    strip = build_strip(solution)
+    strip = take_strip(solution)
     length = scene.net.unstressed_length
     still = np.zeros((2, 2, 1))
     pulls = pull_strips(strip, np.array([length]), still, np.ones((2, 1)))
-    curve = draw_strip(strip, length, still[..., 0], np.ones(2))
+    (curve,) = draw_strips(strip, np.array([length]), still, pulls[0])
     scale = solution.foot.size
     foot = [solution.foot.x, solution.foot.y]
     head = [solution.head.x, solution.head.y]
@@ -70,16 +70,17 @@ def test_strip_hangs_as_the_section_does(a_scene, kind):
 
 
 def test_pulls_keep_their_sum_between_moved_ropes(solved):
-    strip = build_strip(solved(inclination_deg=30.0))
+    strip = take_strip(solved(inclination_deg=30.0))
     moved = np.random.default_rng(7).uniform(-0.21, 0.17, (2, 2, 3))
     lengths = strip.chord * np.array([0.93, 1.02, 1.11])
     start = np.repeat(strip.foot_pull[:, None], 3, axis=1)
     pulls = pull_strips(strip, lengths, moved, start)
-    for number, length in enumerate(lengths):
+    for number in range(lengths.size):
         both = pulls[..., number].sum(axis=0)
         np.testing.assert_allclose(both, strip.load, rtol=1e-12)
         ends = moved[..., number]
-        curve = draw_strip(strip, length, ends, strip.foot_pull)
+        one = slice(number, number + 1)
+        (curve,) = draw_strips(strip, lengths[one], moved[..., one], pulls[0][:, one])
         np.testing.assert_allclose(curve[:, 0], ends[0], atol=1e-14)
         np.testing.assert_allclose(curve[:, -1], strip.head + ends[1], atol=1e-10)
         turned = curve[0] * strip.forces[1] - curve[1] * strip.forces[0]
@@ -94,13 +95,13 @@ def test_pulls_keep_their_sum_between_moved_ropes(solved):
 def test_only_a_net_at_rest_has_strips(solved):
     history = replace(solved(inclination_deg=30.0), method="transient")
     with pytest.raises(ModelError, match="steady state of a net, not on method trans"):
-        build_strip(history)
+        take_strip(history)
 
 
 @pytest.mark.parametrize("mid", [False, True])
 @pytest.mark.parametrize("cut", ["uniform", "upper", "fitted"])
 def test_cut_follows_the_ropes(solved, cut, mid):
-    strip = build_strip(solved(inclination_deg=30.0, slack=0.04, ground="no-slip"))
+    strip = take_strip(solved(inclination_deg=30.0, slack=0.04, ground="no-slip"))
     panel = Panel(
         post_spacing=3.7,
         lower=Rope(stiffness=2e7, sag=0.043),
@@ -119,7 +120,7 @@ def test_cut_follows_the_ropes(solved, cut, mid):
 
 
 def test_cut_that_leaves_no_net_is_named(solved):
-    strip = build_strip(solved(inclination_deg=30.0))
+    strip = take_strip(solved(inclination_deg=30.0))
     spacing = 0.91 * strip.chord / 0.4
     slack = Rope(stiffness=2e7, sag=0.2)
     panel = Panel(post_spacing=spacing, lower=slack, upper=slack, cut="fitted")
@@ -133,9 +134,7 @@ def test_cut_that_leaves_no_net_is_named(solved):
 
 def test_strip_that_nothing_holds_is_named(solved):
     """A length at which no number comes out."""
-    strip = build_strip(solved(inclination_deg=30.0))
+    strip = take_strip(solved(inclination_deg=30.0))
     still = np.zeros((2, 2, 1))
     with pytest.raises(SolveError, match="Nothing holds a strip"):
         pull_strips(strip, np.array([math.nan]), still, np.ones((2, 1)))
-    with pytest.raises(SolveError, match="Nothing holds a strip"):
-        draw_strip(strip, math.nan, still[..., 0], np.ones(2))

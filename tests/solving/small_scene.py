@@ -6,6 +6,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, run_cases
+from netdesign.panel.inputs import Panel, Rope
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure.layout import SupportLayout
@@ -13,6 +14,12 @@ from netdesign.structure.layout import SupportLayout
 COARSE = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
 LAYOUT = SupportLayout(
     post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
+)
+PANEL = Panel(
+    post_spacing=3.5,
+    lower=Rope(stiffness=17.3e6, sag=0.043),
+    upper=Rope(stiffness=19.1e6, sag=0.057),
+    cut="upper",
 )
 
 

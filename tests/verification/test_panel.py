@@ -23,7 +23,7 @@ from netdesign.panel.row_forces import compute_end_forces, compute_interior_forc
 from netdesign.panel.solution import PanelSolution
 from netdesign.panel.solve import STATIONS, solve_panel
 from netdesign.panel.stations import ROPE_POINTS, build_stations
-from netdesign.panel.strips import build_strip
+from netdesign.panel.strips import take_strip
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure import SupportLayout, place_support
@@ -223,7 +223,7 @@ def sum_on_half_panel(number, solved):
 
     Loads at the curves, and what supports and the other half of the ropes do to it.
     """
-    forces = build_strip(solve_section(number)).forces
+    forces = take_strip(solve_section(number)).forces
     half = spacing(number) / 2.0
     count = solved.stations.size - 1
     curves = solved.curves[:count]
@@ -351,7 +351,7 @@ ROPES = {"usual": ROPE, "stiff": Rope(stiffness=1e9, sag=0.0)}
 def test_net_in_space_with_ropes_along_its_height_only(number, cut, rope):
     """Bars that may lean along the row, another discretisation, another solver."""
     solved = solve(number, cut, ROPES[rope])
-    net = solve_net_in_space(build_strip(solve_section(number)), solved.panel)
+    net = solve_net_in_space(take_strip(solve_section(number)), solved.panel)
     assert np.hypot(*(net.foot - solved.foot)) < 0.02 * math.hypot(*solved.foot)
     assert np.hypot(*(net.head - solved.head)) < 0.02 * math.hypot(*solved.head)
     assert net.lower_along == pytest.approx(solved.lower.along, rel=0.02)

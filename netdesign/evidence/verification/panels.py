@@ -17,7 +17,7 @@ from netdesign.evidence.verification.net_in_space import solve_net_in_space
 from netdesign.panel.inputs import Cut, Panel, Rope
 from netdesign.panel.solution import FailedPanel, PanelSolution
 from netdesign.panel.solve import solve_panel
-from netdesign.panel.strips import build_strip
+from netdesign.panel.strips import take_strip
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 
@@ -56,7 +56,7 @@ def list_panels() -> list[VerificationCase]:
 
 def _list_in_space(section: Solution) -> list[VerificationCase]:
     panel = _solve(section, "upper")
-    net = solve_net_in_space(build_strip(section), panel.panel)
+    net = solve_net_in_space(take_strip(section), panel.panel)
     pairs = {
         "foot": (np.hypot(*net.foot), math.hypot(*panel.foot)),
         "head": (np.hypot(*net.head), math.hypot(*panel.head)),

@@ -18,6 +18,7 @@ from netdesign.report.drawing.monitoring_figure import (
     describe_monitoring,
     draw_monitoring,
 )
+from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.page.render import build_environment, load_style
 from netdesign.report.view.gate import require_sections
@@ -111,6 +112,8 @@ def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
     """Ids of all sections that a page of ``view`` must have."""
     wanted = _ROW_SECTIONS if detail == "full" else _SUMMARY_SECTIONS
     of_rows = [f"{row.anchor}-{name}" for row in view.rows for name in wanted]
+    if detail == "full":
+        of_rows += [f"{row.anchor}-panel" for row in view.rows if row.panel]
     return [*_PAGE_SECTIONS, *of_rows]
 
 
@@ -129,6 +132,7 @@ def _draw_row(
         "lines": "".join(draw_lines(one, words) for one in members),
         "drivers": "".join(draw_drivers(one, words) for one in members),
         "head": draw_head(row.head, words) if is_full and len(row.head) > 1 else "",
+        "panel": draw_panel(row.panel, words) if row.panel and is_full else "",
         "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r", words)
         if is_full
         else "",

@@ -498,8 +498,8 @@ FORMULAS = (
     ("net", "f = v_1 R + T e, h = v_2 R − T e, e = (sin θ; cos θ)"),
     (
         "direction",
-        "α = atan2(F_y; ±F_x), δ = max(|α_min − α_0|; |α_max − α_0|), "
-        "cos δ' = cos δ / √(1 + k²)",
+        "α_s = atan2(F_y; ±F_x), α = asin(cos β sin α_s), "
+        "δ = max(|α_min − α_0|; |α_max − α_0|), cos δ' = cos δ / √(1 + k²)",
     ),
     (
         "bar",

@@ -28,6 +28,7 @@ from netdesign.report.words import (
     show_text,
     show_with_unit,
 )
+from netdesign.structure.members import ROPE_OF
 from netdesign.study.flips import CLOSE
 from netdesign.study.records import (
     ActionRecord,
@@ -326,13 +327,19 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
     if action is None:
         return ()
     steps = []
+    is_of_rope = check.member in ROPE_OF
     if action.position == "edge":
+        bay, half = ("b", "") if is_of_rope else ("b / 2", " / 2")
+        length = "Δl"
+        reach = action.end_length_m
+        if is_of_rope and reach > action.post_spacing_m / 2.0:
+            length, reach = "b", action.post_spacing_m
         steps.append(
             (
-                "b_e = b / 2 + f_R · Δl",
-                f"{show_with_unit('post_spacing_m', action.post_spacing_m)} / 2 + "
+                f"b_e = {bay} + f_R · {length}",
+                f"{show_with_unit('post_spacing_m', action.post_spacing_m)}{half} + "
                 f"{show_with_unit('end_factor', action.end_factor)} · "
-                f"{show_with_unit('end_length_m', action.end_length_m)}",
+                f"{show_with_unit('end_length_m', reach)}",
                 show_with_unit("loaded_width_m", action.loaded_width_m),
             )
         )
@@ -341,7 +348,7 @@ def describe_widths(check: CheckRecord) -> tuple[tuple[str, str, str], ...]:
         tilt = show_with_unit("share", action.share)
         steps.append(("g", "|F_x / F_y|", tilt))
     solved = show_with_unit("solved_kN", action.solved_kN)
-    if action.floor_kN is None:
+    if action.floor_kN is None and action.panel_kN is None:
         force = show_with_unit("action_kN", check.action_kN)
         symbols, numbers = _load_member("E_s", solved, action)
         line = (f"E_k = {symbols} · b_e / b · k_q", _widen(numbers, action), force)
@@ -401,20 +408,33 @@ def _load_member(symbol: str, force: str, action: ActionRecord) -> tuple[str, st
 def _describe_floor(
     check: CheckRecord, action: ActionRecord, solved: str
 ) -> list[tuple[str, str, str]]:
-    """The coupled force and the guideline's, of which the larger one counts."""
+    """Forces by section, panel and guideline, of which the largest one counts."""
     on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
     on_member = action.share * action.solved_kN + action.added_kN
     coupled = show_with_unit("coupled_kN", on_member * on_row)
-    floor = show_with_unit("floor_kN", action.floor_kN)
-    least = show_with_unit("guideline_kN", action.guideline_kN)
+    found = [("E_c", "E_s", solved, coupled)]
+    if action.panel_kN is not None:
+        on_panel = (action.share * action.panel_kN + action.added_kN) * on_row
+        on_panel += action.along_kN
+        inside = show_with_unit("panel_kN", action.panel_kN)
+        shown = show_with_unit("panel_support_kN", on_panel)
+        found.append(("E_p", "E_p0", inside, shown))
+    if action.floor_kN is not None:
+        floor = show_with_unit("floor_kN", action.floor_kN)
+        least = show_with_unit("guideline_kN", action.guideline_kN)
+        found.append(("E_g", "E_g0", floor, least))
+    steps = []
+    for symbol, inside_symbol, inside, shown in found:
+        symbols, numbers = _load_member(inside_symbol, inside, action)
+        symbols, numbers = f"{symbols} · b_e / b · k_q", _widen(numbers, action)
+        if symbol == "E_p" and action.along_kN:
+            symbols += " + H · tan γ"
+            numbers += f" + {show_with_unit('along_kN', action.along_kN)}"
+        steps.append((f"{symbol} = {symbols}", numbers, shown))
+    largest = "; ".join(symbol for symbol, *_ in found)
+    numbers = "; ".join(shown for *_, shown in found)
     force = show_with_unit("action_kN", check.action_kN)
-    by_solve, solved_numbers = _load_member("E_s", solved, action)
-    by_floor, floor_numbers = _load_member("E_g0", floor, action)
-    return [
-        (f"E_c = {by_solve} · b_e / b · k_q", _widen(solved_numbers, action), coupled),
-        (f"E_g = {by_floor} · b_e / b · k_q", _widen(floor_numbers, action), least),
-        ("E_k = max(E_c; E_g)", f"max({coupled}; {least})", force),
-    ]
+    return [*steps, (f"E_k = max({largest})", f"max({numbers})", force)]
 
 
 def _widen(force: str, action: ActionRecord) -> str:
@@ -468,31 +488,50 @@ def build_floor(row: RowStudy, words: Words) -> Table:
 
 
 def describe_load(check: CheckRecord, words: Words) -> str:
-    """Governing load of a demand, with both values; "" without a floor."""
+    """Governing load of a demand, with all values; "" where there is one alone."""
     action = _find_loaded(check)
     if action is None:
         return ""
-    return words(
-        f"show.load_{action.governs}",
-        coupled=show_with_unit("coupled_kN", action.coupled_kN),
-        guideline=show_with_unit("guideline_kN", action.guideline_kN),
-        case=show_text(words.show(name("load_case", action.floor_case))),
-    )
+    told = [] if action.panel_kN is None else [_describe_panel(action, words)]
+    if action.guideline_kN is not None:
+        first = "guideline" if action.governs == "guideline" else "coupled"
+        pair = words(
+            f"show.load_{first}",
+            coupled=show_with_unit("coupled_kN", action.coupled_kN),
+            guideline=show_with_unit("guideline_kN", action.guideline_kN),
+            case=show_text(words.show(name("load_case", action.floor_case))),
+        )
+        told.insert(0 if action.governs != "panel" else 1, pair)
+    return "; ".join(told)
+
+
+def _describe_panel(action: ActionRecord, words: Words) -> str:
+    panel = show_with_unit("panel_support_kN", action.panel_support_kN)
+    coupled = show_with_unit("coupled_kN", action.coupled_kN)
+    return words("show.load_panel", panel=panel, coupled=coupled)
 
 
 def show_loads(check: CheckRecord) -> str:
-    """Both values by their symbols, characteristic; "" without a floor."""
+    """All values by their symbols, characteristic; "" where there is one alone."""
     action = _find_loaded(check)
     if action is None:
         return ""
-    coupled = show_number("coupled_kN", action.coupled_kN)
+    numbers = [f"E_c ≤ {show_number('coupled_kN', action.coupled_kN)}"]
+    if action.panel_support_kN is not None:
+        panel = show_number("panel_support_kN", action.panel_support_kN)
+        numbers.append(f"E_p ≤ {panel}")
+    if action.guideline_kN is None:
+        return ", ".join(numbers) + " kN"
     guideline = show_with_unit("guideline_kN", action.guideline_kN)
-    return f"E_c ≤ {coupled}, E_g = {guideline}"
+    return ", ".join([*numbers, f"E_g = {guideline}"])
 
 
 def _find_loaded(check: CheckRecord) -> ActionRecord | None:
-    """Action under a floor; None without one, and of a member slack under both."""
+    """Action under several loads; None of one alone, and of a slack member."""
     action = check.action
-    if action is None or action.guideline_kN is None:
+    if action is None:
         return None
-    return action if action.coupled_kN or action.guideline_kN else None
+    beside = (action.guideline_kN, action.panel_support_kN)
+    if beside == (None, None):
+        return None
+    return action if action.coupled_kN or any(beside) else None

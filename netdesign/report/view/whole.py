@@ -18,6 +18,7 @@ from netdesign.report.view import (
     envelope_tables,
     figure_tables,
     hold_tables,
+    panel_tables,
     row_tables,
     tables,
 )
@@ -100,6 +101,7 @@ class RowView:
     guideline_sentence: str
     floor: Table
     figures: Figures
+    panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
 
 
@@ -241,6 +243,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
         figures=_view_figures(row, words),
+        panel=panel_tables.view_panel(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 

@@ -159,6 +159,8 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         if name == "directions":
             turns = [(row.id, row.figures.turns) for row in view.rows]
             shown.append(_stack(book, book.words("caption.turns"), turns))
+        if name == "support":
+            shown += _list_panels(book, view)
         sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:
@@ -183,6 +185,16 @@ def _add_figures(book: Book, view: ReportView) -> None:
         paper = A3 if name in _WIDE else A4
         title = book.words(f"heading.{name}")
         book.add_table_sheet(name, title, shown, paper=paper)
+
+
+def _list_panels(book: Book, view: ReportView) -> list[Table]:
+    """Forces and ropes of the rows that have a panel between their posts."""
+    panels = [(row.id, row.panel) for row in view.rows if row.panel]
+    if not panels:
+        return []
+    forces = [(name, panel.forces) for name, panel in panels]
+    ropes = [(name, panel.ropes) for name, panel in panels]
+    return [_stack(book, parts[0][1].caption, parts) for parts in (forces, ropes)]
 
 
 def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:

@@ -17,6 +17,7 @@ from netdesign.site.columns.dimension_columns import (
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
+from netdesign.site.columns.panel_columns import PANEL, ROPE_STIFFNESS, ROW_ENDS
 from netdesign.site.columns.support_columns import (
     ANCHOR_BENDING,
     GUYS_AND_AXES,
@@ -212,6 +213,7 @@ NETS = word_plan(
             _reference("post", "Posts"),
             *ROW_POSITION,
             *GUYS_AND_AXES,
+            *PANEL,
         ),
     )
 )
@@ -238,6 +240,7 @@ ENDS = word_plan(
                     ("post", "Posts"),
                 )
             ),
+            *ROW_ENDS,
         ),
     )
 )
@@ -333,6 +336,7 @@ ROPES = word_plan(
             _TYPE_ID,
             _resistance("rope", "breaking force"),
             *ROPE_DIMENSIONS,
+            *ROPE_STIFFNESS,
         ),
     )
 )

@@ -14,11 +14,13 @@ from netdesign.checks.schema import (
     ROPE_ANGLE,
 )
 from netdesign.outcome import Verdict
-from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.site.model import DEPENDENT_MODES, END_MODES, MEMBER_MODES
 from netdesign.structure.members import (
     BROUGHT_BY,
     CARRYING_MEMBERS,
+    ROPE_OF,
     Member,
+    name_in_panel,
 )
 from netdesign.structure.row_position import compute_lateral_factor
 from netdesign.study.audit.comparing import (
@@ -28,6 +30,7 @@ from netdesign.study.audit.comparing import (
     tell_unequal,
     tell_verdict,
 )
+from netdesign.study.audit.end_audit import audit_end
 from netdesign.study.audit.envelope_audit import (
     is_complete,
     name_members,
@@ -75,6 +78,8 @@ def audit_checks(
     wanted = [f"{member}.{mode}" for member, mode in modes]
     if _has_end(row, profile):
         wanted += [f"{name}.end" for name in wanted]
+    if row.panel is not None and not _goes_on(row):
+        wanted += [f"{member}.{mode}.end" for member, mode in END_MODES]
     wanted.append(f"{Member.POST}.lateral")
     lost = [name for name in (*wanted, "geometry.inclination") if name not in counts]
     if lost:
@@ -93,7 +98,10 @@ def audit_checks(
             yield from _audit_direction(where, check, row, factors)
         elif check.member != Member.NET:
             yield from _audit_factors(where, check, factors, clauses)
-            yield from _audit_action(where, check, row, factors)
+            if check.member in ROPE_OF:
+                yield from audit_end(where, check, row)
+            else:
+                yield from _audit_action(where, check, row, factors)
             yield from _audit_verdict(where, check, row)
             if not accepts_law:
                 yield from _audit_snow(where, check, row)
@@ -102,9 +110,14 @@ def audit_checks(
 
 def _has_end(row: RowStudy, profile: ProfileRecord) -> bool:
     """Presence of a last support that a rule of the profile loads."""
+    is_ruled = any(one.id == "end.constant" for one in profile.values)
+    return is_ruled and not _goes_on(row)
+
+
+def _goes_on(row: RowStudy) -> bool:
+    """Absence of an end: the next work goes on without a gap."""
     gap = say("column.Nets.gap")
-    goes_on = any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
-    return not goes_on and any(one.id == "end.constant" for one in profile.values)
+    return any(echo.label == gap and echo.value == 0.0 for echo in row.inputs)
 
 
 def _audit_floor(
@@ -163,6 +176,8 @@ def _audit_action(
         on_support = (record.share * least.force_kN + record.added_kN) * on_row
     factor, floor = check.action_factor or 0.0, on_support or 0.0
     solved = (record.share * record.solved_kN + record.added_kN) * on_row
+    beside = _find_panel(check, row)
+    by_panel = _find_by_panel(record, on_row)
     pairs: list[Pair] = [
         ("lateral_factor", record.lateral_factor, lateral),
         ("floor_kN", record.floor_kN, least.force_kN if least else None),
@@ -172,28 +187,72 @@ def _audit_action(
             record.floor_inclination_deg,
             least.inclination_deg if least else None,
         ),
-        ("action_kN", check.action_kN, max(solved, floor)),
+        ("action_kN", check.action_kN, max(solved, by_panel, floor)),
     ]
     if check.action_factor is not None:
-        high = max(record.coupled_kN, floor) * factor
+        high = max(record.coupled_kN, record.panel_support_kN or 0.0, floor) * factor
         pairs.append(("demand_high_kN", check.demand_high_kN, high))
         low = record.share * (record.solved_low_kN or 0.0) + record.added_low_kN
-        low = max(low * on_row, floor) * factor
+        by_panel_low = _find_low_by_panel(record, beside, on_row)
+        low = max(low * on_row, floor, by_panel_low) * factor
         pairs.append(("demand_low_kN", check.demand_low_kN, low))
     if not is_part:
         pairs.append(("solved_kN", record.solved_kN, extreme.max_kN))
         pairs.append(("solved_low_kN", record.solved_low_kN, extreme.low_kN))
-        yield from _audit_high_end(place, record, extreme, on_row)
-        if not same_point(check.case, extreme.case):
+        high_end = record.coupled_kN
+        yield from _audit_high_end(place, record, extreme, on_row, high_end)
+        larger = beside if beside is not None and record.is_by_panel else extreme
+        if not same_point(check.case, larger.case):
             yield say("audit.other_case", place=place)
     elif record.solved_kN > extreme.max_kN * (1.0 + SAME):
         yield say("audit.more_on_base", place=place)
     elif record.coupled_kN < solved * (1.0 - SAME):
         told = show_value(record.coupled_kN)
         yield say("audit.too_low_end", place=place, high=told, least=solved)
+    yield from _audit_panel(place, record, beside, on_row)
     yield from tell_unequal(place, pairs)
     yield from _audit_governing(place, check, record, least)
     yield from _audit_width(place, check, record)
+
+
+def _find_panel(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
+    """Largest force of the check's member by the panel between posts."""
+    name = name_in_panel(check.member)
+    found = row.panel.extremes if row.panel else []
+    return next((one for one in found if one.quantity == name), None)
+
+
+def _find_by_panel(record: ActionRecord, on_row: float) -> float:
+    """Force on the support by the panel between posts; 0 without one [kN]."""
+    if record.panel_kN is None:
+        return 0.0
+    inside = record.share * record.panel_kN + record.added_kN
+    return inside * on_row + record.along_kN
+
+
+def _find_low_by_panel(
+    record: ActionRecord, beside: ExtremeRecord | None, on_row: float
+) -> float:
+    if beside is None:
+        return 0.0
+    inside = record.share * beside.low_kN + record.added_low_kN
+    return inside * on_row + record.along_low_kN
+
+
+def _audit_panel(
+    place: Message, record: ActionRecord, beside: ExtremeRecord | None, on_row: float
+) -> Iterator[Message]:
+    """The force by the panel between posts against the largest of the cases."""
+    yield from tell_unequal(
+        place,
+        [
+            ("panel_kN", record.panel_kN, beside.max_kN if beside else None),
+            ("panel_low_kN", record.panel_low_kN, beside.low_kN if beside else None),
+        ],
+    )
+    if beside is not None:
+        high = (record.panel_support_kN or 0.0) - record.along_high_kN
+        yield from _audit_high_end(place, record, beside, on_row, high)
 
 
 def _find_floor(check: CheckRecord, row: RowStudy) -> FloorForceRecord | None:
@@ -208,8 +267,7 @@ def _audit_governing(
     least: FloorForceRecord | None,
 ) -> Iterator[Message]:
     """Governing load: the larger one, which the reason names."""
-    floor = record.guideline_kN or 0.0
-    governs = "guideline" if floor and floor >= record.coupled_kN else "coupled"
+    governs = record.governing
     case = least.load_case if least else ""
     reason = tell_governing(leave_out_governing(check.reason), record)
     if (record.governs, record.floor_case) != (governs, case) or reason != check.reason:
@@ -233,10 +291,13 @@ def _audit_width(
 
 
 def _audit_high_end(
-    place: Message, record: ActionRecord, extreme: ExtremeRecord, on_row: float
+    place: Message,
+    record: ActionRecord,
+    extreme: ExtremeRecord,
+    on_row: float,
+    high: float,
 ) -> Iterator[Message]:
     """The high end: of a search exactly, of a grid with what is estimated between."""
-    high = record.coupled_kN
     least = (record.share * extreme.high_kN + record.added_high_kN) * on_row
     if extreme.upper_bound_kN is not None:
         yield from tell_unequal(place, [("coupled_kN", high, least)])
@@ -259,7 +320,8 @@ def list_bringing(check: CheckRecord, row: RowStudy) -> list[ExtremeRecord]:
     The net's pull on the head brings what is added, as it does the post's force.
     """
     own = _find_extreme(check, row)
-    found = [own] if own else []
+    by_panel = _find_panel(check, row)
+    found = [one for one in (own, by_panel) if one is not None]
     if check.action is not None and check.action.added_high_kN > 0.0:
         found += [one for one in row.extremes if one.quantity == Member.POST]
     return found

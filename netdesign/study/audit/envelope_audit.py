@@ -217,6 +217,8 @@ def is_complete(row: RowStudy) -> bool:
         return False
     if not row.cases or len(list_solved(row)) < len(row.cases):
         return False
+    if row.panel is not None and row.panel.failed:
+        return False
     if record is None:
         return True
     again = [bound.confirmation for bound in record.bounds]

@@ -13,7 +13,7 @@ from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
-from netdesign.structure.members import Member
+from netdesign.structure.members import ROPE_OF, EndMember, Member
 from netdesign.structure.row_position import LoadedWidth, Position
 from netdesign.study.audit.check_audit import is_held_back, list_bringing
 from netdesign.study.audit.comparing import (
@@ -24,10 +24,12 @@ from netdesign.study.audit.comparing import (
     tell_value,
 )
 from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.audit.panel_audit import audit_panel_inputs
 from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
@@ -132,6 +134,7 @@ def _audit_row(
     inputs = {"inputs": row.inputs}, {"inputs": list(given.inputs)}
     for found in compare_values(*inputs)[:_MOST]:
         yield say("audit.row_otherwise", place=place, value=found.message)
+    yield from audit_panel_inputs(row, given)
     if site.ranges.is_grid:
         points = [record_point(case) for case in build_cases(site.ranges)]
         if [case.case for case in row.cases] != points:
@@ -180,6 +183,7 @@ def _audit_judgement(
         members.append(_judge_again(row, check, width, settled, basis))
     expected = [
         *members,
+        *_expect_end(row, effects, basis),
         *_expect_directions(row, pulls, basis),
         *record_geometry(basis.site, given, standard),
     ]
@@ -192,6 +196,7 @@ def _audit_judgement(
         yield say("audit.judged_otherwise", place=place, value=found.message)
     notes = [
         *list_row_notes(given, effects, pulls),
+        *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, standard),
         *list_case_notes(row.cases),
     ]
@@ -203,13 +208,39 @@ def _audit_judgement(
     for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
-        if check.action is not None:
+        if check.member in ROPE_OF:
+            yield from _audit_end_share(check, given, place)
+        elif check.action is not None:
             yield from _audit_share(check, given, effects.lateral_share, place)
             action = _act_again(check, check.action, effects, floor)
             for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
+
+
+def _expect_end(row: RowStudy, effects: RowEffects, basis: _Basis) -> list[CheckRecord]:
+    """Checks of the row's end, from the actions that are stored."""
+    stored = {check.id: check for check in row.checks}
+    end = basis.row.row_end
+    width = effects.find_support("edge")
+    return [
+        _judge_again(row, stored[name], width, given, basis, position="edge")
+        for given in (end.resistances if end else ())
+        if (name := f"{given.member}.{given.mode}.end") in stored
+    ]
+
+
+def _audit_end_share(
+    check: CheckRecord, given: NetRow, row: Message
+) -> Iterator[Message]:
+    """Share of a rope's pull in an end guy, by its angle to the row."""
+    angle = given.row_end.guy_angle if given.row_end else None
+    if check.action is None or check.member == EndMember.LATERAL_ANCHOR:
+        return
+    place = say("audit.check", place=row, check=check.id)
+    expected = 1.0 / math.cos(angle or 0.0)
+    yield from tell_unequal(place, [("share", check.action.share, expected)])
 
 
 def _find_pressing(check: CheckRecord) -> float:
@@ -329,6 +360,8 @@ def _judge_again(
     width: LoadedWidth,
     given: Resistance,
     basis: _Basis,
+    *,
+    position: Position | None = None,
 ) -> CheckRecord:
     factor = check.action_factor
     ends = (check.demand_low_kN, check.demand_high_kN)
@@ -345,8 +378,9 @@ def _judge_again(
     gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
-    settled = settle_check(basis.site, basis.row, result, width.position)
-    again = place_check(record_result(settled, given), width.position)
+    place = position or width.position
+    settled = settle_check(basis.site, basis.row, result, place)
+    again = place_check(record_result(settled, given), place)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)
     if check.action is None:
@@ -367,12 +401,37 @@ def _act_again(
     low = newton_from_kilonewton(stored.solved_low_kN or 0.0)
     solved = Band(low=min(max(low, 0.0), value), value=value, high=max(value, high))
     least = floor.find(check.member) if floor else None
-    demand = build_demand(effects, check.member, width, solved, least, load)
+    panel = _read_panel(stored, effects.factor(check.member, width), load)
+    along = _read_along(stored)
+    demand = build_demand(
+        effects, check.member, width, solved, least, load, panel, along
+    )
     return replace(
         demand.record(effects, check.member),
         foot_part_kN=stored.foot_part_kN,
         guy_part_kN=stored.guy_part_kN,
     )
+
+
+def _read_panel(stored: ActionRecord, factor: float, load: MemberLoad) -> Band | None:
+    """Force by the panel between posts, inside the row [N]."""
+    if stored.panel_kN is None:
+        return None
+    value = newton_from_kilonewton(stored.panel_kN)
+    high = newton_from_kilonewton(stored.panel_support_kN or 0.0)
+    high = (high - _read_along(stored).high) / factor
+    high = (high - load.added.high) / load.share if load.share else value
+    low = newton_from_kilonewton(stored.panel_low_kN or 0.0)
+    return Band(low=min(low, value), value=value, high=max(value, high))
+
+
+def _read_along(stored: ActionRecord) -> Band:
+    """Push of the end guy on the post at the row's end [N]."""
+    low, value, high = sorted(
+        newton_from_kilonewton(max(one, 0.0))
+        for one in (stored.along_low_kN, stored.along_kN, stored.along_high_kN)
+    )
+    return Band(low=low, value=value, high=high)
 
 
 def _read_load(stored: ActionRecord) -> MemberLoad:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.layout import SupportPoints
-from netdesign.structure.members import Member
+from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.audit.comparing import Pair, tell_unequal
 from netdesign.study.records import RowStudy, StaticsRecord
 from netdesign.words.message import Message, say
@@ -58,8 +58,19 @@ def _follow(state: StaticsRecord, spacing: float) -> list[Pair]:
 
 
 def read_state(state: StaticsRecord, member: str) -> float:
-    """Force of a state in one member [kN]; one anchor of net and guy has both."""
+    """Force of a state in one member [kN]; one anchor of net and guy has both.
+
+    NaN where the state is by the section and the force by the panel, or the other way.
+    """
+    by_panel = name_in_panel("")
+    is_of_panel = member.startswith(by_panel)
+    if is_of_panel is not state.is_by_panel:
+        return math.nan
+    member = member.removeprefix(by_panel)
     is_shared = state.uphill_x_m == 0.0
+    if is_of_panel and member == Member.FOOT_ANCHOR:
+        guy = state.uphill_guy_kN if is_shared else 0.0
+        return max(state.foot_anchor_kN + guy, state.mid_foot_kN)
     if is_shared and member in (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR):
         return state.foot_anchor_kN + state.uphill_guy_kN
     forces = {
@@ -76,7 +87,12 @@ def read_state(state: StaticsRecord, member: str) -> float:
 
 def _audit_largest(place: Message, row: RowStudy) -> Iterator[Message]:
     """Each largest force stands in the state that is said to bring it."""
-    solved = {c.member: c.action.solved_kN for c in row.checks if c.action is not None}
+    solved = {}
+    for check in row.checks:
+        action = check.action
+        if action is not None and check.member not in ROPE_OF:
+            solved[check.member] = action.solved_kN
+            solved[name_in_panel(check.member)] = action.panel_kN or 0.0
     least = {
         one.member: one.force_kN for one in (row.floor.forces if row.floor else ())
     }

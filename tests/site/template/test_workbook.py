@@ -188,8 +188,21 @@ def test_what_is_written_in_each_language_is_read_clean(tmp_path, language, kind
 
 def strip(row):
     """A row without its cells: their sheets are named in another language."""
-    bare = [replace(one, source="") for one in row.resistances]
-    return replace(row, inputs=(), resistances=tuple(bare))
+    bare = bare_resistances(row.resistances)
+    row = replace(row, inputs=(), resistances=bare, end_resistances=None)
+    if row.panel is None:
+        return row
+    ropes = [replace(one, source="") for one in (row.panel.lower, row.panel.upper)]
+    held = bare_resistances(row.row_end.resistances)
+    return replace(
+        row,
+        panel=replace(row.panel, lower=ropes[0], upper=ropes[1]),
+        row_end=replace(row.row_end, resistances=held),
+    )
+
+
+def bare_resistances(resistances):
+    return tuple(replace(one, source="") for one in resistances)
 
 
 @pytest.mark.parametrize("language", ["fr", "de"])
@@ -221,7 +234,7 @@ def test_sheets_are_set_up_for_printing(example):
     assert nets.print_title_cols == "$A:$A"
     assert nets.page_setup.orientation == "landscape"
     assert "&P" in nets.oddFooter.right.text
-    assert nets.print_area == "'Nets'!$A$1:$AC$25"
+    assert nets.print_area == "'Nets'!$A$1:$AJ$25"
 
 
 def test_profiles_and_quantities_are_offered(example):

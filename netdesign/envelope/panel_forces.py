@@ -1,0 +1,153 @@
+"""Forces of a row of panels in one solved case, beside those of its section.
+
+What they are named by, how they follow, and their bands: envelope/THEORY.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.cable.net import Net
+from netdesign.checks.result import Band
+from netdesign.coupling.solution import EndPull
+from netdesign.envelope.support_bands import resolve_pulls, spread_out
+from netdesign.outcome import Outcome
+from netdesign.panel.inputs import Panel
+from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
+from netdesign.panel.solve import solve_strips
+from netdesign.panel.strips import build_strip
+from netdesign.solving.state import SolvedState
+from netdesign.structure.anchors import AnchorForces
+from netdesign.structure.head import FailedSupport
+from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.members import (
+    CARRYING_MEMBERS,
+    Member,
+    RopeForce,
+    name_in_panel,
+)
+from netdesign.words.message import say
+
+# Error of six stations over the panel's load, without and with anchors in mid-panel:
+# panel/THEORY.md, section 3.
+_STATIONS, _STATIONS_MID = 3e-4, 2e-3
+
+# In the order in which a search has them.
+PANEL_QUANTITIES = (*map(name_in_panel, CARRYING_MEMBERS), *RopeForce)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PanelForces:
+    """Forces between two equal panels, each of a bay.
+
+    Attributes
+    ----------
+    solution : PanelSolution
+        The panel.
+    anchors : AnchorForces
+        On the ground, without anchors in mid-panel [N].
+    bands : dict of str to Band
+        Forces by ``PANEL_QUANTITIES`` [N]; the foot anchor's is that of the more
+        loaded one, beside a post or in mid-panel.
+    foot, head : EndPull
+        Mean pulls of a bay on the support, with their errors [N/m].
+    """
+
+    solution: PanelSolution
+    anchors: AnchorForces
+    bands: dict[str, Band]
+    foot: EndPull
+    head: EndPull
+
+
+def resolve_panel(
+    panel: Panel, net: Net, points: SupportPoints, state: SolvedState
+) -> PanelForces | FailedPanel:
+    """Forces of a row of equal panels whose section at the post has been solved.
+
+    Parameters
+    ----------
+    panel : Panel
+        Spacing, ropes and cut.
+    net : Net
+        At the post.
+    points : SupportPoints
+        Geometry of a support [m].
+    state : SolvedState
+        Of the section.
+
+    Returns
+    -------
+    PanelForces or FailedPanel
+        Outcome ``out_of_validity`` also of a history, which has no panel.
+
+    Verified by
+    -----------
+    tests/envelope/test_panel_forces.py
+    """
+    if state.method != "steady":
+        reason = say("panel.steady_only", method=state.method)
+        return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
+    solved = solve_strips(
+        build_strip(net, state.net_curve, state.net_forces, state.foot), panel
+    )
+    if isinstance(solved, FailedPanel):
+        return solved
+    foot, head = _find_pulls(solved, state)
+    found = resolve_pulls(points, panel.post_spacing, foot, head)
+    if isinstance(found, FailedSupport):
+        return FailedPanel(outcome=found.outcome, reason=found.reason)
+    anchors, members = found
+    bands = {name_in_panel(member): band for member, band in members.items()}
+    at_foot = name_in_panel(Member.FOOT_ANCHOR)
+    mid_foot = math.hypot(*solved.mid_foot)
+    if mid_foot > bands[at_foot].value:
+        bands[at_foot] = spread_out(mid_foot, panel.post_spacing * foot.error)
+    return PanelForces(
+        solution=solved,
+        anchors=anchors,
+        bands=bands | _read_ropes(solved, foot, head),
+        foot=foot,
+        head=head,
+    )
+
+
+def _find_pulls(solved: PanelSolution, state: SolvedState) -> tuple[EndPull, EndPull]:
+    """Mean pulls of a bay on foot and head, with their errors [N/m].
+
+    A panel answers less to its load than the net at the post, whose error counts;
+    that of the stations comes on top.
+    """
+    width = solved.panel.post_spacing
+    load = np.sum([solved.foot, solved.mid_foot, solved.head], axis=0)
+    share = _STATIONS_MID if solved.panel.has_mid_anchors else _STATIONS
+    error = max(state.foot.error, state.head.error)
+    error += share * float(np.hypot(*load)) / width
+    foot, head = (_divide(one, width, error) for one in (solved.foot, solved.head))
+    return foot, head
+
+
+def _divide(force: Point, width: float, error: float) -> EndPull:
+    return EndPull(x=force[0] / width, y=force[1] / width, error=error)
+
+
+def _read_ropes(solved: PanelSolution, foot: EndPull, head: EndPull) -> dict[str, Band]:
+    """Forces of both ropes; they grow at most in proportion to what pulls on them."""
+    width = solved.panel.post_spacing
+    on_lower = np.hypot(*np.add(solved.foot, solved.mid_foot)) / width
+    shares = (foot.error / float(on_lower), head.error / head.size)
+    found: dict[str, Band] = {}
+    for names, rope, share in (
+        ((RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION), solved.lower, shares[0]),
+        ((RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION), solved.upper, shares[1]),
+    ):
+        found |= dict(zip(names, _spread_rope(rope, share), strict=True))
+    return {name: found[name] for name in RopeForce}
+
+
+def _spread_rope(rope: RopeForces, share: float) -> tuple[Band, Band]:
+    along, tension = rope.along, rope.tension
+    return spread_out(along, share * along), spread_out(tension, share * tension)

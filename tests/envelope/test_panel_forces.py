@@ -1,0 +1,210 @@
+"""Forces by the panel between posts: in one case, over a grid, in a search."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.history.transient import TransientSettings
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.envelope import run as running
+from netdesign.envelope.confirm import merge_history
+from netdesign.envelope.extremes import describe_gap, find_extremes
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.rows import RowGrid, RowTask, refine_settings
+from netdesign.envelope.run import build_task, run_cases
+from netdesign.envelope.search import run_grid, search_rows
+from netdesign.outcome import Outcome
+from netdesign.panel.solution import FailedPanel
+from netdesign.search.maxima import SearchSettings
+from netdesign.solving.runner import Runner
+from netdesign.structure.members import CARRYING_MEMBERS, RopeForce, name_in_panel
+from netdesign.words.message import say
+from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
+
+TASK = RowTask(
+    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
+    ranges=Ranges.of(
+        density=Interval(low=251.0, high=397.0),
+        friction_angle=Interval(low=math.radians(16.0), high=math.radians(44.0)),
+    ),
+    layout=LAYOUT,
+    settings=COARSE,
+    search=SearchSettings(gap=0.01),
+    confirmed_by=None,
+    panel=PANEL,
+)
+
+
+def draw_case(rng):
+    return Case(
+        density=rng.uniform(240.0, 420.0),
+        friction_angle=math.radians(rng.uniform(14.0, 46.0)),
+        inclination=math.radians(rng.uniform(24.0, 36.0)),
+    )
+
+
+def solve(case, panel=PANEL, settings=COARSE):
+    (result,) = run_cases([build_task(case, build_scene, LAYOUT, settings, panel)])
+    return result
+
+
+@pytest.fixture(scope="module")
+def runner():
+    return Runner()
+
+
+@pytest.fixture(scope="module")
+def found(runner):
+    finer = refine_settings(replace(COARSE, levels=MESH_LEVELS[:4]))
+    (one,) = search_rows([replace(TASK, confirmed_by=finer)], runner)
+    return one
+
+
+@pytest.fixture(scope="module")
+def grid(runner):
+    return run_grid(TASK, {"density": 6, "friction_angle": 7}, runner).results
+
+
+@pytest.mark.parametrize("mid", [False, True])
+def test_a_case_has_both_sets_and_the_panel_carries_the_same_load(mid):
+    result = solve(
+        draw_case(np.random.default_rng(5)), replace(PANEL, has_mid_anchors=mid)
+    )
+    forces, panel = result.member_forces, result.panel
+    assert isinstance(panel, PanelForces)
+    assert set(forces) == {*CARRYING_MEMBERS, *PANEL_QUANTITIES}
+    for band in forces.values():
+        assert 0.0 <= band.low <= band.value <= band.high
+    solution = panel.solution
+    load = np.sum([solution.foot, solution.mid_foot, solution.head], axis=0)
+    state = result.solution
+    pulls = [state.foot.x + state.head.x, state.foot.y + state.head.y]
+    np.testing.assert_allclose(load, 3.5 * np.array(pulls), rtol=1e-8)
+    assert forces[RopeForce.LOWER_ALONG].value == solution.lower.along
+    assert forces[RopeForce.UPPER_TENSION].value == solution.upper.tension
+    feet = max(math.hypot(*solution.foot), math.hypot(*solution.mid_foot))
+    assert forces["panel_foot_anchor"].value == pytest.approx(feet, rel=1e-12)
+
+
+def test_without_a_panel_nothing_is_added():
+    result = solve(draw_case(np.random.default_rng(6)), None)
+    assert result.panel is None
+    assert set(result.member_forces) == set(CARRYING_MEMBERS)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_bands_hold_the_forces_on_finer_meshes(seed):
+    """The error of the section's pulls covers that of the panel, ropes too."""
+    case = draw_case(np.random.default_rng(900 + seed))
+    coarse = solve(case)
+    fine = solve(case, settings=SolverSettings(accuracy=2e-3))
+    for name in PANEL_QUANTITIES:
+        band, value = coarse.member_forces[name], fine.member_forces[name].value
+        assert band.low <= value <= band.high, name
+
+
+def test_no_case_of_a_grid_exceeds_the_bound(found, grid):
+    assert found.gap is None
+    assert set(PANEL_QUANTITIES) <= set(found.members)
+    for result in grid:
+        for member, band in result.member_forces.items():
+            place = found.members.index(member)
+            bound = found.maxima.upper_bound[place]
+            assert band.value <= bound * (1.0 + 1e-9), (member, result.case)
+            assert band.value <= found.extremes[member].widened.high
+
+
+def test_governing_cases_of_the_panel_are_confirmed_too(found):
+    named = {one.member for one in found.confirmations}
+    assert {"panel_foot_anchor", "panel_uphill_guy", "panel_lower_along"} <= named
+    for one in found.confirmations:
+        high = one.confirmed.member_forces[one.member].high
+        assert found.extremes[one.member].widened.high >= high
+        assert abs(one.difference) < 0.1
+
+
+def test_forces_of_the_section_are_bounded_as_without_a_panel(found, runner):
+    (plain,) = search_rows([replace(TASK, panel=None)], runner)
+    for member, extreme in plain.extremes.items():
+        beside = found.extremes[member]
+        slack = 0.01 * extreme.widened.high
+        assert beside.force.value == pytest.approx(extreme.force.value, abs=slack)
+        assert beside.widened.high == pytest.approx(extreme.widened.high, abs=2 * slack)
+
+
+def test_uphill_guy_is_larger_by_the_panel_and_foot_and_post_smaller(found):
+    forces = {name: one.force.value for name, one in found.extremes.items()}
+    assert forces["panel_uphill_guy"] > 1.05 * forces["uphill_guy"]
+    assert forces["panel_foot_anchor"] < forces["foot_anchor"]
+    assert forces["panel_post"] < forces["post"]
+
+
+@pytest.fixture
+def failing(monkeypatch):
+    """No panel in heavy snow."""
+    resolve = running.resolve_panel
+
+    def spoil(panel, net, points, state):
+        if state.foot.size > limit:
+            return FailedPanel(
+                outcome=Outcome.OUT_OF_VALIDITY,
+                reason=say("panel.lies_on_ground", depth=state.foot.size / limit),
+            )
+        return resolve(panel, net, points, state)
+
+    limit = solve(Case(density=330.0, friction_angle=0.5, inclination=0.5), None)
+    limit = limit.solution.foot.size
+    monkeypatch.setattr(running, "resolve_panel", spoil)
+
+
+def test_a_panel_that_fails_leaves_a_gap_and_the_forces_of_the_section(failing, found):
+    (one,) = search_rows([TASK], Runner())
+    told = str(one.gap)
+    assert "have no forces by the panel between posts" in told
+    assert told.count("lie on the ground") == 1
+    for member in CARRYING_MEMBERS:
+        whole = found.extremes[member].force.value
+        assert one.extremes[member].force.value == pytest.approx(whole, rel=0.01)
+        assert math.isfinite(one.extremes[member].widened.high)
+        assert math.isfinite(one.extremes[name_in_panel(member)].widened.high)
+
+
+def test_a_panel_that_fails_leaves_a_gap_in_a_grid(failing):
+    counted = run_grid(TASK, {"density": 3, "friction_angle": 3}, Runner())
+    assert 0 < sum(isinstance(r.panel, FailedPanel) for r in counted.results) < 9
+    assert "by the panel between posts" in str(counted.gap)
+    assert (
+        describe_gap([r for r in counted.results if "panel_post" in r.member_forces])
+        is None
+    )
+    heavy = max(counted.results, key=lambda one: one.case.density)
+    assert "panel_post" not in heavy.member_forces
+    assert counted.extremes["post"].governing.case.density == 397.0
+    assert counted.extremes["panel_post"].governing.case.density < 397.0
+
+
+def test_a_history_has_no_panel(found):
+    case = draw_case(np.random.default_rng(8))
+    history = solve(case, settings=TransientSettings(accuracy=0.1, horizon=3600.0))
+    assert isinstance(history.panel, FailedPanel)
+    assert "not on method transient" in str(history.lack)
+
+
+@pytest.mark.parametrize("share", [0.5, 1.5])
+def test_where_a_history_is_the_demand_nothing_is_known_of_the_panel(share):
+    steady = solve(draw_case(np.random.default_rng(8)))
+    own = {name: steady.member_forces[name].times(share) for name in CARRYING_MEMBERS}
+    lost = FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=say("outcome.nonfinite"))
+    history = replace(steady, member_forces=own, panel=lost)
+    merged = merge_history(steady, history)
+    grid = RowGrid(results=[merged])
+    if share < 1.0:
+        assert grid.gap is None
+        assert merged.member_forces["panel_post"] == steady.member_forces["panel_post"]
+        assert set(find_extremes([merged])) == set(steady.member_forces)
+    else:
+        assert "panel_post" not in merged.member_forces
+        assert "by the panel between posts" in str(grid.gap)

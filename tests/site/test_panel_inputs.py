@@ -1,0 +1,215 @@
+"""Panel between the posts: columns of sheets Nets and Ropes to inputs of the model."""
+
+import math
+
+import pytest
+
+from netdesign.site.model import END_MODES
+from netdesign.site.reader import read_site
+from netdesign.words.catalogue import LANGUAGES, render
+
+HEADINGS = {
+    "panel system": "rectangular",
+    "cut of the net": "upper",
+    "ridge rope": "B1",
+    "sag of the ridge rope [%]": 5.3,
+    "lower rope": "B2",
+    "sag of the lower rope [-]": 0.041,
+    "foot anchors in mid-panel": "yes",
+}
+TRANSLATED = {
+    "fr": (
+        ["système du panneau", "coupe du filet", "câble de tête"],
+        ["rectangulaire", "en tête", "B1"],
+    ),
+    "de": (
+        ["Feldsystem", "Netzzuschnitt", "oberes Randseil"],
+        ["rechteckig", "oben", "B1"],
+    ),
+}
+
+
+@pytest.fixture
+def with_panel(sheets):
+    """A panel in the first row; sheet Ropes with the ropes of its borders."""
+    sheets["Ropes"] = [
+        ["id", "minimum breaking force [kN]", "axial stiffness [kN]"],
+        *sheets["Ropes"][1:],
+        ["B1", 241, 17300],
+        ["B2", None, 18700],
+    ]
+    for line in sheets["Ropes"][1:-2]:
+        line[2:] = [None]
+    head, first = sheets["Nets"][:2]
+    head += HEADINGS
+    first += HEADINGS.values()
+    return sheets
+
+
+def put(sheets, heading, value):
+    sheets["Nets"][1][sheets["Nets"][0].index(heading)] = value
+
+
+def lack(row):
+    return "" if row.panel_lack is None else render(row.panel_lack, "en")
+
+
+def test_panel_in_si_with_what_its_ropes_bear(with_panel, save):
+    row, other = read_site(save(with_panel)).rows
+    panel = row.panel.panel
+    assert panel.post_spacing == row.layout.post_spacing
+    assert (panel.upper.stiffness, panel.lower.stiffness) == (17.3e6, 18.7e6)
+    assert panel.upper.sag == pytest.approx(0.053, rel=1e-12)
+    assert panel.lower.sag == 0.041
+    assert (panel.cut, panel.has_mid_anchors) == ("upper", True)
+    assert (row.panel.upper.breaking, row.panel.lower.breaking) == (241e3, None)
+    assert (row.panel.upper.type_id, row.panel.lower.type_id) == ("B1", "B2")
+    assert row.panel_lack is None
+    assert other.panel is None
+    assert "no panel between the posts" in lack(other)
+
+
+def test_a_workbook_without_the_columns_reads_as_before(sheets, save):
+    for row in read_site(save(sheets)).rows:
+        assert row.panel is None
+        assert "no panel" in lack(row)
+
+
+@pytest.mark.parametrize(
+    "heading", [one for one in HEADINGS if one != "foot anchors in mid-panel"]
+)
+def test_what_is_missing_is_named_and_leaves_no_panel(with_panel, save, heading):
+    put(with_panel, heading, None)
+    row = read_site(save(with_panel)).rows[0]
+    assert row.panel is None
+    assert heading.split(" [")[0] in lack(row)
+
+
+def test_a_rope_without_stiffness_is_named(with_panel, save):
+    with_panel["Ropes"][-1][2] = None
+    row = read_site(save(with_panel)).rows[0]
+    assert row.panel is None
+    assert "axial stiffness of rope B2" in lack(row)
+
+
+def test_mid_anchors_may_stay_empty(with_panel, save):
+    put(with_panel, "foot anchors in mid-panel", None)
+    assert read_site(save(with_panel)).rows[0].panel.panel.has_mid_anchors is False
+
+
+def test_triangular_nets_are_named_as_not_covered(with_panel, save):
+    put(with_panel, "panel system", "triangular")
+    row = read_site(save(with_panel)).rows[0]
+    assert row.panel is None
+    words = {"en": "triangular", "fr": "triangulaires", "de": "dreieckigen"}
+    for language in LANGUAGES:
+        assert words[language] in render(row.panel_lack, language)
+
+
+def test_a_net_without_ropes_has_nothing_to_say(sheets, save):
+    sheets["Nets"][0].append("panel system")
+    sheets["Nets"][1].append("none")
+    row = read_site(save(sheets)).rows[0]
+    assert row.panel is row.panel_lack is None
+
+
+@pytest.mark.parametrize(
+    ("heading", "value"),
+    [
+        ("panel system", "hexagonal"),
+        ("cut of the net", "tailored"),
+        ("ridge rope", "B9"),
+        ("lower rope", "A1"),
+        ("sag of the ridge rope [%]", 31),
+        ("sag of the lower rope [-]", -0.01),
+        ("foot anchors in mid-panel", "some"),
+    ],
+)
+def test_bad_input_is_one_finding_with_its_cell(
+    with_panel, save, refused, heading, value
+):
+    put(with_panel, heading, value)
+    (finding,) = refused(save(with_panel))
+    column = with_panel["Nets"][0].index(heading)
+    letters = chr(65 + column) if column < 26 else "A" + chr(65 + column - 26)
+    assert (finding.sheet, finding.cell) == ("Nets", f"{letters}2")
+
+
+def test_a_stiffness_out_of_its_range_is_one_finding(with_panel, save, refused):
+    with_panel["Ropes"][-2][2] = 3
+    (finding,) = refused(save(with_panel))
+    last = len(with_panel["Ropes"])
+    assert (finding.sheet, finding.cell) == ("Ropes", f"C{last - 1}")
+
+
+def test_ropes_beside_no_ropes_are_refused(with_panel, save, refused):
+    put(with_panel, "panel system", "none")
+    found = refused(save(with_panel))
+    assert len(found) == len(HEADINGS) - 1
+    assert all("Nets!" in str(one.message) for one in found)
+
+
+@pytest.mark.parametrize("language", TRANSLATED)
+def test_columns_in_other_languages(with_panel, save, language):
+    headings, values = TRANSLATED[language]
+    for old, new, value in zip(HEADINGS, headings, values, strict=False):
+        place = with_panel["Nets"][0].index(old)
+        with_panel["Nets"][0][place] = new
+        with_panel["Nets"][1][place] = value
+    panel = read_site(save(with_panel)).rows[0].panel.panel
+    assert (panel.cut, panel.upper.stiffness) == ("upper", 17.3e6)
+
+
+@pytest.fixture
+def with_end(with_panel):
+    with_panel["Ends"] = [
+        [
+            *("net row", "lateral anchor", "end guy", "end guy anchor"),
+            "angle of the end guy to the row [deg]",
+        ],
+        ["R1", "A1", "G1", "A2", 41],
+    ]
+    return with_panel
+
+
+def held(row):
+    return {(one.member, one.mode): one for one in row.row_end.resistances}
+
+
+def test_what_holds_the_row_along_itself(with_end, save):
+    row, other = read_site(save(with_end)).rows
+    found = held(row)
+    assert tuple(found) == END_MODES
+    assert row.row_end.guy_angle == pytest.approx(math.radians(41.0), rel=1e-12)
+    assert found["lateral_anchor", "tendon"].value == 400e3
+    assert found["lateral_anchor", "pull_out"].basis == "tested"
+    assert found["end_guy", "rope"].value == 250e3
+    assert found["end_guy_anchor", "pull_out"].value is None
+    assert other.row_end is None
+    assert {one.cell for one in row.inputs} >= {"Ends!B2", "Ends!E2"}
+    # the members of the section stay as they are
+    assert row.end_resistances == row.resistances
+
+
+def test_a_row_of_panels_without_a_line_of_ends_has_nothing_that_holds_it(
+    with_panel, save
+):
+    row = read_site(save(with_panel)).rows[0]
+    assert row.row_end.guy_angle is None
+    assert {one.value for one in row.row_end.resistances} == {None}
+
+
+def test_a_row_that_goes_on_has_no_end(with_end, save):
+    with_end["Nets"][0].append("gap to next work [m]")
+    with_end["Nets"][1].append(0.0)
+    assert read_site(save(with_end)).rows[0].row_end is None
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "cell"),
+    [(1, "A9", "B2"), (2, "A1", "C2"), (3, "G1", "D2"), (4, 81, "E2")],
+)
+def test_bad_ends_are_one_finding(with_end, save, refused, column, value, cell):
+    with_end["Ends"][1][column] = value
+    (finding,) = refused(save(with_end))
+    assert (finding.sheet, finding.cell) == ("Ends", cell)

@@ -1,0 +1,284 @@
+"""Both sets of forces in the checks of a row: by section and by panel between posts."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.envelope import run as running
+from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.outcome import Outcome, Verdict
+from netdesign.panel.inputs import CUTS, Panel, Rope
+from netdesign.panel.solution import FailedPanel
+from netdesign.site.model import (
+    END_MODES,
+    BorderRope,
+    Project,
+    Resistance,
+    RowEnd,
+    RowPanel,
+)
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.members import ROPE_OF
+from netdesign.study.audit import audit_study
+from netdesign.study.cases import search_site, solve_site
+from netdesign.study.document import read_document, write_document
+from netdesign.study.judge import judge_site
+from netdesign.study.probe import Probe
+from netdesign.words.message import say
+from tests.small_site import RANGES, RUN, build_row, build_site, resist
+
+PROFILE = load_standard("eurocode")
+ROPE = BorderRope(type_id="B22", breaking=290e3, source="Ropes!B4")
+ACCEPTED = Project(accepted_law=RUN.creep_law.name)
+
+
+def a_panel(spacing=3.5, **changes):
+    values = {
+        "post_spacing": spacing,
+        "lower": Rope(stiffness=17.3e6, sag=0.043),
+        "upper": Rope(stiffness=19.1e6, sag=0.057),
+        "cut": "upper",
+    }
+    return RowPanel(panel=Panel(**(values | changes)), lower=ROPE, upper=ROPE)
+
+
+def an_end(angle=40.0, value=1e7):
+    """What holds the row along itself; ``value`` of all members [N]."""
+    resistances = tuple(
+        Resistance(
+            member=member,
+            mode=mode,
+            value=value,
+            basis="tested" if mode == "pull_out" else "",
+            type_id="T2",
+            source="Anchors!B3",
+        )
+        for member, mode in END_MODES
+    )
+    return RowEnd(
+        guy_angle=None if angle is None else math.radians(angle),
+        resistances=resistances,
+    )
+
+
+def with_panel(panel, *, end=None, **changes):
+    """Row with this panel, held along the row unless told otherwise; or without one."""
+    end = (end or an_end()) if panel else None
+    return build_row("R1", panel=panel, row_end=end, **changes)
+
+
+def judge(row, *, standard=PROFILE, probe=None, ranges=RANGES):
+    site = build_site(row, ranges=ranges, project=ACCEPTED)
+    solved = solve_site(site, RUN) if ranges.is_grid else search_site(site, RUN)
+    return site, judge_site(site, solved, standard, RUN, probe)
+
+
+def checks_of(study):
+    return {check.id: check for check in study.rows[0].checks}
+
+
+@pytest.fixture(scope="module")
+def pair():
+    """The same row without and with a panel."""
+    return [judge(with_panel(one))[1] for one in (None, a_panel())]
+
+
+def test_uphill_guy_is_governed_by_the_panel_and_says_so(pair):
+    plain, panel = map(checks_of, pair)
+    before, after = plain["uphill_guy.rope"], panel["uphill_guy.rope"]
+    assert after.action.governs == "panel"
+    assert after.demand_kN > 1.1 * before.demand_kN
+    assert "the panel between posts governs the demand" in str(after.reason)
+    assert after.action.solved_kN == before.action.solved_kN
+    foot = panel["foot_anchor.tendon"]
+    assert foot.action.governs in ("coupled", "guideline")
+    assert foot.demand_kN == plain["foot_anchor.tendon"].demand_kN
+
+
+def test_numbers_of_the_record_give_the_demand(pair):
+    seen = set()
+    for check in checks_of(pair[1]).values():
+        action = check.action
+        if action is None or check.member in ROPE_OF:
+            continue
+        on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
+        forces = [
+            (action.share * one + action.added_kN) * on_row
+            for one in (action.solved_kN, action.panel_kN)
+        ]
+        forces[1] += action.along_kN
+        value = max(*forces, action.guideline_kN or 0.0)
+        assert check.action_kN == pytest.approx(value, rel=1e-12)
+        highs = (action.coupled_kN, action.panel_support_kN, action.guideline_kN or 0.0)
+        high = max(highs) * check.action_factor
+        assert check.demand_high_kN == pytest.approx(high, rel=1e-12)
+        assert action.governs == action.governing
+        seen.add(action.governs)
+    assert {"panel", "coupled"} <= seen
+
+
+def test_the_study_is_sound_and_can_be_read_again(pair):
+    for study in pair:
+        assert audit_study(study) == []
+        assert replace(read_document(write_document(study)), digest="") == study
+
+
+def test_the_audit_finds_a_panel_that_was_left_out(pair):
+    study = pair[1]
+    row = study.rows[0]
+    for force, told in (("panel_kN", "E_p0"), ("panel_low_kN", "")):
+        checks = [
+            one
+            if one.id != "uphill_guy.rope"
+            else replace(
+                one, action=replace(one.action, **{force: 0.9 * one.action.panel_kN})
+            )
+            for one in row.checks
+        ]
+        spoilt = replace(study, rows=[replace(row, checks=checks)])
+        assert audit_study(spoilt), told
+
+
+def test_ropes_are_told_as_information(pair):
+    assert pair[0].rows[0].panel is None
+    panel = pair[1].rows[0].panel
+    forces = {one.quantity: one for one in panel.extremes}
+    for rope in panel.ropes:
+        assert rope.breaking_kN == 290.0
+        assert rope.tension_kN >= forces[f"panel_{rope.rope}_tension"].max_kN
+        assert rope.tension_kN > rope.along_kN > 0.0
+    assert not [one for one in pair[1].rows[0].checks if "panel" in one.member]
+
+
+def draw_row(rng, number):
+    spacing = rng.uniform(2.6, 4.4)
+    row = build_row(
+        f"R{number}",
+        slope_angle=math.radians(rng.uniform(32.0, 44.0)),
+        net_stiffness_per_m=10 ** rng.uniform(6.6, 7.4),
+        slack=rng.uniform(0.02, 0.08),
+        ground=GroundLaw(kind="no-slip" if rng.random() < 0.5 else "free"),
+    )
+    panel = a_panel(
+        spacing,
+        lower=Rope(stiffness=10 ** rng.uniform(6.9, 7.4), sag=rng.uniform(0.03, 0.1)),
+        upper=Rope(stiffness=10 ** rng.uniform(6.9, 7.4), sag=rng.uniform(0.03, 0.1)),
+        cut=str(rng.choice(CUTS)),
+        has_mid_anchors=bool(rng.random() < 0.3),
+    )
+    layout = replace(row.layout, post_spacing=spacing)
+    return replace(row, layout=layout), panel
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_demand_falls_below_that_without_a_panel(seed):
+    row, panel = draw_row(np.random.default_rng(700 + seed), seed)
+    plain, both = (
+        judge(replace(row, panel=one, row_end=end))[1]
+        for one, end in ((None, None), (panel, an_end()))
+    )
+    before, after = checks_of(plain), checks_of(both)
+    assert [name for name in after if name in before] == list(before)
+    added = {f"{member}.{mode}.end" for member, mode in END_MODES}
+    assert set(after) == set(before) | added
+    order = [Verdict.PASS, Verdict.DECLARED, Verdict.NOT_PROVEN, Verdict.FAIL]
+    for name, check in after.items():
+        if name in added:
+            continue
+        assert order.index(check.verdict) >= order.index(before[name].verdict)
+        if check.demand_kN is None:
+            continue
+        for end in ("demand_low_kN", "demand_kN", "demand_high_kN"):
+            least = getattr(before[name], end) * (1.0 - 1e-12)
+            assert getattr(check, end) >= least, (name, end)
+    assert audit_study(both) == []
+
+
+def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
+    def fail(*_):
+        reason = say("panel.lies_on_ground", depth=0.123)
+        return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
+
+    monkeypatch.setattr(running, "resolve_panel", fail)
+    _, study = judge(with_panel(a_panel()))
+    forces = [one for one in study.rows[0].checks if one.position]
+    assert {one.verdict for one in forces} == {Verdict.NOT_PROVEN}
+    for one in forces:
+        assert "lie on the ground" in str(one.reason)
+        assert one.action is None or one.action.panel_kN is None
+    assert study.rows[0].panel.failed == len(study.rows[0].cases)
+    assert study.verdict is Verdict.NOT_PROVEN
+    assert audit_study(study) == []
+
+
+def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
+    lost = FailedPanel(
+        outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.rope_not_found")
+    )
+    monkeypatch.setattr(running, "resolve_panel", lambda *_: lost)
+    weak = with_panel(a_panel(), resistances=resist(1e3))
+    _, study = judge(weak)
+    assert study.verdict is Verdict.FAIL
+
+
+def test_the_panel_alone_can_fail_a_guy():
+    """Between the demand by the section and that by the panel."""
+    plain = checks_of(judge(build_row("R1"))[1])["uphill_guy.rope"]
+    middle = 1.08 * plain.demand_high_kN * plain.resistance_factor * 1e3
+    resistances = resist(uphill_guy__rope=middle)
+    verdicts = [
+        checks_of(judge(with_panel(one, resistances=resistances))[1])
+        for one in (None, a_panel())
+    ]
+    assert verdicts[0]["uphill_guy.rope"].verdict is Verdict.PASS
+    assert verdicts[1]["uphill_guy.rope"].verdict is Verdict.FAIL
+
+
+def test_limits_of_single_values_follow_the_panel(pair):
+    """The guy bears less snow by the panel than the section alone would allow."""
+    by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
+    resistance = 1.06 * by_panel.demand_high_kN * by_panel.resistance_factor * 1e3
+    found = []
+    for panel in (None, a_panel()):
+        resistances = resist(uphill_guy__rope=resistance)
+        row = with_panel(panel, resistances=resistances)
+        _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+        check = checks_of(study)["uphill_guy.rope.end"]
+        assert check.verdict is Verdict.PASS
+        found.append({one.quantity: one for one in check.holds}["upslope_length_m"])
+        assert audit_study(study) == []
+    plain, both = found
+    assert both.most is not None
+    assert plain.most is None or plain.most > both.most
+
+
+def test_changes_that_mend_a_check_follow_the_panel(pair):
+    """A spacing in proportion is none of them."""
+    by_panel = checks_of(pair[1])["uphill_guy.rope.end"]
+    resistance = 0.97 * by_panel.demand_kN * by_panel.resistance_factor * 1e3
+    row = with_panel(a_panel(), resistances=resist(uphill_guy__rope=resistance))
+    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    check = checks_of(study)["uphill_guy.rope.end"]
+    assert check.verdict is not Verdict.PASS
+    changes = {one.quantity.key: one for one in check.changes}
+    assert "change.post_spacing" not in changes
+    assert changes["change.snow_density"].bound < 400.0
+    assert audit_study(study) == []
+
+
+def test_a_search_bounds_both_sets():
+    ranges = Ranges.of(
+        density=Interval(low=271.0, high=397.0),
+        friction_angle=Interval(low=math.radians(17.0), high=math.radians(43.0)),
+        inclination=Interval(low=0.52, high=0.52),
+    )
+    _, study = judge(with_panel(a_panel()), ranges=ranges)
+    row = study.rows[0]
+    assert row.envelope.is_closed
+    assert audit_study(study) == []
+    for one in row.panel.extremes:
+        assert one.upper_bound_kN >= one.max_kN
+    assert replace(read_document(write_document(study)), digest="") == study

@@ -1,0 +1,194 @@
+"""Ends of a row of panels: pulls along the row, what holds them, the end effect."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
+from netdesign.site.model import BaseFriction
+from netdesign.structure.row_position import LoadedWidth
+from netdesign.study.audit import audit_study
+from netdesign.study.effects import find_effects
+from netdesign.study.row_end import compute_end_factor
+from tests.small_site import build_row, resist
+from tests.study.test_panel_study import (
+    PROFILE,
+    a_panel,
+    an_end,
+    checks_of,
+    judge,
+    with_panel,
+)
+
+
+@pytest.fixture(scope="module")
+def judged():
+    return judge(with_panel(a_panel(), end=an_end(angle=37.0)))
+
+
+def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
+    _, study = judged
+    row, checks = study.rows[0], checks_of(study)
+    forces = {one.quantity: one for one in row.panel.extremes}
+    width = find_effects(with_panel(a_panel()), PROFILE).find_support("edge")
+    factor = compute_end_factor(width, 3.5)
+    assert factor > 1.2
+    lower, upper = (
+        factor * forces[f"panel_{rope}_along"].max_kN for rope in ("lower", "upper")
+    )
+    expected = {
+        "lateral_anchor.tendon.end": lower,
+        "lateral_anchor.pull_out.end": lower,
+        "end_guy.rope.end": upper / math.cos(math.radians(37.0)),
+        "end_guy_anchor.tendon.end": upper / math.cos(math.radians(37.0)),
+        "end_guy_anchor.pull_out.end": upper / math.cos(math.radians(37.0)),
+    }
+    for name, force in expected.items():
+        check = checks[name]
+        assert check.action_kN == pytest.approx(force, rel=1e-12)
+        assert check.verdict is Verdict.PASS
+        assert check.position == "edge"
+    post = checks["post.compression.end"].action
+    pushed = upper * math.tan(math.radians(37.0))
+    assert post.along_kN == pytest.approx(pushed, rel=1e-12)
+    assert checks["post.compression"].action.along_kN == 0.0
+    assert post.governs == "panel"
+
+
+def test_what_the_end_guy_presses_holds_the_base_too():
+    """Friction of the base: its utilisation is that inside the row."""
+    friction = BaseFriction(coefficient=0.61)
+    resistances = tuple(
+        replace(one, value=None, dimensions=friction) if one.mode == "sliding" else one
+        for one in resist()
+    )
+    site, study = judge(with_panel(a_panel(), resistances=resistances))
+    checks = checks_of(study)
+    inside, end = checks["post_base.sliding"], checks["post_base.sliding.end"]
+    assert end.action.along_kN > 0.0
+    assert end.utilisation == pytest.approx(inside.utilisation, rel=1e-9)
+    assert audit_study(study, PROFILE, site) == []
+
+
+def test_the_study_agrees_with_its_site(judged):
+    site, study = judged
+    assert audit_study(study, PROFILE, site) == []
+    for other in (
+        with_panel(a_panel(), end=an_end(angle=38.0)),
+        with_panel(a_panel(cut="uniform"), end=an_end(angle=37.0)),
+        with_panel(a_panel(has_mid_anchors=True), end=an_end(angle=37.0)),
+        build_row("R1"),
+    ):
+        assert audit_study(study, PROFILE, replace(site, rows=(other,)))
+
+
+def test_the_audit_finds_an_end_that_was_made_smaller(judged):
+    _, study = judged
+    row = study.rows[0]
+    for name, field, share in (
+        ("lateral_anchor.tendon.end", "solved_kN", 0.9),
+        ("end_guy.rope.end", "loaded_width_m", 0.8),
+        ("post.compression.end", "along_kN", 0.5),
+    ):
+        check = checks_of(study)[name]
+        action = replace(check.action, **{field: share * getattr(check.action, field)})
+        checks = [
+            replace(check, action=action) if one is check else one for one in row.checks
+        ]
+        spoilt = replace(study, rows=[replace(row, checks=checks)])
+        assert audit_study(spoilt), name
+    left = [one for one in row.checks if one.id != "lateral_anchor.tendon.end"]
+    assert audit_study(replace(study, rows=[replace(row, checks=left)]))
+
+
+def test_nothing_that_holds_the_row_leaves_it_unproven():
+    _, study = judge(with_panel(a_panel(), end=an_end(value=None)))
+    checks = checks_of(study)
+    assert study.verdict is Verdict.NOT_PROVEN
+    for name in ("lateral_anchor.tendon.end", "end_guy.rope.end"):
+        assert checks[name].verdict is Verdict.NOT_PROVEN
+        assert checks[name].demand_kN > 0.0
+
+
+def test_an_end_guy_without_its_angle_proves_neither_itself_nor_the_post():
+    site, study = judge(with_panel(a_panel(), end=an_end(angle=None)))
+    checks = checks_of(study)
+    for name in (
+        *("end_guy.rope.end", "end_guy_anchor.tendon.end"),
+        *("post.compression.end", "post_base.bearing.end"),
+    ):
+        assert checks[name].verdict is Verdict.NOT_PROVEN
+        assert "angle of the end guy" in str(checks[name].reason)
+    assert checks["lateral_anchor.tendon.end"].verdict is Verdict.PASS
+    assert checks["post.compression"].verdict is Verdict.PASS
+    assert audit_study(study, PROFILE, site) == []
+
+
+def test_weak_end_fails():
+    _, study = judge(with_panel(a_panel(), end=an_end(value=1e3)))
+    assert study.verdict is Verdict.FAIL
+    assert audit_study(study) == []
+
+
+def test_a_row_that_goes_on_has_no_end():
+    row = build_row("R1", panel=a_panel(), gap=0.0)
+    _, study = judge(row)
+    assert not [one for one in study.rows[0].checks if one.id.endswith(".end")]
+
+
+def test_under_the_guideline_s_profile_the_ends_are_checked_too():
+    standard = load_standard("swiss-guideline-2007")
+    site, study = judge(with_panel(a_panel()), standard=standard)
+    checks = checks_of(study)
+    assert checks["lateral_anchor.tendon.end"].action.guideline_kN is None
+    assert checks["post.compression.end"].action.along_kN > 0.0
+    assert audit_study(study, standard, site) == []
+
+
+def pull_rope(load, points, spacing, sag, stiffness):
+    """Force along the row of a rope under a load [N/m] at equal places, (P2)."""
+    dz = points[1] - points[0]
+    run = np.concatenate([[0.0], np.cumsum((load[1:] + load[:-1]) / 2.0 * dz)])
+    shear = np.trapezoid(run, points) / spacing - run
+    slope = 4.0 * sag * (1.0 - 2.0 * points / spacing)
+    length = np.trapezoid(np.sqrt(1.0 + slope**2), points)
+
+    def excess(log_force):
+        force = math.exp(log_force)
+        stretch = np.sqrt(1.0 + (shear / force) ** 2)
+        whole = np.trapezoid(stretch / (1.0 + force * stretch / stiffness), points)
+        return whole - length
+
+    return math.exp(brentq(excess, 0.0, 30.0))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_end_effect_raises_a_rope_s_pull_by_less_than_its_factor(seed):
+    rng = np.random.default_rng(60 + seed)
+    spacing, end_factor = rng.uniform(2.5, 5.0), rng.uniform(0.5, 4.0)
+    reach = rng.uniform(0.1, 0.75) * spacing
+    width = LoadedWidth(
+        position="edge",
+        width=spacing / 2.0 + end_factor * reach,
+        end_factor=end_factor,
+        end_length=reach,
+    )
+    points = np.linspace(0.0, spacing, 4001)
+    load = np.full(points.size, 10 ** rng.uniform(4.0, 5.0))
+    rope = (spacing, rng.uniform(0.0, 0.12), 10 ** rng.uniform(6.8, 7.6))
+    plain = pull_rope(load, points, *rope)
+    raised = pull_rope(
+        load * np.where(points < reach, 1.0 + end_factor, 1.0), points, *rope
+    )
+    assert plain < raised <= compute_end_factor(width, spacing) * plain
+
+
+def test_resistances_of_all_members_still_count():
+    """An end of its own does not hide a weak member of the row."""
+    weak = resist(foot_anchor__tendon=1e3)
+    _, study = judge(with_panel(a_panel(), resistances=weak))
+    assert checks_of(study)["foot_anchor.tendon"].verdict is Verdict.FAIL
