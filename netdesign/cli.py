@@ -166,7 +166,8 @@ def _tell_unexpected(error: Exception) -> int:
 
 
 def _count_findings(error: SiteDataError) -> Message:
-    count = len(error.findings)
+    """Number of the faults; remarks on how a file was read are none."""
+    count = sum(one.severity == "error" for one in error.findings)
     if count == 1:
         return say("finding.count_one")
     return say("finding.count", count=count)

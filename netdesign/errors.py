@@ -16,6 +16,10 @@ class Told(Protocol):
     def message(self) -> Message:
         """Message to the user."""
 
+    @property
+    def severity(self) -> str:
+        """``error`` of a fault, ``note`` of a remark."""
+
 
 class NetDesignError(Exception):
     """Base of every error that the program raises on purpose.

@@ -9,6 +9,8 @@ from pathlib import Path
 import openpyxl
 import pytest
 
+from netdesign.words.catalogue import load_texts
+
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 NETDESIGN = Path(sys.executable).with_name("netdesign")
@@ -174,3 +176,11 @@ def test_picture_is_small():
     picture = ROOT / "netdesign" / "report" / "example-report.png"
     assert f'src="{picture.relative_to(ROOT).as_posix()}"' in README
     assert picture.stat().st_size < 150_000
+
+
+def test_what_is_not_treated_is_that_of_the_reports():
+    """Each part of the report's sentence stands in the README."""
+    told = load_texts("en")["scope.not_treated"]
+    readme = " ".join(README.split())
+    for part in told.removeprefix("Not treated: ").rstrip(".").split(", "):
+        assert part in readme

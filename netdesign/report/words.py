@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -33,6 +33,10 @@ class Words:
     def __call__(self, key: str, /, **arguments: Argument) -> str:
         """Text of a key with its gaps filled."""
         return render(Message(key, arguments), self.language)
+
+    def join(self, parts: Iterable[str]) -> str:
+        """Parts of one cell, one after the other."""
+        return self("text.parts", parts=tuple(parts))
 
     def show(self, message: Message | None) -> str:
         """Message on one line; "-" for none."""

@@ -46,6 +46,13 @@ def match_item(
 def _explain(text: str, table: Table, what: str) -> tuple[Message, Message]:
     """Rule and what is accepted, with names in the language of the table's headings."""
     start, language = _MARKS.split(text)[0], table.language
+    unclear = table.plan.find_unclear(split_heading(start)[0])
+    if unclear:
+        labels = tuple(_label(one, language) for one in unclear)
+        readings = tuple(map(quote, labels))
+        return say("heading.ambiguous", readings=readings), say(
+            "item.accepted", names=labels
+        )
     both = find_item(start, table.plan.items)
     if both and start != text:
         is_item = what == "item"

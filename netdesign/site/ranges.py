@@ -167,7 +167,7 @@ def _read_line(
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        found[field.key] = _read_range(field, low, high, samples, findings)
+        found[field.key] = _read_range(field, (low, high, samples), settled, findings)
 
 
 def _is_empty(low: Reading | None, high: Reading | None) -> bool:
@@ -201,11 +201,11 @@ def _settle_unit(
 
 def _read_range(
     field: Field,
-    low: Reading | None,
-    high: Reading | None,
-    samples: Reading,
+    line: tuple[Reading | None, Reading | None, Reading],
+    unit: str,
     findings: list[Finding],
 ) -> _Range | None:
+    low, high, samples = line
     if (
         low is None
         or high is None
@@ -217,9 +217,9 @@ def _read_range(
     for reading, other in ((low, high), (high, low)):
         if reading.state == "blank":
             rule = say("range.empty_beside", place=other.place)
-            refuse(reading, rule, say("range.both_ends"), findings)
+            refuse(reading, rule, say("range.both_ends"), findings, unit=unit)
             return None
-    samples = _settle_samples(low, high, samples, findings)
+    samples = _settle_samples((low, high, samples), unit, findings)
     if samples.state == "faulty":
         return None
     return _build_range(field, (low, high, samples))
@@ -245,14 +245,13 @@ def _name_end(field: Field, key: str) -> Field:
     return replace(field, named=say(f"column.{key}_end", name=field.name))
 
 
-def _settle_samples(
-    low: Reading, high: Reading, samples: Reading, findings: list[Finding]
-) -> Reading:
+def _settle_samples(line: _Line, unit: str, findings: list[Finding]) -> Reading:
     """Check order and count of a range; an empty count means a search."""
+    low, high, samples = line
     is_single = low.number == high.number
     if low.number > high.number:
         rule = say("range.below_low", place=low.place)
-        refuse(high, rule, say("range.low_to_high"), findings)
+        refuse(high, rule, say("range.low_to_high"), findings, unit=unit)
     elif samples.state == "blank":
         value = 1.0 if is_single else SEARCHED
         return replace(samples, state="default", value=value)

@@ -141,15 +141,17 @@ def refuse(
     findings: list[Finding],
     *,
     severity: Severity = "error",
+    unit: str = "",
 ) -> None:
-    """Add a finding about a reading.
+    """Add a finding about a reading; in a unit, where its line has one of its own.
 
     A reading without a cell stands for a missing heading, a finding already.
     """
     if reading.cell is not None:
-        finding = reading.cell.finding(
-            Refusal(rule, accepted), reading.field.title, severity=severity
-        )
+        field = reading.field
+        title = field.title_in(unit) if unit else field.title
+        refusal = Refusal(rule, accepted)
+        finding = reading.cell.finding(refusal, title, severity=severity)
         findings.append(finding)
 
 

@@ -58,7 +58,8 @@ class _Gaps(string.Formatter):
             return render(value, self.language)
         if isinstance(value, tuple):
             parts = (self.format_field(one, "") for one in value)
-            return (format_spec or ", ").join(parts)
+            joint = format_spec or ", "
+            return (_set_apart(joint) if self.language == "fr" else joint).join(parts)
         return str(super().format_field(value, format_spec))
 
 
@@ -81,6 +82,11 @@ def _keep_together(text: str) -> str:
         _BEFORE_SIGN.sub("\u00a0", part) if place % 2 == 0 else part
         for place, part in enumerate(_GAP.split(text))
     )
+
+
+def _set_apart(joint: str) -> str:
+    """Sign between two parts as French sets it: with a space before a semicolon."""
+    return re.sub(r" ?;", "\u00a0;", joint)
 
 
 def _list_texts(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:

@@ -28,6 +28,9 @@ def test_a_refused_site_is_given_back_with_its_findings(call, site, tmp_path):
     assert ended.code == 3
     assert "is ambiguous: 38.500 or 38500" in ended.err
     assert "wrote marked.xlsx" in ended.err
+    faults = ended.err.count("; accepted: ")  # how the file was read is no fault
+    assert f"\n{faults} finding" in ended.err
+    assert "the file was read with" in ended.err
     marked = openpyxl.load_workbook(tmp_path / "marked.xlsx")
     assert "38.500 or 38500" in marked["Nets"]["B2"].comment.text
 

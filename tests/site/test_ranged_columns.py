@@ -7,6 +7,7 @@ import pytest
 from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import USUAL, Case
 from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
+from netdesign.site.columns.unit_names import convert_unit
 from netdesign.site.reader import read_site
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.small_site import build_row
@@ -255,3 +256,31 @@ def test_layers_follow_a_thickness_that_ranges(sheets, save, refused):
     (finding,) = refused(save(sheets))
     assert (finding.sheet, finding.cell) == ("Snow", "C2")
     assert "layers of 3 m in all, outside the range" in str(finding.rule)
+
+
+@pytest.mark.parametrize(
+    ("field", "unit"),
+    [(one, unit) for one in FURTHER_QUANTITIES for unit in one.units if unit != "-"],
+    ids=lambda one: getattr(one, "key", one),
+)
+def test_an_end_that_lacks_is_refused_in_the_unit_of_its_line(
+    sheets, save, refused, field, unit
+):
+    title = field.heading_for("en").split(" [")[0]
+    low = 0.37 * field.bounds[1] / convert_unit(1.0, unit, field.unit)
+    give(sheets, [f"{title} [{unit}]", low, None])
+    told = str(refused(save(sheets))[-1])
+    assert "is empty beside" in told
+    assert f"{title}, high [{unit}]" in told
+
+
+@pytest.mark.parametrize("word", ["snow", "Schnee", "neige", "snow depth"])
+def test_a_snow_that_is_neither_thickness_nor_height_is_ambiguous(
+    sheets, save, refused, word
+):
+    """As a column of sheet Nets is."""
+    give(sheets, [f"{word} [cm]", 210, 330])
+    told = str(refused(save(sheets))[-1])
+    assert "is ambiguous" in told
+    assert "snow thickness" in told
+    assert "snow height vertical" in told

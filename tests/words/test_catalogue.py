@@ -9,7 +9,7 @@ import pytest
 
 import netdesign
 from netdesign.edge.resources import find_resource
-from netdesign.words.catalogue import LANGUAGES, list_gaps, load_texts, render
+from netdesign.words.catalogue import LANGUAGES, _Gaps, list_gaps, load_texts, render
 from netdesign.words.message import say
 
 PACKAGE = Path(netdesign.__file__).parent
@@ -127,3 +127,21 @@ def test_a_message_goes_from_process_to_process():
 def test_an_argument_that_lacks_is_a_fault():
     with pytest.raises(KeyError, match="count"):
         render(say("unit.count_cases"), "en")
+
+
+@pytest.mark.parametrize("spec", ["; ", " ; ", ": ", ", ", "\n"])
+def test_french_sets_the_semicolons_of_a_list_apart(spec):
+    """Whatever the text has between the parts of a list."""
+    gaps = _Gaps("fr")
+    joint = gaps.format_field(("a", "b"), spec)[1:-1]
+    assert (joint == "\u00a0; ") is (";" in spec)
+    assert _Gaps("de").format_field(("a", "b"), spec) == f"a{spec}b"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_text_of_a_page_joins_its_parts_by_itself(language):
+    """French has another list of parts: `Words.join` makes it."""
+    sources = (PACKAGE / "report").rglob("*.py")
+    joined = [path.name for path in sources if '"; ".join' in path.read_text("utf-8")]
+    assert joined == ["check_view.py"]  # of cells and clauses, in no language
+    assert TEXTS[language]["text.parts"] == "{parts:; }"

@@ -109,7 +109,7 @@ def _group_defaults(
 def list_defaults(study: Study, words: Words) -> str:
     """Numbers that nobody typed, what they were taken as, and where; "" for none."""
     found = _group_defaults(study, words, of_numbers=True)
-    return "; ".join(
+    return words.join(
         words("show.default_taken", what=what, value=value, who=who)
         for (what, value), who in found.items()
     )

@@ -127,7 +127,7 @@ def build_drivers(row: RowStudy, words: Words) -> Table:
                 Cell(text=f"{one.first_order:.3f}", number=one.first_order),
                 Cell(text=f"{one.total:.3f}", number=one.total),
                 Cell(text=f"{bound.unexplained or 0.0:.3f}", number=bound.unexplained),
-                text_cell(_name_flips(bound, one.key, names)),
+                text_cell(words.join(_list_flips(bound, one.key, names))),
             )
             for bound in _list_bounds(row.envelope)
             if bound.max_kN > 0.0
@@ -145,7 +145,7 @@ def _name_case(case: dict[str, float]) -> str:
     return ", ".join(f"{value:.5g}" for value in case.values())
 
 
-def _name_flips(bound: BoundRecord, key: str, names: Mapping[str, str]) -> str:
+def _list_flips(bound: BoundRecord, key: str, names: Mapping[str, str]) -> list[str]:
     """Critical values of a quantity: ``312.4 (Foot anchor, tendon)``."""
     told = [
         (
@@ -155,4 +155,4 @@ def _name_flips(bound: BoundRecord, key: str, names: Mapping[str, str]) -> str:
         for flip in bound.flips
         if flip.key == key
     ]
-    return "; ".join(f"{value} ({check})" for value, check in told)
+    return [f"{value} ({check})" for value, check in told]

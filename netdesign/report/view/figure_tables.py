@@ -170,7 +170,9 @@ def _list_states(
         ),
         rows=tuple(
             (
-                text_cell("; ".join(_name_brought(key, words) for key in state.brings)),
+                text_cell(
+                    words.join(_name_brought(key, words) for key in state.brings)
+                ),
                 text_cell(_name_state(state, words)),
                 *(_number(_read_state(state, key)) for key, _ in fields),
             )

@@ -18,8 +18,8 @@ def build_holds(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_check(words, check)),
-                text_cell("; ".join(list_limits(check, words))),
-                text_cell("; ".join(_list_spans(check, words))),
+                text_cell(words.join(list_limits(check, words))),
+                text_cell(words.join(_list_spans(check, words))),
                 given_cell(sum(hold.solves for hold in check.holds)),
             )
             for check in row.checks

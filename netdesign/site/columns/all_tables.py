@@ -72,14 +72,16 @@ def _resistance(key: str, *aliases: str) -> Field:
 
 
 # Bounds are a little wider than what is built; they catch slips of unit and comma.
+_UNCLEAR_SNOW = (
+    *("snow depth", "snow", "neige", "Schnee", "hauteur manteau", "Schneetiefe"),
+)
 NETS = word_plan(
     SheetPlan(
         name="Nets",
         required=True,
         one_of=_SNOW_SIZE,
         unclear={
-            **dict.fromkeys(("snow depth", "snow", "neige", "Schnee"), _SNOW_SIZE),
-            **dict.fromkeys(("hauteur manteau", "Schneetiefe"), _SNOW_SIZE),
+            **dict.fromkeys(_UNCLEAR_SNOW, _SNOW_SIZE),
             **dict.fromkeys(("height", "hauteur", "Höhe", "H"), _ANY_HEIGHT),
             **dict.fromkeys(("anchor", "ancrage", "Anker"), _ANY_ANCHOR),
             **dict.fromkeys(("guy", "hauban", "Abspannseil"), _ANY_GUY),
@@ -422,6 +424,7 @@ RANGES = word_plan(
         name="Ranges",
         required=True,
         items=RANGE_QUANTITIES,
+        unclear=dict.fromkeys(_UNCLEAR_SNOW, ("thickness", "snow_height")),
         fields=(
             Field(
                 key="quantity",

@@ -190,7 +190,8 @@ class SheetPlan:
         """Fields that a normalised heading may mean, if it is an unclear one."""
         for heading, keys in self.unclear.items():
             if normalise(heading) == name:
-                return tuple(one for one in self.fields if one.key in keys)
+                known = (*self.fields, *self.items)
+                return tuple(one for one in known if one.key in keys)
         return ()
 
 
