@@ -35,6 +35,7 @@ def show(value):
 def load(folder):
     study = json.loads((folder / "out-1" / "study.json").read_text(encoding="utf-8"))
     study["provenance"].pop("libraries")
+    study.pop("digest", None)  # of every digit
     return flatten(study)
 
 

@@ -56,7 +56,8 @@ _OBJECTS = 100_000
 _EXIT_USAGE, _EXIT_INTERNAL, _EXIT_INTERRUPTED = 2, 5, 130
 
 _EPILOG = "Exit codes: 0 pass, 1 fail, 2 usage, 3 input refused, 4 not proven, \
-5 internal error, 130 interrupted. A reader of the output who stops early changes \
+5 internal error, 6 declared (nothing fails, but some checks rest on a declaration), \
+130 interrupted. A reader of the output who stops early changes \
 none of them; a standard output that cannot be written to ends with 2."
 
 

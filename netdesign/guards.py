@@ -9,6 +9,7 @@ import math
 import re
 
 from netdesign.errors import ModelError
+from netdesign.units import given_degree_from_radian, given_kilonewton_from_newton
 from netdesign.words.message import Message, say
 
 
@@ -64,6 +65,27 @@ def require_one_of(name: str, value: str, accepted: tuple[str, ...]) -> None:
 def name_quantity(name: str) -> Message:
     """Name of a quantity in refusals: ``quantity.slope_angle`` of ``slope angle``."""
     return say(f"quantity.{re.sub('[^a-z]+', '_', name)}")
+
+
+# Units inside, and what an engineer gives: the conversion and the unit's sign.
+_GIVEN = {
+    " rad": (given_degree_from_radian, " deg"),
+    " N/m": (given_kilonewton_from_newton, " kN/m"),
+}
+
+
+def show_given_units(refusal: Message) -> Message:
+    """Refusal of a number in the unit in which it was given; any other as it is."""
+    unit = refusal.arguments.get("unit")
+    if not isinstance(unit, str) or unit not in _GIVEN:
+        return refusal
+    convert, given = _GIVEN[unit]
+    numbers = {
+        name: convert(one)
+        for name, one in refusal.arguments.items()
+        if isinstance(one, int | float)
+    }
+    return say(refusal.key, **{**refusal.arguments, **numbers, "unit": given})
 
 
 def _in(unit: str) -> str:

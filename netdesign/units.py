@@ -11,7 +11,7 @@ import math
 SECONDS_PER_DAY = 86_400.0
 SECONDS_PER_YEAR = 365.25 * SECONDS_PER_DAY
 KELVIN_AT_0_C = 273.15
-_GIVEN_DECIMALS = 9  # of an angle in degrees
+_GIVEN_DECIMALS = 9  # of an angle in degrees, of a force in kN
 
 
 def newton_from_kilonewton(value: float) -> float:
@@ -22,6 +22,11 @@ def newton_from_kilonewton(value: float) -> float:
 def kilonewton_from_newton(value: float) -> float:
     """Force in N to kN, per metre of width or not."""
     return value / 1e3
+
+
+def given_kilonewton_from_newton(value: float) -> float:
+    """Force in N to the kN that somebody gave, to a billionth."""
+    return round(value / 1e3, _GIVEN_DECIMALS)
 
 
 def kilonewton_if_known(value: float | None) -> float | None:

@@ -17,6 +17,7 @@ import openpyxl
 import pytest
 
 from netdesign import __version__, cli
+from netdesign.commands.running import EXIT_CODES
 from netdesign.edge.resources import find_resource
 from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import load_example
@@ -839,5 +840,7 @@ def test_help_tells_the_exit_codes(tmp_path):
     text = " ".join(run("--help", cwd=tmp_path).stdout.split())
     for code in ("0 pass", "1 fail", "2 usage", "3 input refused", "4 not proven"):
         assert code in text
+    for verdict, code in EXIT_CODES.items():
+        assert f" {code} {verdict.value.replace('_', ' ')}" in text
     assert "5 internal error" in text
     assert "130 interrupted" in text

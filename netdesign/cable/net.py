@@ -42,7 +42,9 @@ class Net:
     def __post_init__(self) -> None:
         """Refuse values that no net has."""
         require_positive("net height", self.height_normal, "m")
-        require_within("net inclination", self.inclination, 0.0, LARGEST_INCLINATION)
+        require_within(
+            "net inclination", self.inclination, 0.0, LARGEST_INCLINATION, "rad"
+        )
         require_positive("net stiffness", self.stiffness_per_m, "N/m")
         require_within("slack", self.slack, 0.0, LARGEST_SLACK)
         require_within(

@@ -229,15 +229,34 @@ def _missing(
     """List the factors that a utilisation lacks, by their names."""
     lacks = []
     if on_action is None:
-        lacks.append(say("check.no_factor", factor=ACTION_FACTOR))
+        lacks.append(lack_factor(ACTION_FACTOR))
     if on_resistance is None and not _has_factor_of_some_basis(resistance, standard):
-        factor = f"resistance.{resistance.mode}"
-        if resistance.basis:
-            basis = name("basis", resistance.basis)
-            lacks.append(say("check.no_factor_of_basis", factor=factor, basis=basis))
-        else:
-            lacks.append(say("check.no_factor", factor=factor))
+        lacks.append(_lack_resistance_factor(resistance, standard))
     return lacks
+
+
+def lack_factor(factor: str) -> Message:
+    """Lack of a profile's value, by its name and its id."""
+    return say("check.no_factor", factor=name("factor", factor), id=factor)
+
+
+def _lack_resistance_factor(resistance: GivenResistance, standard: Standard) -> Message:
+    """Lack of a factor of a mode; it may have one on another basis."""
+    mode = name_mode(resistance.mode)
+    of_mode = f"resistance.{resistance.mode}"
+    ids = (value.id for value in standard.values)
+    known = [
+        one.removeprefix(f"{of_mode}.") for one in ids if one.startswith(f"{of_mode}.")
+    ]
+    if not known:
+        factor = say("factor.resistance", mode=mode)
+        return say("check.no_factor", factor=factor, id=of_mode)
+    return say(
+        "check.no_factor_of_basis",
+        mode=mode,
+        basis=name("basis", resistance.basis),
+        known=tuple(name("basis", one) for one in known),
+    )
 
 
 def _has_factor_of_some_basis(resistance: GivenResistance, standard: Standard) -> bool:

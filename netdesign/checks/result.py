@@ -93,6 +93,9 @@ class Declaration:
         Net row; "" for all of them.
     member, mode : str
         Which check.
+    position : str
+        "edge": on a row's first and last support only. "": inside the row, and there
+        too where its member is of the same type.
     document, author, date : str
         Where it is proven, by whom and when; the date may be "".
     source : str
@@ -106,6 +109,7 @@ class Declaration:
     author: str
     date: str
     source: str
+    position: str = ""
 
     @property
     def proof(self) -> Message:

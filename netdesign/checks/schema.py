@@ -34,7 +34,7 @@ GROUND_FRICTION = "geometry.spacing.ground_friction"
 LATERAL_SHARE = "lateral.share"
 CORRELATION_MEAN = "correlation.tests.mean"
 CORRELATION_LEAST = "correlation.tests.least"
-GLIDE_FACTORS = "glide.factor.south"  # the larger ones of two exposures
+GLIDE_FACTORS = ("glide.factor.north", "glide.factor.south")  # two exposures
 ROPE_ANGLE = "anchor.angle.rope"
 BAR_ANGLE = "anchor.angle.bar"
 POST_EFFICIENCY = "post.efficiency"
@@ -105,8 +105,7 @@ MODEL_UNITS = {
 TABLE_COUNTS = {
     CORRELATION_MEAN: "tests",
     CORRELATION_LEAST: "tests",
-    "glide.factor.north": "ground class",
-    GLIDE_FACTORS: "ground class",
+    **dict.fromkeys(GLIDE_FACTORS, "ground class"),
 }
 
 

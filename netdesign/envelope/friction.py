@@ -27,8 +27,13 @@ class FrictionSkip:
         # by the other coordinates: least friction known to stick, and its end
         self._sticking: dict[Point, tuple[float, CaseEnd]] = {}
         self._agrees = True
+        self._recalled: set[Point] = set()
         self.tested = 0
-        self.skipped = 0
+
+    @property
+    def skipped(self) -> int:
+        """Cases that are known without a solve."""
+        return len(self._recalled)
 
     def list_lines(self, points: Sequence[Point]) -> list[list[Point]]:
         """Lines of ascending friction to be solved next, out of some points.
@@ -53,6 +58,7 @@ class FrictionSkip:
 
     def learn(self, point: Point, end: CaseEnd) -> None:
         """Take the end of a case that was solved."""
+        self._recalled.discard(point)
         if self._axis is None or end.state is None:
             return
         if self._is_chance(point):
@@ -66,9 +72,14 @@ class FrictionSkip:
             if self._friction(point) < known_friction:
                 self._sticking[self._line(point)] = (self._friction(point), end)
 
+    def forget(self, points: Sequence[Point]) -> None:
+        """Drop what is known of the lines of points that are to be solved again."""
+        for point in points:
+            self._sticking.pop(self._line(point), None)
+
     def recall(self, point: Point) -> CaseEnd:
         """End of a case that was not solved."""
-        self.skipped += 1
+        self._recalled.add(point)
         return self._sticking[self._line(point)][1]
 
     def _is_chance(self, point: Point) -> bool:

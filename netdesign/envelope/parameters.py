@@ -17,7 +17,7 @@ from netdesign.units import (
     newton_from_kilonewton,
     radian_from_degree,
 )
-from netdesign.words.message import say
+from netdesign.words.message import Message, say
 
 Convert = Callable[[float], float]
 
@@ -48,6 +48,11 @@ class Parameter:
     show: Convert = _keep
     read: Convert = _keep
 
+    @property
+    def label(self) -> Message:
+        """Name of the quantity in words."""
+        return say(f"label.{self.key}")
+
 
 def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
@@ -62,7 +67,7 @@ def _put_snow(name: str) -> Callable[[Scene, float], Scene]:
 def _put_net(name: str) -> Callable[[Scene, float], Scene]:
     def put(scene: Scene, value: float) -> Scene:
         if not isinstance(scene.net, Net):
-            raise ModelError(say("envelope.wall_parameter", name=name))
+            raise ModelError(say("envelope.wall"))
         return replace(scene, net=replace(scene.net, **{name: value}))
 
     return put
@@ -80,14 +85,26 @@ def _put_height(scene: Scene, value: float) -> Scene:
 
 
 def _put_slip(scene: Scene, value: float) -> Scene:
+    _require_sliding(scene, "slip_length")
     return replace(scene, ground=GroundLaw(kind="sliding", slip_length=value))
 
 
 def _put_glide(scene: Scene, value: float) -> Scene:
+    _require_sliding(scene, "glide_factor")
     ground = build_ground_from_glide_factor(
         value, scene.snowpack.thickness, scene.creep_law.name
     )
     return replace(scene, ground=ground)
+
+
+def _require_sliding(scene: Scene, name: str) -> None:
+    """Refuse to range over the glide of a ground that does not slide."""
+    if scene.ground.kind == "sliding":
+        return
+    label = say("finding.in_quotes", text=PARAMETERS[name].label)
+    rule = say("range.not_sliding", place=say("envelope.itself"), name=label)
+    kind = say(f"ground_kind.{scene.ground.kind}")
+    raise ModelError(say("envelope.not_sliding", kind=kind, rule=rule))
 
 
 # In the order in which they enter a scene: height needs the slope angle, glide the

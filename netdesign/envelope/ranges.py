@@ -13,6 +13,7 @@ from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.errors import ModelError
+from netdesign.guards import show_given_units
 from netdesign.words.message import Message, say
 
 # What every case has; the other parameters only where they range.
@@ -81,7 +82,11 @@ class Ranges:
             )
         for one, other in ONE_QUANTITY:
             if one in names and other in names:
-                raise ModelError(say("envelope.one_quantity", one=one, other=other))
+                labels = {
+                    "one": PARAMETERS[one].label,
+                    "other": PARAMETERS[other].label,
+                }
+                raise ModelError(say("envelope.one_quantity", **labels))
         order = list(PARAMETERS)
         ranked = sorted(self.intervals, key=lambda one: order.index(one[0]))
         object.__setattr__(self, "intervals", tuple(ranked))
@@ -189,7 +194,7 @@ def require_valid(scene: Scene, ranges: Ranges) -> None:
     Raises
     ------
     ModelError
-        With every distinct reason.
+        With every distinct reason, its numbers in degrees and kN.
     """
     count = len(ranges.axes)
     reasons: dict[Message, None] = {}
@@ -199,6 +204,6 @@ def require_valid(scene: Scene, ranges: Ranges) -> None:
         try:
             place_scene(scene, ranges.place(point))
         except ModelError as error:
-            reasons.setdefault(error.message)
+            reasons.setdefault(show_given_units(error.message))
     if reasons:
         raise ModelError(say("text.lines", lines=tuple(reasons)))

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.run import CaseResult
-from netdesign.envelope.signed import choose_watched, name_sources, read_signed
+from netdesign.envelope.signed import (
+    choose_watched,
+    name_sources,
+    read_signed,
+    read_signed_errors,
+)
 from netdesign.search.maxima import Maxima, Values, Watched
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member, RopeForce, name_in_panel
 
 # A gap closer than this share of the numerical error is not worth a case.
 _RESOLUTION = 0.5
+# Share of its largest value from which a quantity is near it; as much makes a case a
+# rival in a study.
+_NEAR = 0.9
 # Ropes are known to a tenth: a bound that is closer than this is worth no case.
 _ROPES_SHARE = 0.02
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 _PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
+
+ReadSigned = Callable[[CaseResult, SupportLayout], dict[str, float] | None]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -58,7 +70,7 @@ class ResultReader:
 
     def read(self, results: Sequence[CaseResult]) -> list[Values | None]:
         """Values of some cases; the first decide whether signed forces exist."""
-        behind = [self._find_signed(result) for result in results]
+        self._name_quantities(results)
         for result in results:
             for member, band in result.member_forces.items():
                 known = self.largest.get(member, 0.0)
@@ -66,20 +78,52 @@ class ResultReader:
                 if band.value > 0.0:
                     error = band.high - band.value
                     self.errors[member] = min(error, self.errors.get(member, error))
-        converged = [k for k, result in enumerate(results) if result.is_converged]
-        if converged and not self.members:
-            first = results[converged[0]]
-            self.members = self._list_members(first)
-            self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
-            if all(behind[k] is not None for k in converged):
-                self.signed = self._list_signed(behind[converged[0]] or {})
-        self.is_without_panel |= self.has_panel and any(
-            not isinstance(results[k].panel, PanelForces) for k in converged
-        )
+        self.is_without_panel |= any(map(self._lacks_panel, results))
+        return [self._read_one(result) for result in results]
+
+    def read_doubts(
+        self, results: Sequence[CaseResult], rough: Collection[int]
+    ) -> list[Values | None]:
+        """Numerical errors of the rough cases, by their places; None of the others."""
         return [
-            self._read_one(result, signed)
-            for result, signed in zip(results, behind, strict=True)
+            self._read_errors(result) if place in rough else None
+            for place, result in enumerate(results)
         ]
+
+    def find_near(self, results: Sequence[CaseResult]) -> set[int]:
+        """Places of the cases that failed, or may come near the largest of a quantity.
+
+        Errors count on the safe side: the upper end of a force against the largest
+        lower end.
+        """
+        self._name_quantities(results)
+        known = {
+            place: (value, self._read_errors(result))
+            for place, result in enumerate(results)
+            if (value := self._read_one(result)) and not self._lacks_panel(result)
+        }
+        if not known:
+            return set(range(len(results)))
+        values, errors = (np.array(one) for one in zip(*known.values(), strict=True))
+        least = _NEAR * np.maximum(np.max(values - errors, axis=0), 0.0)
+        is_near = (values + errors >= least)[:, list(self.watch())].any(axis=1)
+        far = {place for place, near in zip(known, is_near, strict=True) if not near}
+        return set(range(len(results))) - far
+
+    def _lacks_panel(self, result: CaseResult) -> bool:
+        has_panel = isinstance(result.panel, PanelForces)
+        return self.has_panel and result.is_converged and not has_panel
+
+    def _name_quantities(self, results: Sequence[CaseResult]) -> None:
+        """Name what is modelled, from the first cases that converged."""
+        converged = [result for result in results if result.is_converged]
+        if self.members or not converged:
+            return
+        first, behind = converged[0], [self._find_signed(one) for one in converged]
+        self.members = self._list_members(first)
+        self.is_shared = first.anchors is not None and first.anchors.is_foot_shared
+        if all(one is not None for one in behind):
+            self.signed = self._list_signed(behind[0] or {})
 
     def _list_members(self, first: CaseResult) -> tuple[str, ...]:
         """Members of the section, and all quantities of a panel, found or not."""
@@ -129,15 +173,27 @@ class ResultReader:
     def _find_signed(self, result: CaseResult) -> dict[str, float] | None:
         return None if self.layout is None else read_signed(result, self.layout)
 
-    def _read_one(
-        self, result: CaseResult, signed: dict[str, float] | None
-    ) -> Values | None:
+    def _read_errors(self, result: CaseResult) -> Values | None:
+        """Numerical errors of what ``_read_one`` gives [N]."""
+        known = {
+            one: band.high - band.value for one, band in result.member_forces.items()
+        }
+        return self._line_up(known, read_signed_errors, result)
+
+    def _read_one(self, result: CaseResult) -> Values | None:
         if not result.is_converged:
             return None
         known = {one: band.value for one, band in result.member_forces.items()}
+        return self._line_up(known, read_signed, result)
+
+    def _line_up(
+        self, known: Mapping[str, float], read: ReadSigned, result: CaseResult
+    ) -> Values | None:
+        """Members, then signed forces; what is missing counts as 0."""
         forces = tuple(known.get(member, 0.0) for member in self.members)
-        if not self.signed:
+        if not self.signed or self.layout is None:
             return forces
+        signed = read(result, self.layout)
         if signed is None:
             return None
         return (*forces, *(signed.get(name, 0.0) for name in self.signed))

@@ -186,6 +186,15 @@ def refine_settings(settings: SolverSettings) -> SolverSettings:
     return replace(settings, accuracy=accuracy, levels=settings.levels[left_out:])
 
 
+def roughen_settings(settings: SolverSettings) -> SolverSettings:
+    """Settings of a first look at a case: the two coarsest meshes, whatever they say.
+
+    They end their rounds as those of the row do. Where two meshes are as accurate as
+    the row asks for, the results are equal, bit by bit.
+    """
+    return replace(settings, levels=settings.levels[:2])
+
+
 def build_point_task(
     task: RowTask, point: Point, settings: Settings | None = None
 ) -> CaseTask:

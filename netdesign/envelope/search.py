@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 
+from netdesign.envelope.cases import Cases, FirstCases
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.result_reader import ResultReader
 from netdesign.envelope.rows import (
@@ -18,17 +19,13 @@ from netdesign.envelope.rows import (
     RowEnvelope,
     RowGrid,
     RowTask,
-    build_point_task,
     list_grid,
 )
-from netdesign.envelope.run import CaseResult, resolve_case
+from netdesign.envelope.run import CaseResult
 from netdesign.errors import ModelError
 from netdesign.search.known_search import KnownSearch, Repetition
 from netdesign.search.maxima import Maxima, MaximaSearch
-from netdesign.search.surrogate import Point
 from netdesign.solving.runner import Runner
-from netdesign.solving.solve import Settings
-from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import Batch, Ends
 from netdesign.words.message import say
 
@@ -42,58 +39,6 @@ class Wave:
     rows_open: int
     cases_waiting: int
     gap: float
-
-
-class _Cases:
-    """Some points of a row, until all their results are known.
-
-    Those that friction cannot change are not solved.
-    """
-
-    def __init__(
-        self,
-        task: RowTask,
-        points: Sequence[Point],
-        skip: FrictionSkip,
-        settings: Settings | None = None,
-    ) -> None:
-        self._points, self._skip = points, skip
-        self._tasks = [build_point_task(task, point, settings) for point in points]
-        asked = zip(points, self._tasks, strict=True)
-        self._jobs = {point: one.job for point, one in asked if one.job is not None}
-        self._ends: dict[Point, CaseEnd] = {}
-        self._lines = self._list_lines()
-
-    def _list_lines(self) -> list[list[Point]]:
-        open_points = [point for point in self._jobs if point not in self._ends]
-        return self._skip.list_lines(open_points)
-
-    def ask(self) -> list[Batch]:
-        """Batches to be solved next; none once the rest need no solve."""
-        return [tuple(self._jobs[point] for point in line) for line in self._lines]
-
-    def tell(self, answers: Sequence[Ends]) -> None:
-        """Take the ends of the batches asked for, in their order."""
-        for line, answer in zip(self._lines, answers, strict=True):
-            for point, end in zip(line, answer, strict=False):  # until it sticks
-                self._ends[point] = end
-                self._skip.learn(point, end)
-        self._lines = self._list_lines()
-
-    def finish(self) -> list[CaseResult]:
-        """Results in the order of the points; ends that friction cannot change."""
-        for point in self._jobs:
-            if point not in self._ends:
-                self._ends[point] = self._skip.recall(point)
-        known: dict[int, CaseResult] = {}
-        results = []
-        for point, task in zip(self._points, self._tasks, strict=True):
-            end = self._ends.get(point)
-            same = known.get(id(end)) if end else None  # one end of several frictions
-            result = replace(same, case=task.case) if same else resolve_case(task, end)
-            known[id(end)] = result
-            results.append(result)
-        return results
 
 
 class RowSearch:
@@ -171,7 +116,9 @@ class RowSearch:
         self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []
         self._maxima: Maxima | None = None  # known once only confirmations are open
-        self._cases = _Cases(self.task, search.ask(), self._skip)
+        self._cases: Cases | FirstCases = FirstCases(
+            self.task, search.ask(), self._skip, self._reader.find_near
+        )
 
     def _advance(self) -> None:
         """Go on until something has to be solved, or the envelope is known."""
@@ -186,9 +133,11 @@ class RowSearch:
         """Tell the search what was found, and ask what it wants next."""
         self._results += answered
         search, reader = self._search, self._reader
-        search.tell(reader.read(answered), reader.watch())
+        values = reader.read(answered)
+        doubts = reader.read_doubts(answered, self._cases.rough)
+        search.tell(values, reader.watch(), doubts)
         if points := search.ask():
-            self._cases = _Cases(self.task, points, self._skip)
+            self._cases = Cases(self.task, points, self._skip)
         elif search.result is None:  # no longer what was known
             self._begin(self._search_anew())
         else:
@@ -202,7 +151,7 @@ class RowSearch:
         self._maxima = self._reader.bound_members(found)
         points = [found.points[place] for place in self._list_confirmed(found)]
         apart = FrictionSkip(())  # each is solved
-        self._cases = _Cases(self.task, points, apart, self.task.confirmed_by)
+        self._cases = Cases(self.task, points, apart, self.task.confirmed_by)
 
     def _list_confirmed(self, maxima: Maxima) -> list[int]:
         """Places of the cases that govern a member, each once."""
@@ -300,7 +249,7 @@ def run_grid(
     skip = FrictionSkip(task.ranges.axes)
     if max(map(len, skip.list_lines(points))) >= _WORTH_SHARING:
         task = replace(task, settings=replace(task.settings, shares_start=True))
-    cases = _Cases(task, points, skip)
+    cases = Cases(task, points, skip)
     while batches := cases.ask():
         cases.tell(runner.solve_batches(batches))
     return RowGrid(results=cases.finish(), skipped=skip.skipped)

@@ -40,9 +40,9 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
     solution, anchors = result.solution, result.anchors
     if solution is None or anchors is None:
         return None
-    points = place_support(layout, solution.head_point)
     width = layout.post_spacing
     pull = (solution.head.x * width, solution.head.y * width)
+    points = place_support(layout, solution.head_point)
     found = _find_signed(pull, anchors.foot_anchor.size, points)
     if found is None or not isinstance(result.panel, PanelForces):
         return found
@@ -50,6 +50,46 @@ def read_signed(result: CaseResult, layout: SupportLayout) -> dict[str, float] |
     foot = max(panel.anchors.foot_anchor.size, math.hypot(*panel.solution.mid_foot))
     beside = _find_signed(panel.solution.head, foot, points) or {}
     return found | {name_in_panel(name): force for name, force in beside.items()}
+
+
+def read_signed_errors(
+    result: CaseResult, layout: SupportLayout
+) -> dict[str, float] | None:
+    """Numerical errors of the forces that ``read_signed`` gives [N]."""
+    solution = result.solution
+    if solution is None or result.anchors is None:
+        return None
+    points = place_support(layout, solution.head_point)
+    width = layout.post_spacing
+    found = _find_errors(
+        solution.foot.error * width, solution.head.error * width, points
+    )
+    if found is None or not isinstance(result.panel, PanelForces):
+        return found
+    panel = result.panel
+    foot, head = (
+        panel.solution.panel.post_spacing * pull.error
+        for pull in (panel.foot, panel.head)
+    )
+    beside = _find_errors(foot, head, points) or {}
+    return found | {name_in_panel(name): error for name, error in beside.items()}
+
+
+def _find_errors(
+    foot: float, head: float, points: SupportPoints
+) -> dict[str, float] | None:
+    """Errors of signed forces from those of the forces behind them [N].
+
+    They are linear in these: what an error of each component causes is added, as in
+    the bands of the members.
+    """
+    sizes: dict[str, float] = {}
+    for pull, at_foot in (((head, 0.0), 0.0), ((0.0, head), 0.0), ((0.0, 0.0), foot)):
+        caused = _find_signed(pull, at_foot, points)
+        if caused is None:
+            return None
+        sizes = {name: sizes.get(name, 0.0) + abs(caused[name]) for name in caused}
+    return sizes
 
 
 def _find_signed(

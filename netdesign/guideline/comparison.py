@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Generic
 
 from netdesign.errors import ModelError
 from netdesign.guideline.load_model import (
@@ -13,6 +14,13 @@ from netdesign.guideline.load_model import (
     compute_snow_load,
 )
 from netdesign.guideline.net_pull import NetPull, compute_net_pull
+from netdesign.numerics.arrays import Number
+from netdesign.numerics.either import (
+    find_cosine,
+    find_tangent,
+    take_larger,
+    take_smaller,
+)
 from netdesign.snow.ground import DEFAULT_CREEP_LAW, GroundLaw, load_glide_tables
 from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.head import FailedSupport
@@ -21,49 +29,53 @@ from netdesign.words.message import Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NetGeometry:
-    """Net row as the guideline needs it.
+class NetGeometry(Generic[Number]):
+    """Net row as the guideline needs it, or many that differ in four numbers.
 
     Attributes
     ----------
-    slope_angle, inclination : float
-        psi, and of the net from the slope normal, downslope positive [rad].
-    snow_thickness, net_height : float
+    slope_angle : float
+        psi [rad].
+    inclination : float or ndarray
+        Of the net from the slope normal, downslope positive [rad].
+    snow_thickness : float or ndarray
+        Of the snow that is held, normal to the slope [m].
+    net_height : float
         Normal to the slope [m].
-    stiffness : float
+    stiffness : float or ndarray
         ES [N/m].
-    slack : float
+    slack : float or ndarray
         Unstressed length over chord, less 1 [-].
     layout : SupportLayout
         Of its supports.
     """
 
     slope_angle: float
-    snow_thickness: float
+    snow_thickness: Number
     net_height: float
-    inclination: float
-    stiffness: float
-    slack: float
+    inclination: Number
+    stiffness: Number
+    slack: Number
     layout: SupportLayout
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LoadCase:
-    """Snow of one load case.
+class LoadCase(Generic[Number]):
+    """Snow of one load case, on one net or on many.
 
     Attributes
     ----------
     name : str
         "same_snow", "load_case_1" or "load_case_2".
-    density : float
+    density : float or ndarray
         Mean [kg/m3].
-    height_vertical : float
+    height_vertical : float or ndarray
         H [m].
     """
 
     name: str
-    density: float
-    height_vertical: float
+    density: Number
+    height_vertical: Number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,16 +101,23 @@ class GuidelineResult:
     name: str
     density: float
     height_vertical: float
-    load: SnowLoad | None = None
-    pull: NetPull | None = None
+    load: SnowLoad[float] | None = None
+    pull: NetPull[float] | None = None
     anchors: AnchorForces | None = None
     reason: Message | None = None
 
+    @property
+    def solved(self) -> tuple[SnowLoad[float], NetPull[float], AnchorForces] | None:
+        """Load, pull and anchors; None unless there are all."""
+        if self.load is None or self.pull is None or self.anchors is None:
+            return None
+        return self.load, self.pull, self.anchors
+
 
 def find_glide_factor(
-    ground: GroundLaw, snow_thickness: float, largest: float
-) -> float:
-    """Glide factor of a ground.
+    ground: GroundLaw, snow_thickness: Number, limits: tuple[float, float]
+) -> Number:
+    """Glide factor of a ground under snow of one thickness, or of many.
 
     A slip length [m] goes back through the stored table by which N gives a slip
     length; beyond the table its end is taken.
@@ -107,27 +126,29 @@ def find_glide_factor(
     ----------
     ground : GroundLaw
         With its slip length.
-    snow_thickness : float
+    snow_thickness : float or ndarray
         Normal to the slope [m].
-    largest : float
-        N of a ground without friction [-].
+    limits : tuple of float
+        Least and largest N of the guideline [-]: of a ground without slip, and of one
+        without friction. No N is less.
 
     Returns
     -------
-    float
+    float or ndarray
         N [-].
     """
-    if ground.kind == "free":
-        return largest
-    if ground.kind == "no-slip":
-        return 1.0
+    least, largest = limits
+    if ground.kind != "sliding":
+        return 0.0 * snow_thickness + (largest if ground.kind == "free" else least)
     table = load_glide_tables()[DEFAULT_CREEP_LAW]
-    return table.find_glide_factor(ground.slip_length / snow_thickness)
+    return take_larger(
+        table.find_glide_factor(ground.slip_length / snow_thickness), least
+    )
 
 
 def compare_with_guideline(
     model: LoadModel,
-    net: NetGeometry,
+    net: NetGeometry[float],
     *,
     density: float,
     altitude: float | None,
@@ -144,7 +165,7 @@ def compare_with_guideline(
     density : float
         Of the governing case [kg/m3].
     altitude : float or None
-        Of the row [m]; None is taken as below the base altitude.
+        Of the row [m]; None is not known, and gets the largest factor.
     glide_factor : float
         N [-].
 
@@ -160,9 +181,9 @@ def compare_with_guideline(
 
 
 def list_load_cases(
-    model: LoadModel, net: NetGeometry, altitude: float | None
-) -> tuple[LoadCase, LoadCase]:
-    """Load cases 1 and 2 of the guideline on a net row.
+    model: LoadModel, net: NetGeometry[Number], altitude: float | None
+) -> tuple[LoadCase[Number], LoadCase[Number]]:
+    """Load cases 1 and 2 of the guideline on a net row, or on each of many.
 
     Parameters
     ----------
@@ -171,24 +192,29 @@ def list_load_cases(
     net : NetGeometry
         Whose snow it is.
     altitude : float or None
-        Of the row [m]; None is taken as below the base altitude.
+        Of the row [m]; None is not known, and gets the largest factor.
     """
     height = net.snow_thickness / math.cos(net.slope_angle)
-    factor = 1.0 if altitude is None else compute_altitude_factor(model, altitude)
+    factor = compute_altitude_factor(model, altitude)
     return (
         LoadCase(
-            name="load_case_1", density=factor * model.density, height_vertical=height
+            name="load_case_1",
+            density=0.0 * height + factor * model.density,
+            height_vertical=height,
         ),
         LoadCase(
             name="load_case_2",
-            density=model.case_2_density,
+            density=0.0 * height + model.case_2_density,
             height_vertical=model.case_2_height * height,
         ),
     )
 
 
 def solve_load_case(
-    model: LoadModel, net: NetGeometry, case: LoadCase, glide_factor: float
+    model: LoadModel,
+    net: NetGeometry[float],
+    case: LoadCase[float],
+    glide_factor: float,
 ) -> GuidelineResult:
     """Forces of one load case; a reason where the closed forms do not hold.
 
@@ -215,8 +241,57 @@ def solve_load_case(
 
 
 def _solve_case(
-    model: LoadModel, net: NetGeometry, case: LoadCase, glide_factor: float
+    model: LoadModel,
+    net: NetGeometry[float],
+    case: LoadCase[float],
+    glide_factor: float,
 ) -> GuidelineResult:
+    load, pull = find_pulls(model, net, case, glide_factor)
+    anchors = compute_anchor_forces(
+        place_support(net.layout, place_head(net)),
+        foot_pull_per_m=pull.foot,
+        head_pull_per_m=pull.head,
+        post_spacing=net.layout.post_spacing,
+    )
+    if isinstance(anchors, FailedSupport):
+        reason, found = anchors.reason, None
+    else:
+        reason, found = None, anchors
+    return GuidelineResult(
+        name=case.name,
+        density=case.density,
+        height_vertical=case.height_vertical,
+        load=load,
+        pull=pull,
+        anchors=found,
+        reason=reason,
+    )
+
+
+def find_pulls(
+    model: LoadModel,
+    net: NetGeometry[Number],
+    case: LoadCase[Number],
+    glide_factor: Number,
+) -> tuple[SnowLoad[Number], NetPull[Number]]:
+    """Load of a case on a net, or on each of many, and the pulls of its ends.
+
+    Parameters
+    ----------
+    model : LoadModel
+        Numbers of the guideline.
+    net : NetGeometry
+        Of the net row.
+    case : LoadCase
+        Its snow.
+    glide_factor : float or ndarray
+        N [-].
+
+    Raises
+    ------
+    ModelError
+        If the closed forms do not hold anywhere.
+    """
     height = case.height_vertical
     load = compute_snow_load(
         model,
@@ -231,28 +306,15 @@ def _solve_case(
     pull = compute_net_pull(
         load.resultant,
         inclination=net.inclination,
-        chord=net.net_height / math.cos(net.inclination),
-        loaded_share=min(1.0, filled),
+        chord=net.net_height / find_cosine(net.inclination),
+        loaded_share=take_smaller(filled, 1.0),
         stiffness=net.stiffness,
         slack=net.slack,
     )
-    head = (net.net_height * math.tan(net.inclination), net.net_height)
-    anchors = compute_anchor_forces(
-        place_support(net.layout, head),
-        foot_pull_per_m=pull.foot,
-        head_pull_per_m=pull.head,
-        post_spacing=net.layout.post_spacing,
-    )
-    if isinstance(anchors, FailedSupport):
-        reason, found = anchors.reason, None
-    else:
-        reason, found = None, anchors
-    return GuidelineResult(
-        name=case.name,
-        density=case.density,
-        height_vertical=height,
-        load=load,
-        pull=pull,
-        anchors=found,
-        reason=reason,
-    )
+    return load, pull
+
+
+def place_head(net: NetGeometry[Number]) -> tuple[Number, Number]:
+    """Head of a support, or of each of many, from the net's foot [m]."""
+    x_head = net.net_height * find_tangent(net.inclination)
+    return x_head, net.net_height + 0.0 * x_head

@@ -3,43 +3,84 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import product
 
+import numpy as np
+
+from netdesign.errors import ModelError
 from netdesign.guideline.comparison import (
     GuidelineResult,
     LoadCase,
     NetGeometry,
+    find_pulls,
     list_load_cases,
+    place_head,
     solve_load_case,
 )
 from netdesign.guideline.load_model import LoadModel, SnowLoad
 from netdesign.guideline.net_pull import NetPull
-from netdesign.structure.anchors import AnchorForces
+from netdesign.numerics.arrays import Floats
+from netdesign.numerics.climb import find_largest
+from netdesign.structure.anchors import (
+    AnchorForces,
+    ManyForces,
+    compute_many_forces,
+)
 from netdesign.structure.axis import measure_pull
-from netdesign.structure.members import Member
+from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.words.message import Message, say
 
-# Distance of the inclinations that are tried. Between two of them a force rises above
-# both by less than 1e-5 of its size (tests/guideline/test_floor.py).
-SCAN_STEP = math.radians(0.1)
-# Fields of HeadSpan.
+# Distance of the inclinations that are tried first, and parts of each other range.
+SCAN_STEP = math.radians(0.25)
+SCAN_PARTS = 8
+# Keys of what is sought at head and foot beside the members' forces.
 SPANS = ("head_pull", "least_tension", "foot_least", "foot_largest")
+
+Span = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LoadedNet:
-    """One net that the ranges of a row allow; the scan replaces its inclination.
+class NetRanges:
+    """Nets that the ranges of a row allow.
 
     Attributes
     ----------
     net : NetGeometry
-        Of the row.
+        Of the row; what follows takes the place of its numbers.
+    inclinations : tuple of float
+        Least and largest, from the slope normal [rad].
+    thicknesses : tuple of float
+        Of the snow, held or not [m].
+    stiffnesses, slacks : tuple of float
+        ES [N/m] and slack [-].
+    find_glide_factors : callable
+        Thicknesses of the snow [m] to the least and the largest N under each [-].
+    """
+
+    net: NetGeometry[float]
+    inclinations: Span
+    thicknesses: Span
+    stiffnesses: Span
+    slacks: Span
+    find_glide_factors: Callable[[Floats], tuple[Floats, Floats]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedNet:
+    """One net that the ranges of a row allow.
+
+    Attributes
+    ----------
+    net : NetGeometry
+        With its own inclination, snow, stiffness and slack.
     glide_factor : float
         N [-].
     """
 
-    net: NetGeometry
+    net: NetGeometry[float]
     glide_factor: float
 
 
@@ -64,9 +105,9 @@ class FloorForce:
     member: str
     force: float
     at: LoadedNet
-    case: LoadCase
-    load: SnowLoad
-    pull: NetPull
+    case: LoadCase[float]
+    load: SnowLoad[float]
+    pull: NetPull[float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,7 +142,8 @@ class Floor:
         One a member; empty where the floor is not available.
     spans : tuple of FloorForce
         States that bring what ``head`` says, by the keys `SPANS`; those of least
-        values count with the other sign.
+        values count with the other sign. Between two signs of the guys' tension lies
+        none at all: then the state with the least is told.
     reason : Message or None
         Why it is not available.
     """
@@ -116,102 +158,236 @@ class Floor:
         return next((one for one in self.forces if one.member == member), None)
 
 
-def find_floor(
-    model: LoadModel,
-    nets: Iterable[LoadedNet],
-    *,
-    inclinations: tuple[float, float],
-    altitude: float | None,
-) -> Floor:
+def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> Floor:
     """Largest member forces of load cases 1 and 2 over the ranges of a row.
 
-    Every net is tried at inclinations `SCAN_STEP` apart, both ends included. Theory:
-    guideline/THEORY.md, eq. (G10).
+    Theory: guideline/THEORY.md, eq. (G10).
 
     Parameters
     ----------
     model : LoadModel
         Numbers of the guideline.
-    nets : iterable of LoadedNet
-        Corners of the row's ranges of slack, stiffness, glide factor and height.
-    inclinations : tuple of float
-        Least and largest, from the slope normal [rad].
+    ranges : NetRanges
+        Nets that count.
     altitude : float or None
-        Of the row [m].
+        Of the row [m]; None is not known, and gets the largest factor.
 
     Returns
     -------
     Floor
-        Not available where the closed forms fail anywhere in the ranges: the largest
-        force may lie there.
+        Not available where the closed forms fail at anything that is tried: the
+        largest force may lie there.
 
     Verified by
     -----------
     tests/guideline/test_floor.py
     """
-    largest: dict[str, FloorForce] = {}
-    for at in _list_tried(nets, inclinations):
-        for case in list_load_cases(model, at.net, altitude):
-            result = solve_load_case(model, at.net, case, at.glide_factor)
-            if result.anchors is None or result.load is None or result.pull is None:
-                return Floor(reason=_explain(at, result))
-            sizes = {**result.anchors.member_forces, **_measure(result.anchors)}
-            for member, force in sizes.items():
-                known = largest.get(member)
-                if known is None or force > known.force:
-                    largest[member] = FloorForce(
-                        member=member,
-                        force=force,
-                        at=at,
-                        case=case,
-                        load=result.load,
-                        pull=result.pull,
-                    )
-    forces = [one for key, one in largest.items() if key not in SPANS]
-    spans = [one for key, one in largest.items() if key in SPANS]
-    return Floor(forces=tuple(forces), spans=tuple(spans), head=_read_span(spans))
+    scan = _Scan(model=model, ranges=ranges, altitude=altitude)
+    try:
+        points, largest = find_largest(scan.list_sought, _spread(ranges))
+    except _FailedAtError as failed:
+        return Floor(reason=failed.reason)
+    reached = scan.try_points(points)
+    solve = cache(scan.solve_one)  # members are often largest at the same place
+    found: dict[str, FloorForce] = {}
+    for key, (sizes, columns) in _list_sizes(reached).items():
+        own = sizes[:, :, columns]
+        case, end, number = np.unravel_index(own.argmax(), own.shape)
+        point = tuple(points[:, columns][:, number])
+        at, snow, result = solve(point, int(case), int(end))
+        if result.solved is None:
+            return Floor(reason=_explain(at, result))
+        load, pull, anchors = result.solved
+        found[key] = FloorForce(
+            member=key,
+            force=_measure(anchors)[key],
+            at=at,
+            case=snow,
+            load=load,
+            pull=pull,
+        )
+    return Floor(
+        forces=tuple(found[member] for member in CARRYING_MEMBERS),
+        spans=tuple(found[key] for key in SPANS),
+        head=_measure_head(largest),
+    )
+
+
+def _list_sizes(tried: ManyForces) -> dict[str, tuple[Floats, slice]]:
+    """Sizes of which the largest counts, with the points where that was looked for."""
+    count = len(CARRYING_MEMBERS)
+    uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
+    members: dict[str, tuple[Floats, slice]] = {
+        member: (tried.of_members[member], slice(k, k + 1))
+        for k, member in enumerate(CARRYING_MEMBERS)
+    }
+    spans = (
+        (tried.head_pull, slice(count, count + 1)),
+        (-(uphill + downhill), slice(count + 3, None)),
+        (-tried.foot_turn, slice(count + 2, count + 3)),
+        (tried.foot_turn, slice(count + 1, count + 2)),
+    )
+    return {**members, **dict(zip(SPANS, spans, strict=True))}
 
 
 def _measure(anchors: AnchorForces) -> dict[str, float]:
-    """Sizes at head and foot of which the largest counts, by the keys `SPANS`."""
+    """Sizes of one state, as `_list_sizes` has them of many."""
     foot = anchors.foot_anchor
     turn = measure_pull(foot.x, foot.y, Member.FOOT_ANCHOR)
     tension = anchors.head.uphill_guy_tension + anchors.head.downhill_guy_tension
     sizes = (math.hypot(*anchors.head_pull), -tension, -turn, turn)
-    return dict(zip(SPANS, sizes, strict=True))
+    return {**anchors.member_forces, **dict(zip(SPANS, sizes, strict=True))}
 
 
-def _read_span(spans: Sequence[FloorForce]) -> HeadSpan | None:
-    """Span of all states tried; None of none."""
-    if not spans:
-        return None
-    sizes = {one.member: one.force for one in spans}
-    pull, tension, least, largest = (sizes[key] for key in SPANS)
+def _measure_head(largest: Floats) -> HeadSpan:
+    """Span at head and foot, of the largest of all that is sought.
+
+    A tension with a sign is that of the uphill guy, or less that of the downhill one.
+    Between nets with one sign and nets with the other lies one without tension.
+    """
+    at_head = largest[len(CARRYING_MEMBERS) :]
+    pull, turn, less_turn, *signed = (float(one) for one in at_head)
+    tensions = [
+        max(0.0, -less, -most)
+        for most, less in zip(signed[::2], signed[1::2], strict=True)
+    ]
     return HeadSpan(
-        pull=pull, least_tension=-tension, foot_least=-least, foot_largest=largest
+        pull=pull,
+        least_tension=min(tensions),
+        foot_least=-less_turn,
+        foot_largest=turn,
     )
 
 
-def _list_tried(
-    nets: Iterable[LoadedNet], inclinations: tuple[float, float]
-) -> Iterator[LoadedNet]:
-    for one in nets:
-        for inclination in list_inclinations(*inclinations):
-            yield replace(one, net=replace(one.net, inclination=inclination))
+def _spread(ranges: NetRanges) -> list[Floats]:
+    """Axes of a grid: inclinations, thicknesses, shares of the range of N.
 
-
-def list_inclinations(low: float, high: float) -> Sequence[float]:
-    """Inclinations from low to high, at most `SCAN_STEP` apart.
-
-    Parameters
-    ----------
-    low, high : float
-        Both included [rad].
+    Snow that just reaches the head is among the thicknesses: there forces have a kink.
     """
-    steps = math.ceil((high - low) / SCAN_STEP - 1e-9)
-    if steps < 1:
-        return [low]
-    return [low + (high - low) * k / steps for k in range(steps)] + [high]
+    low, high = ranges.inclinations
+    least, largest = ranges.find_glide_factors(np.array(ranges.thicknesses))
+    spans = (
+        (low, high, max(2, math.ceil((high - low) / SCAN_STEP))),
+        (*ranges.thicknesses, SCAN_PARTS),
+        (0.0, 1.0 if (least < largest).any() else 0.0, SCAN_PARTS),
+    )
+    axes = [
+        np.linspace(low, high, parts + 1) if low < high else np.array([low])
+        for low, high, parts in spans
+    ]
+    if axes[1][0] < ranges.net.net_height < axes[1][-1]:
+        axes[1] = np.union1d(axes[1], ranges.net.net_height)
+    return axes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Scan:
+    """The guideline over the ranges of a row, at any points of them.
+
+    A point is inclination [rad], thickness [m] and share of the range of N.
+    """
+
+    model: LoadModel
+    ranges: NetRanges
+    altitude: float | None
+
+    def list_sought(self, points: Floats) -> Floats:
+        """Values that are made as large as they can be, at points, shape (3, n).
+
+        Member forces, pull on the head, direction of the foot's pull and less that
+        direction, and of each load case the tension with a sign and less that.
+        """
+        tried = self.try_points(points)
+        turn = tried.foot_turn
+        uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
+        signed = uphill - downhill
+        members = (tried.of_members[one] for one in CARRYING_MEMBERS)
+        of_all = np.array([*members, tried.head_pull, turn, -turn]).max(axis=(1, 2))
+        of_case = np.array([signed, -signed]).max(axis=2)
+        return np.concatenate([of_all, *of_case.transpose(1, 0, 2)])
+
+    def try_points(self, points: Floats) -> ManyForces:
+        """Forces by load case, end of the tension and point, shape (2, e, n)."""
+        net, glide = self._place(points)
+        cases = list_load_cases(self.model, net, self.altitude)
+        snow = LoadCase(
+            name="both",
+            density=np.array([[one.density] for one in cases]),
+            height_vertical=np.array([[one.height_vertical] for one in cases]),
+        )
+        try:
+            _, pull = find_pulls(self.model, net, snow, glide)
+        except ModelError:
+            raise self._find_failed(points) from None
+        forces = compute_many_forces(
+            net.layout,
+            place_head(net),
+            foot_pull_per_m=pull.foot,
+            head_pull_per_m=pull.head,
+        )
+        if not forces.is_held.all():
+            raise self._find_failed(points)
+        return forces
+
+    def _place(self, points: Floats) -> tuple[NetGeometry[Floats], Floats]:
+        """Nets and glide factors at points; the ends of the tension are rows."""
+        given = self.ranges
+        inclination, thickness, share = points
+        least, largest = given.find_glide_factors(thickness)
+        ends = np.array(_list_ends(given))
+        net = NetGeometry(
+            slope_angle=given.net.slope_angle,
+            snow_thickness=np.minimum(thickness, given.net.net_height),
+            net_height=given.net.net_height,
+            inclination=inclination,
+            stiffness=ends[:, :1],
+            slack=ends[:, 1:],
+            layout=given.net.layout,
+        )
+        return net, least + share * (largest - least)
+
+    def solve_one(
+        self, point: tuple[float, ...], case: int, end: int
+    ) -> tuple[LoadedNet, LoadCase[float], GuidelineResult]:
+        """One net and load case as everywhere else."""
+        nets, glide = self._place(np.array(point)[:, None])
+        net = replace(
+            self.ranges.net,
+            snow_thickness=float(nets.snow_thickness[0]),
+            inclination=float(point[0]),
+            stiffness=float(nets.stiffness[end, 0]),
+            slack=float(nets.slack[end, 0]),
+        )
+        at = LoadedNet(net=net, glide_factor=float(glide[0]))
+        snow = list_load_cases(self.model, net, self.altitude)[case]
+        return at, snow, solve_load_case(self.model, net, snow, at.glide_factor)
+
+    def _find_failed(self, points: Floats) -> _FailedAtError:
+        """First of the points at which a load case fails, and why."""
+        ends = range(len(_list_ends(self.ranges)))
+        for point, case, end in product(points.T, (0, 1), ends):
+            at, _, result = self.solve_one(tuple(point), case, end)
+            if result.anchors is None:
+                return _FailedAtError(_explain(at, result))
+        raise AssertionError  # what fails for many fails for one of them
+
+
+_GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
+
+
+class _FailedAtError(Exception):
+    """A load case without forces."""
+
+    def __init__(self, reason: Message) -> None:
+        super().__init__()
+        self.reason = reason
+
+
+def _list_ends(ranges: NetRanges) -> list[tuple[float, float]]:
+    """Stiffness and slack at which the chord tension is largest, and least."""
+    (soft, stiff), (tight, slack) = ranges.stiffnesses, ranges.slacks
+    ends = [(stiff, tight), (soft, slack)]
+    return ends if ends[0] != ends[1] else ends[:1]
 
 
 def _explain(at: LoadedNet, result: GuidelineResult) -> Message:

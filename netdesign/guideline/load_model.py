@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Generic
 
 from netdesign.checks.loader import Standard
 from netdesign.errors import StandardError
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Number
+from netdesign.numerics.either import (
+    find_tangent,
+    require_all_positive,
+    require_all_within,
+    take_larger,
+    take_smaller,
+)
 from netdesign.structure.row_position import EndEffectRule
 from netdesign.words.message import say
-
-Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,30 +60,30 @@ class LoadModel:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SnowLoad:
-    """Load on a net for each metre of width, and its parts.
+class SnowLoad(Generic[Number]):
+    """Load on a net, or on each of many, for each metre of width, and its parts.
 
     Attributes
     ----------
-    creep_factor, glide_factor : float
+    creep_factor, glide_factor : float or ndarray
         K, N [-].
-    rigid : float
+    rigid : float or ndarray
         S'_N on a rigid wall normal to the slope [N/m].
-    parallel, normal : float
+    parallel, normal : float or ndarray
         S'_N and S'_Q on the net, the latter towards the ground [N/m].
-    prism : float
+    prism : float or ndarray
         Weight G' of the snow between the net and the slope normal [N/m].
-    resultant : tuple of float, shape (2,)
+    resultant : tuple of float or ndarray, shape (2,)
         On the net, X downslope and Y out of the ground [N/m].
     """
 
-    creep_factor: float
-    glide_factor: float
-    rigid: float
-    parallel: float
-    normal: float
-    prism: float
-    resultant: Point
+    creep_factor: Number
+    glide_factor: Number
+    rigid: Number
+    parallel: Number
+    normal: Number
+    prism: Number
+    resultant: tuple[Number, Number]
 
 
 def read_load_model(standard: Standard) -> LoadModel:
@@ -129,21 +136,23 @@ def read_end_effect(standard: Standard) -> EndEffectRule | None:
     return EndEffectRule(**{n: v.value for n, v in values.items() if v is not None})
 
 
-def compute_creep_factor(model: LoadModel, density: float, slope_angle: float) -> float:
+def compute_creep_factor(
+    model: LoadModel, density: Number, slope_angle: float
+) -> Number:
     """Creep factor; guideline/THEORY.md, (G2).
 
     Parameters
     ----------
     model : LoadModel
         Numbers of the guideline.
-    density : float
+    density : float or ndarray
         [kg/m3].
     slope_angle : float
         psi [rad].
 
     Returns
     -------
-    float
+    float or ndarray
         K [-].
 
     Raises
@@ -151,22 +160,22 @@ def compute_creep_factor(model: LoadModel, density: float, slope_angle: float) -
     ModelError
         If a number is out of its range.
     """
-    require_within("density", density, 100.0, 700.0, "kg/m3")
+    require_all_within("density", density, 100.0, 700.0, "kg/m3")
     require_within("slope angle", slope_angle, 0.0, 0.5 * math.pi, "rad")
     rho = density / 1e3
     c0, c1, c2, c3 = model.creep
     return (c0 + rho * (c1 + rho * (c2 + rho * c3))) * math.sin(2.0 * slope_angle)
 
 
-def compute_altitude_factor(model: LoadModel, altitude: float) -> float:
+def compute_altitude_factor(model: LoadModel, altitude: float | None) -> float:
     """Factor on the density at an altitude; guideline/THEORY.md, (G3).
 
     Parameters
     ----------
     model : LoadModel
         Numbers of the guideline.
-    altitude : float
-        [m].
+    altitude : float or None
+        [m]; None is not known, and gets the largest factor.
 
     Returns
     -------
@@ -178,6 +187,8 @@ def compute_altitude_factor(model: LoadModel, altitude: float) -> float:
     ModelError
         If the altitude is out of its range.
     """
+    if altitude is None:
+        altitude = model.altitude_top
     require_within("altitude", altitude, 0.0, 9000.0, "m")
     top = min(altitude, model.altitude_top)
     return 1.0 + model.altitude_rate * max(top - model.altitude_base, 0.0)
@@ -186,29 +197,33 @@ def compute_altitude_factor(model: LoadModel, altitude: float) -> float:
 def compute_snow_load(
     model: LoadModel,
     *,
-    density: float,
-    height_vertical: float,
+    density: Number,
+    height_vertical: Number,
     slope_angle: float,
-    glide_factor: float,
+    glide_factor: Number,
     net_height: float,
-    inclination: float,
-) -> SnowLoad:
+    inclination: Number,
+) -> SnowLoad[Number]:
     """Load of the guideline on a net; guideline/THEORY.md, eqs. (G1) to (G6).
+
+    Of many nets at once where arrays are given, of shapes that go together.
 
     Parameters
     ----------
     model : LoadModel
         Numbers of the guideline.
-    density : float
+    density : float or ndarray
         Mean density of the snow [kg/m3].
-    height_vertical : float
+    height_vertical : float or ndarray
         H [m].
-    slope_angle, inclination : float
-        psi, and of the net from the slope normal, downslope positive [rad].
-    glide_factor : float
+    slope_angle : float
+        psi [rad].
+    glide_factor : float or ndarray
         N [-].
     net_height : float
         D_K, normal to the slope [m].
+    inclination : float or ndarray
+        Of the net from the slope normal, downslope positive [rad].
 
     Returns
     -------
@@ -224,17 +239,17 @@ def compute_snow_load(
     -----------
     checks/test_hand_calculations.py, guideline/test_load_model.py
     """
-    require_positive("snow height", height_vertical, "m")
+    require_all_positive("snow height", height_vertical, "m")
     require_positive("net height", net_height, "m")
     require_within("slope angle", slope_angle, 0.05, 1.5, "rad")
-    require_within("glide factor", glide_factor, 1.0, 20.0)
+    require_all_within("glide factor", glide_factor, 1.0, 20.0)
     creep = compute_creep_factor(model, density, slope_angle)
     weight = density * model.gravity
     rigid = 0.5 * weight * height_vertical**2 * creep * glide_factor
     parallel = model.flexible * rigid
     normal = parallel * model.normal / (glide_factor * math.tan(slope_angle))
-    filled = min(net_height, height_vertical * math.cos(slope_angle))
-    prism = 0.5 * weight * filled**2 * math.tan(max(inclination, 0.0))
+    filled = take_smaller(height_vertical * math.cos(slope_angle), net_height)
+    prism = 0.5 * weight * filled**2 * find_tangent(take_larger(inclination, 0.0))
     return SnowLoad(
         creep_factor=creep,
         glide_factor=glide_factor,

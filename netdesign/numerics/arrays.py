@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,3 +11,5 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Signs = NDArray[np.int8]  # 1, 0 or -1
+# One number, or an array of them: what a formula takes that stands once for both.
+Number = TypeVar("Number", float, Floats)

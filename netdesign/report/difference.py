@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -10,13 +11,15 @@ from typing import Any, TypeVar
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
+from netdesign.quantities import QUANTITIES
 from netdesign.report.view.check_view import find_governing
-from netdesign.report.words import Words
+from netdesign.report.words import Words, find_choice
+from netdesign.site.model import InputEcho
 from netdesign.study.records import CheckRecord, RowStudy, Study
-from netdesign.study.values import Difference, compare_values
+from netdesign.study.values import ROUNDING, Difference, compare_values
 from netdesign.words.catalogue import Language
 from netdesign.words.message import Message, say
-from netdesign.words.names import as_given, name
+from netdesign.words.names import as_given, name, name_check, name_member
 
 SCHEMA = "netdesign.diff/1"
 _MET, _UNMET = "met", "not met"
@@ -43,8 +46,17 @@ _OF_CHECK = (
     "declared",
 )
 _MOST_DIGITS = 17  # tell any two numbers apart
+_NOTHING = (None, "", "-")
 _Value = TypeVar("_Value")
 Named = Mapping[Message, Any]  # values by their names
+
+
+@dataclass(frozen=True, slots=True)
+class _Word:
+    """Key of a value as documents have it, and its words."""
+
+    key: str
+    name: Message
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +74,8 @@ class Change:
         Name of the value.
     old, new : object
         The values, in the unit that ``what`` names.
+    names : tuple of Message or None
+        Words of both values, where these are keys.
     """
 
     area: str
@@ -69,6 +83,7 @@ class Change:
     what: Message
     old: Any
     new: Any
+    names: tuple[Message | None, Message | None] = (None, None)
 
     def __str__(self) -> str:
         """``R1: utilisation: 0.73 -> 0.81``."""
@@ -77,7 +92,8 @@ class Change:
     def tell(self, language: Language) -> str:
         """The change on one line, in a language."""
         words = Words(language)
-        old, new = (_name_value(self.area, one, words) for one in (self.old, self.new))
+        pairs = zip(self.names, (self.old, self.new), strict=True)
+        old, new = (words.show(name) if name else one for name, one in pairs)
         before, after = _show(old, new, words("diff.none"))
         told = {"what": self.name(words), "old": before, "new": after}
         if self.row:
@@ -98,9 +114,9 @@ class Change:
 
 
 def compare_studies(old: Study, new: Study) -> list[Change]:
-    """Every change from one study to another; lost passes come first.
+    """Every change from one study to another; what got worse comes first.
 
-    Only the time and the command of the two are left out.
+    Only the time and the command of the two are left out, and rounding.
     """
     rows_old = {row.id: row for row in old.rows}
     rows_new = {row.id: row for row in new.rows}
@@ -156,11 +172,16 @@ def write_difference(
     return {"schema": SCHEMA, "changes": listed}
 
 
-def _rank(change: Change) -> tuple[bool, bool]:
-    """Sort key of a verdict: passes that are lost, then all else that got worse."""
+def _rank(change: Change) -> int:
+    """Sort key of a verdict: the study's, lost passes, else worse, gone, the others."""
+    if not change.row:
+        return 0
+    if change.new is None:
+        return 3
     ranks = [_RANKS.get(str(one), _WORST) for one in (change.old, change.new)]
-    is_worse = change.is_turned and (change.old is None or ranks[1] > ranks[0])
-    return not (is_worse and change.old in _PASSING), not is_worse
+    if change.is_turned and (change.old is None or ranks[1] > ranks[0]):
+        return 1 if change.old in _PASSING else 2
+    return 4
 
 
 def _compare_verdicts(
@@ -170,10 +191,10 @@ def _compare_verdicts(
     if old and new:
         yield from _compare("verdict", name, _list_verdicts(old), _list_verdicts(new))
         return
-    ends = [str(row.verdict) if row else None for row in (old, new)]
-    yield Change(
-        area="verdict", row=name, what=say("diff.net_row"), old=ends[0], new=ends[1]
-    )
+    ends = [
+        {say("diff.net_row"): _tell(row.verdict)} if row else {} for row in (old, new)
+    ]
+    yield from _compare("verdict", name, ends[0], ends[1])
 
 
 def _compare_rows(
@@ -187,9 +208,30 @@ def _compare_rows(
 
 def _compare(area: str, row: str, old: Named, new: Named) -> Iterator[Change]:
     for what in dict.fromkeys((*old, *new)):
-        before, after = old.get(what), new.get(what)
-        if before != after:
-            yield Change(area=area, row=row, what=what, old=before, new=after)
+        pair = [_split(values.get(what)) for values in (old, new)]
+        (before, after), names = zip(*pair, strict=True)
+        if not _is_same(before, after):
+            yield Change(
+                area=area, row=row, what=what, old=before, new=after, names=names
+            )
+
+
+def _split(value: Any) -> tuple[Any, Message | None]:
+    """Value as the document has it, and its words."""
+    return (value.key, value.name) if isinstance(value, _Word) else (value, None)
+
+
+def _is_same(old: Any, new: Any) -> bool:
+    """No difference, none but rounding, or no value in either."""
+    if isinstance(old, float) and isinstance(new, float):
+        return math.isclose(old, new, rel_tol=ROUNDING)
+    return old == new or (old in _NOTHING and new in _NOTHING)
+
+
+def _tell(verdict: str) -> _Word:
+    """A verdict with its words."""
+    key = str(verdict)
+    return _Word(key=key, name=say(f"diff_value.{key.replace(' ', '_')}"))
 
 
 def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
@@ -210,18 +252,21 @@ def _compare_rest(row: str, old: object, new: object) -> Iterator[Change]:
 
 
 def _name_verdict(study: Study) -> Named:
-    return {say("diff.verdict"): study.verdict}
+    return {say("diff.verdict"): _tell(study.verdict)}
 
 
 def _list_verdicts(row: RowStudy) -> Named:
     return {
-        say("diff.verdict"): str(row.verdict),
+        say("diff.verdict"): _tell(row.verdict),
         **{
-            say("diff.check", check=title): str(check.verdict)
+            say("diff.check", check=title): _tell(check.verdict)
             for title, check in _name_checks(row).items()
         },
         **_name_all(
-            (say("diff.law", law=one.name), _MET if one.is_met else _UNMET)
+            (
+                say("diff.law", law=name("law", one.name)),
+                _tell(_MET if one.is_met else _UNMET),
+            )
             for one in row.independent
         ),
     }
@@ -239,7 +284,11 @@ def _name_all(pairs: Iterable[tuple[Message, _Value]]) -> dict[Message, _Value]:
 
 
 def _name_checks(row: RowStudy) -> dict[Message, CheckRecord]:
-    return _name_all((as_given(check.id), check) for check in row.checks)
+    return _name_all((_name_check(check), check) for check in row.checks)
+
+
+def _name_check(check: CheckRecord) -> Message:
+    return name_check(check.member, check.mode, check.position)
 
 
 def _list_governing(row: RowStudy) -> Named:
@@ -247,12 +296,14 @@ def _list_governing(row: RowStudy) -> Named:
     found: dict[Message, Any] = {}
     check = find_governing(row.checks)
     if check is not None:
-        found[say("diff.governing_check")] = check.id
+        found[say("diff.governing_check")] = _Word(check.id, _name_check(check))
         for key in ("utilisation", "demand_kN", "resistance_kN"):
             found[say(f"diff_check.{key}")] = getattr(check, key)
-        point = asdict(check.case) if check.case else {}
-        found |= {say("diff.governing_case", key=k): v for k, v in point.items()}
-    extremes = _name_all((as_given(one.quantity), one) for one in row.extremes)
+        point = check.case.values if check.case else {}
+        for key, value in point.items():
+            named = _add_unit(QUANTITIES[key].label, QUANTITIES[key].unit)
+            found[say("diff.governing_case", key=named)] = value
+    extremes = _name_all((name_member(one.quantity), one) for one in row.extremes)
     for quantity, one in extremes.items():
         found[say("diff.largest", quantity=quantity)] = one.max_kN
         found[say("diff.upper_bound", quantity=quantity)] = one.upper_bound_kN
@@ -262,11 +313,21 @@ def _list_governing(row: RowStudy) -> Named:
 def _list_checks(row: RowStudy) -> Named:
     return {
         say("diff.of_check", check=title, what=say(f"diff_check.{key}")): (
-            _name_proof(check) if key == "declared" else getattr(check, key)
+            _read_value(check, key)
         )
         for title, check in _name_checks(row).items()
         for key in _OF_CHECK
     }
+
+
+def _read_value(check: CheckRecord, key: str) -> Any:
+    """Value of a check; the basis of its resistance has words, its proof a place."""
+    value = getattr(check, key)
+    if key == "declared":
+        return _name_proof(check)
+    if key == "resistance_basis" and value:
+        return _Word(value, name("basis", value))
+    return value
 
 
 def _name_proof(check: CheckRecord) -> str | None:
@@ -281,8 +342,15 @@ def _list_project(study: Study) -> Named:
     return {say(f"diff_project.{key}"): value for key, value in fields}
 
 
-def _list_inputs(inputs: Sequence[Any]) -> Named:
-    return _name_all((_add_unit(echo.label, echo.unit), echo.value) for echo in inputs)
+def _list_inputs(inputs: Sequence[InputEcho]) -> Named:
+    return _name_all(
+        (_add_unit(echo.label, echo.unit), _read_input(echo)) for echo in inputs
+    )
+
+
+def _read_input(echo: InputEcho) -> Any:
+    choice = find_choice(echo)
+    return _Word(str(echo.value), choice) if choice else echo.value
 
 
 def _add_unit(what: Message, unit: str) -> Message:
@@ -347,13 +415,6 @@ def _keep_row_rest(row: RowStudy) -> object:
     )
 
 
-def _name_value(area: str, value: Any, words: Words) -> Any:
-    """Verdicts in words; all else as it is."""
-    if area != "verdict" or value is None:
-        return value
-    return words(f"diff_value.{str(value).replace(' ', '_')}")
-
-
 def _show(old: Any, new: Any, none: str) -> tuple[str, str]:
     """Both values, with as many digits as tell them apart."""
     for digits in range(4, _MOST_DIGITS + 1):
@@ -364,6 +425,6 @@ def _show(old: Any, new: Any, none: str) -> tuple[str, str]:
 
 
 def _round(value: Any, digits: int, none: str) -> str:
-    if value is None or value == "":
+    if value in _NOTHING:
         return none
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)

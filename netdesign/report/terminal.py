@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from netdesign.report.view.row_tables import describe_flip
+from netdesign.report.view.row_tables import describe_flip, is_far_from_limit
 from netdesign.report.view.whole import ReportView, RowView, build_view
 from netdesign.report.words import (
     MISSING,
@@ -98,8 +98,10 @@ def print_changes(study: Study, console: Console, language: Language = "en") -> 
                 told = _describe_change(change, words)
                 text = words("show.label", label=place, text=told)
                 console.print(Text(show_text(text)), soft_wrap=True)
-    if not any(check.changes for row in study.rows for check in row.checks):
-        console.print(words("show.no_change"))
+    checks = [check for row in study.rows for check in row.checks]
+    if not any(check.changes for check in checks):
+        is_far = all(map(is_far_from_limit, checks))
+        console.print(words("show.no_change" if is_far else "show.no_change_alone"))
 
 
 def _describe_change(change: ChangeRecord, words: Words) -> str:

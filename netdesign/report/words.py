@@ -18,7 +18,7 @@ from netdesign.site.columns.fields import normalise
 from netdesign.site.model import InputEcho
 from netdesign.study.records import CasePoint, CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
-from netdesign.words.message import Argument, Message
+from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 
 MISSING = "-"
@@ -126,6 +126,11 @@ def show_given(value: float) -> str:
     return f"{value:.6g}" if math.isfinite(value) else MISSING
 
 
+def show_digits(value: float | None) -> str:
+    """Number to five significant digits: enough to redo what follows from it."""
+    return MISSING if value is None else f"{value:.5g}"
+
+
 def show_unit(unit: str) -> str:
     """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
     return _UNITS.get(unit, show_text(unit))
@@ -141,11 +146,17 @@ def show_quantity(value: float | str, unit: str) -> str:
 
 def understand(echo: InputEcho, words: Words) -> float | str:
     """An input as understood; a word of its column in the reader's language."""
+    choice = find_choice(echo)
+    return words.show(choice) if choice else echo.value
+
+
+def find_choice(echo: InputEcho) -> Message | None:
+    """Word of a column that an input was understood as; None where it is none."""
     if isinstance(echo.value, float) or not isinstance(echo.label, Message):
-        return echo.value
+        return None
     column = echo.label.key.rpartition(".")[2]
     key = f"choice.{column}.{normalise(echo.value)}"
-    return words(key) if key in load_texts(words.language) else echo.value
+    return say(key) if key in load_texts("en") else None
 
 
 def show_share(value: float | None) -> str:
@@ -217,7 +228,7 @@ def add_unit(label: str, unit: str) -> str:
 
 
 def show_own(words: Words, text: str) -> str:
-    """Text of a limit profile: in the language if the profile comes with the program.
+    """Text of a profile or creep law: in the language if it comes with the program.
 
     A profile is a document of its own, in its own language; those that come with the
     program have translations, found by the whole text.
@@ -226,10 +237,15 @@ def show_own(words: Words, text: str) -> str:
     return words(key) if key else show_text(text)
 
 
+_OWN = (
+    *("profile_title.", "profile_about.", "profile_text.", "profile_source."),
+    "creep_law.",
+)
+
+
 @lru_cache(maxsize=1)
 def _list_own_texts() -> dict[str, str]:
-    own = ("profile_title.", "profile_about.", "profile_text.", "profile_source.")
-    return {text: key for key, text in load_texts("en").items() if key.startswith(own)}
+    return {text: key for key, text in load_texts("en").items() if key.startswith(_OWN)}
 
 
 def number_format(key: str) -> str:

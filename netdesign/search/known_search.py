@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.search.maxima import Addition, Maxima, Values, Watched
+from netdesign.search.maxima import Addition, Maxima, Values, Watched, fill_doubts
 from netdesign.search.surrogate import Point, fit_surrogate
 
 
@@ -61,6 +61,7 @@ class Repetition:
         self.known = known
         self.result: Maxima | None = None
         self._values: tuple[Values | None, ...] = ()
+        self._doubts: tuple[Values | None, ...] = ()
         self._rounds = [
             tuple(one.point for one in batch)
             for _, batch in groupby(known.maxima.log, key=lambda one: one.round)
@@ -71,12 +72,19 @@ class Repetition:
         return self._rounds[0] if self._rounds else ()
 
     def tell(
-        self, values: Sequence[Values | None], watched: Mapping[int, Watched]
+        self,
+        values: Sequence[Values | None],
+        watched: Mapping[int, Watched],
+        doubts: Sequence[Values | None] | None = None,
     ) -> None:
         """Compare the values at the points asked for; one that differs ends it."""
         maxima = self.known.maxima
         self._values += tuple(values)
-        is_same = self._values == maxima.values[: len(self._values)]
+        self._doubts += tuple(doubts or (None,) * len(values))
+        is_same = (
+            self._values == maxima.values[: len(self._values)]
+            and self._doubts == maxima.doubts[: len(self._doubts)]
+        )
         self._rounds = self._rounds[1:] if is_same else []
         is_whole = is_same and len(self._values) == len(maxima.points)
         if is_whole and watched == self.known.watched:
@@ -110,7 +118,8 @@ def decode_search(text: str) -> KnownSearch:
     maxima = given["maxima"]
     found = Maxima(
         points=tuple(map(tuple, maxima["points"])),
-        values=tuple(None if one is None else tuple(one) for one in maxima["values"]),
+        values=_read_values(maxima["values"]),
+        doubts=_read_values(maxima["doubts"]),
         maximum=tuple(maxima["maximum"]),
         upper_bound=tuple(maxima["upper_bound"]),
         governing=tuple(maxima["governing"]),
@@ -126,7 +135,12 @@ def decode_search(text: str) -> KnownSearch:
             np.array([found.points[k] for k in solved]),
             np.array([found.values[k] for k in solved]),
             np.array(given["noise"]),
+            fill_doubts([found.doubts[k] for k in solved], len(found.maximum)),
         )
         found = replace(found, surrogate=model)
     watched = {int(k): Watched(**one) for k, one in given["watched"].items()}
     return KnownSearch(maxima=found, watched=watched)
+
+
+def _read_values(given: Sequence[Sequence[float] | None]) -> tuple[Values | None, ...]:
+    return tuple(None if one is None else tuple(one) for one in given)

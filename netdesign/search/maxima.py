@@ -128,6 +128,8 @@ class Maxima:
         All cases asked for, in order; shares of the ranges.
     values : tuple of Values or None
         Their answers; None for a failed case.
+    doubts : tuple of Values or None
+        Errors of the answers that are known roughly only; None of the others.
     maximum, upper_bound : tuple of float
         Of each quantity: largest value found, and largest value that the model
         allows anywhere in the box, 0 where all are negative; infinite for a
@@ -144,6 +146,7 @@ class Maxima:
 
     points: tuple[Point, ...]
     values: tuple[Values | None, ...]
+    doubts: tuple[Values | None, ...]
     maximum: tuple[float, ...]
     upper_bound: tuple[float, ...]
     governing: tuple[int, ...]
@@ -162,7 +165,7 @@ class MaximaSearch:
     ----------
     settings : SearchSettings
         When it ends.
-    points, values : tuple
+    points, values, doubts : tuple
         All cases told so far, in the order in which they were asked for.
     log : list of Addition
         Why each of them was asked for.
@@ -198,6 +201,7 @@ class MaximaSearch:
         self.settings = settings
         self.points: tuple[Point, ...] = ()
         self.values: tuple[Values | None, ...] = ()
+        self.doubts: tuple[Values | None, ...] = ()
         self.log: list[Addition] = []
         self.gap = math.inf
         self.result: Maxima | None = None
@@ -220,6 +224,7 @@ class MaximaSearch:
         self,
         values: Sequence[Values | None],
         watched: Mapping[int, Watched] | None = None,
+        doubts: Sequence[Values | None] | None = None,
     ) -> None:
         """Take the values at the points asked for, and decide what to ask next.
 
@@ -231,6 +236,8 @@ class MaximaSearch:
         watched : mapping of int to Watched, optional
             Quantities that have to be bounded, by their place, and how closely; the
             others are modelled along. All of them unless told otherwise.
+        doubts : sequence of Values or None, optional
+            Errors of values that are known roughly only; None of the others.
 
         Raises
         ------
@@ -247,6 +254,7 @@ class MaximaSearch:
             self._test(values, expected, self._bounds)
         self.points += self.ask()
         self.values += tuple(values)
+        self.doubts += tuple(doubts or (None,) * len(values))
         self._asked = self._choose(watched)
         if not self._asked:
             self.result = self._finish()
@@ -303,18 +311,23 @@ class MaximaSearch:
             return []  # too few cases for a model
         places = np.array([self.points[k] for k in solved])
         values = np.array([self.values[k] for k in solved])
+        doubts = fill_doubts([self.doubts[k] for k in solved], values.shape[1])
         if watched is None:
             watched = dict.fromkeys(range(values.shape[1]), Watched())
-        self._model, self._bounds = self._bound(places, values, watched)
+        self._model, self._bounds = self._bound(places, values, doubts, watched)
         self.gap = self._bounds.gap * self.settings.gap
         return [] if self._is_tested else self._list_questions(self._bounds)
 
     def _bound(
-        self, places: Floats, values: Floats, watched: Mapping[int, Watched]
+        self,
+        places: Floats,
+        values: Floats,
+        doubts: Floats,
+        watched: Mapping[int, Watched],
     ) -> tuple[Surrogate, Bounds]:
         """Model of the cases solved so far, and what it allows."""
         tolerance = _set_tolerance(values, self.settings, watched)
-        model = fit_surrogate(places, values, NOISE * tolerance)
+        model = fit_surrogate(places, values, NOISE * tolerance, doubts)
         return model, bound_quantities(
             model,
             values,
@@ -353,6 +366,7 @@ class MaximaSearch:
         return Maxima(
             points=self.points,
             values=self.values,
+            doubts=self.doubts,
             maximum=maximum,
             upper_bound=maximum if bounds is None else tuple(bounds.upper.tolist()),
             governing=governing,
@@ -360,6 +374,11 @@ class MaximaSearch:
             log=tuple(self.log),
             surrogate=self._model,
         )
+
+
+def fill_doubts(doubts: Sequence[Values | None], quantities: int) -> Floats:
+    """Errors of values, shape (n, quantities): 0 where there is no doubt."""
+    return np.array([one or (0.0,) * quantities for one in doubts])
 
 
 def _measure_errors(

@@ -52,6 +52,8 @@ class Surrogate:
         Errors up to this size were no evidence, in the quantity's unit.
     far_shares : ndarray, shape (n,)
         Share of each score that counts far away.
+    doubts : ndarray, shape (n, quantities)
+        Errors of the values themselves, in the quantity's unit; mostly 0.
     """
 
     places: Floats
@@ -59,6 +61,7 @@ class Surrogate:
     scores: Floats
     noise: Floats
     far_shares: Floats
+    doubts: Floats
     _inverse: Floats
     _trend: Floats
     _trend_covariance: Floats
@@ -88,6 +91,21 @@ class Surrogate:
         scale = _fade_scores(distances, self.scores[:, chosen], self.far_shares)
         return Prediction(mean=mean, standard_error=scale * spread[:, None])
 
+    def find_sway(self, at: Floats, quantities: Sequence[int]) -> Floats:
+        """Most by which errors of the values move the mean, eq. (M3a).
+
+        Of some quantities, shape (n, len(quantities)).
+        """
+        errs = self.doubts.any(axis=1)
+        if not errs.any():
+            return np.zeros((len(at), len(quantities)))
+        near = _correlate(_measure_distances(at, self.places))
+        lack = _build_trend(at) - near @ self._inverse @ self._trend
+        by_trend = self._trend_covariance @ (self._trend.T @ self._inverse[:, errs])
+        shares = near @ self._inverse[:, errs] + lack @ by_trend
+        result: Floats = np.abs(shares) @ self.doubts[errs][:, list(quantities)]
+        return result
+
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
         trend, near = _build_trend(at), _correlate(_measure_distances(at, self.places))
@@ -104,7 +122,10 @@ def _fade_scores(distances: Floats, scores: Floats, far_shares: Floats) -> Float
 
 
 def fit_surrogate(
-    places: Floats, values: Floats, noise: Floats | float = 0.0
+    places: Floats,
+    values: Floats,
+    noise: Floats | float = 0.0,
+    doubts: Floats | None = None,
 ) -> Surrogate:
     """Model through solved cases; more cases than trend terms are needed.
 
@@ -118,6 +139,8 @@ def fit_surrogate(
         Held-out errors up to this size, in the unit of the quantity, are no evidence
         of a feature: meshes change from case to case. Close cases would otherwise
         take that for a steep one.
+    doubts : ndarray, shape (n, quantities), optional
+        Errors of values that are known roughly only, 0 of the others; none by default.
 
     Returns
     -------
@@ -144,6 +167,7 @@ def fit_surrogate(
         scores=np.maximum(np.abs(weights) / diagonal - noise, 0.0) * np.sqrt(diagonal),
         noise=np.asarray(noise, dtype=np.float64),
         far_shares=_share_far(distances, places.shape[1]),
+        doubts=np.zeros_like(values) if doubts is None else doubts,
         _inverse=inverse,
         _trend=trend,
         _trend_covariance=covariance,

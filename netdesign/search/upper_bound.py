@@ -114,7 +114,8 @@ def bound_quantities(
         factor = _inflate(at, inflations, len(best))[:, asked]
         result: Floats = np.full((len(at), len(best)), np.inf)
         likely = mean + certainty * factor * standard_error
-        result[:, asked] = likely + NOISE * tolerance[asked]
+        sway = model.find_sway(at, asked)
+        result[:, asked] = likely + sway + NOISE * tolerance[asked]
         return result
 
     allowed = reach(looked_at)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from datetime import date
 from functools import lru_cache
+from itertools import product
 
 from netdesign.checks import Declaration
 from netdesign.site.cells.findings import Finding, add_nearest
@@ -25,6 +26,7 @@ _OF_GEOMETRY = (
     ("net", "gap"),
     ("net", "ends"),
 )
+_OF_ROWS = (*_OF_GEOMETRY, (Member.POST, "lateral"))  # of no support
 _ANCHORS = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR, Member.DOWNHILL_ANCHOR)
 _OF_DIRECTIONS = (
     *((anchor, mode) for anchor in _ANCHORS for mode in ("bending", "direction")),
@@ -38,7 +40,8 @@ DECLARABLE: tuple[tuple[str, str], ...] = (
     *_OF_GEOMETRY,
 )
 
-_Check = tuple[str, str, str]  # net row ("" for all), member, mode
+_Subject = tuple[str, str, str]  # member, mode, position of its support or ""
+_Check = tuple[str, _Subject]  # net row ("" for all)
 
 
 def read_declared(
@@ -67,14 +70,18 @@ def read_declared(
             rule = say("declared.twice", place=twice.source)
             refuse(line["check"], rule, say("declared.once"), findings)
             continue
-        declared[found.row_id, found.member, found.mode] = found
+        declared[found.row_id, _name_subject(found)] = found
     return tuple(declared.values())
 
 
 def _meet(one: Declaration, other: Declaration) -> bool:
     """Two declarations concern the same check of some net row."""
     same_row = one.row_id == other.row_id or "" in (one.row_id, other.row_id)
-    return same_row and (one.member, one.mode) == (other.member, other.mode)
+    return same_row and _name_subject(one) == _name_subject(other)
+
+
+def _name_subject(one: Declaration) -> _Subject:
+    return one.member, one.mode, one.position
 
 
 def _read_line(
@@ -90,7 +97,8 @@ def _read_line(
     subject = names.get(normalise(check.word))
     if check.word and subject is None:
         shown = tuple(name_check(*one) for one in DECLARABLE)
-        accepted = say("declared.accepted", checks=shown)
+        end = say("check.of_end", check="...")
+        accepted = say("declared.accepted", checks=shown, end=end)
         refuse(check, say("declared.unknown"), accepted, findings)
     if day.word and not _is_date(day.word):
         refuse(day, say("measured.no_date"), say("declared.such_as"), findings)
@@ -100,6 +108,7 @@ def _read_line(
         row_id=row.word,
         member=subject[0],
         mode=subject[1],
+        position=subject[2],
         document=line["document"].word,
         author=line["author"].word,
         date=day.word,
@@ -116,11 +125,16 @@ def _is_date(text: str) -> bool:
 
 
 @lru_cache(maxsize=1)
-def _list_names() -> Mapping[str, tuple[str, str]]:
+def _list_names() -> Mapping[str, _Subject]:
     """Checks by their names in every language, as reports have them, and by id."""
-    names: dict[str, tuple[str, str]] = {}
-    for subject in DECLARABLE:
+    names: dict[str, _Subject] = {}
+    at_ends = (("edge", ".end"), ("", ""))
+    for (member, mode), (position, end) in product(DECLARABLE, at_ends):
+        if position and (member, mode) in _OF_ROWS:
+            continue
+        subject = (member, mode, position)
         title = name_check(*subject)
-        spellings = ["".join(subject), *(render(title, one) for one in LANGUAGES)]
+        spelt = f"{member}.{mode}{end}"
+        spellings = [spelt, *(render(title, one) for one in LANGUAGES)]
         names |= dict.fromkeys(map(normalise, spellings), subject)
     return names

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import get_args
 
 from netdesign.checks import Declaration
 from netdesign.coupling.scene import is_overtopped
@@ -51,6 +52,11 @@ DEPENDENT_MODES: tuple[tuple[Member, str], ...] = (
 )
 
 
+# What a row takes of a case, beside the usual three; glide if its ground slides.
+_GLIDE = frozenset(("slip_length", "glide_factor"))
+_OF_ROW = _GLIDE | {
+    *("thickness", "snow_height", "upslope_length", "slack", "net_stiffness")
+}
 # Of the ends of a row of panels.
 END_MODES: tuple[tuple[EndMember, str], ...] = (
     (EndMember.LATERAL_ANCHOR, "tendon"),
@@ -226,6 +232,14 @@ class NetRow:
             return self.end_resistances
         return self.resistances
 
+    def has_same_type_at_end(self, member: str) -> bool:
+        """Whether a member is of one type at the row's end and inside it."""
+        inside, end = (
+            {one.type_id for one in self.resistances_at(place) if one.member == member}
+            for place in get_args(Position)
+        )
+        return inside == end
+
     @property
     def is_overtopped(self) -> bool:
         """Whether the snow is thicker than the net is high."""
@@ -251,10 +265,20 @@ class NetRow:
         return scale_layers(self.layers, self.held_thickness, density)
 
     def at(self, case: Case) -> NetRow:
-        """Row with what the case has of its own; itself where that is nothing."""
+        """Row with what the case has of its own; itself where that is nothing.
+
+        Raises
+        ------
+        ValueError
+            If a quantity of the case has no place in a row: a fault of the program.
+        """
         values = dict(case.others)
         if not values:
             return self
+        can_glide = self.ground.kind == "sliding" or self.glide_factor is not None
+        unknown = values.keys() - (_OF_ROW if can_glide else _OF_ROW - _GLIDE)
+        if unknown:
+            raise ValueError(f"a net row does not take {sorted(unknown)} of a case")
         if "snow_height" in values:
             height = values["snow_height"]
             values["thickness"] = compute_thickness(height, self.slope_angle)
@@ -337,15 +361,19 @@ class Site:
     declared: tuple[Declaration, ...] = ()
 
     def find_declaration(
-        self, row_id: str, member: str, mode: str
+        self, row: NetRow, member: str, mode: str, position: str = ""
     ) -> Declaration | None:
-        """Declaration of a check of a net row; None if it is proven here or nowhere."""
-        return next(
-            (
-                one
-                for one in self.declared
-                if one.row_id in ("", row_id)
-                and (one.member, one.mode) == (member, mode)
-            ),
-            None,
-        )
+        """Declaration of a check of a net row; None if it is proven here or nowhere.
+
+        ``position`` is that of its support. What is declared of no support is not
+        proven of an anchor of another type at the row's end.
+        """
+        found = {
+            one.position: one
+            for one in self.declared
+            if one.row_id in ("", row.id) and (one.member, one.mode) == (member, mode)
+        }
+        if position != "edge":
+            return found.get("")
+        general = found.get("") if row.has_same_type_at_end(member) else None
+        return found.get("edge", general)

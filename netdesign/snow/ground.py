@@ -14,6 +14,7 @@ import numpy as np
 
 from netdesign.errors import ModelError
 from netdesign.guards import require_one_of, require_within
+from netdesign.numerics.arrays import Number
 from netdesign.words.message import say
 
 GroundKind = Literal["free", "no-slip", "sliding"]
@@ -120,21 +121,22 @@ class GlideTable:
             slip_ratios=(ratios[above - 1], ratios[above]),
         )
 
-    def find_glide_factor(self, slip_ratio: float) -> float:
-        """Glide factor of a slip length.
+    def find_glide_factor(self, slip_ratio: Number) -> Number:
+        """Glide factor of a slip length, or of each of many.
 
         Parameters
         ----------
-        slip_ratio : float
+        slip_ratio : float or ndarray
             Slip length over snow thickness [-].
 
         Returns
         -------
-        float
+        float or ndarray
             N [-]; beyond the table that of its end.
         """
         factors, ratios = (1.0, *self.glide_factors), (0.0, *self.slip_ratios)
-        return float(np.interp(slip_ratio, ratios, factors))
+        found = np.interp(slip_ratio, ratios, factors)
+        return found if isinstance(slip_ratio, np.ndarray) else float(found)
 
 
 @lru_cache(maxsize=1)

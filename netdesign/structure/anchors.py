@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from netdesign.guards import require_positive
+from netdesign.numerics.arrays import Floats, Mask, Number
+from netdesign.numerics.either import as_mask, measure_length, take_larger
 from netdesign.outcome import Outcome
-from netdesign.structure.head import FailedSupport, HeadForces, compute_head_forces
-from netdesign.structure.layout import Point, SupportPoints
+from netdesign.structure.axis import measure_pull
+from netdesign.structure.head import (
+    FailedSupport,
+    HeadForces,
+    Vector,
+    compute_head_forces,
+    find_direction,
+    hold_head,
+)
+from netdesign.structure.layout import Point, SupportLayout, SupportPoints, locate_base
 from netdesign.structure.members import Member
 from netdesign.words.message import say
 
@@ -91,18 +102,109 @@ class AnchorForces:
         One anchor for net and uphill guy takes the sum of both sizes, which is
         never less than their resultant. Theory: structure/THEORY.md, eq. (S7).
         """
-        foot, uphill = self.foot_anchor.size, self.uphill_anchor.size
-        if self.is_foot_shared:
-            foot = uphill = foot + uphill
-        return {
-            Member.FOOT_ANCHOR: foot,
-            Member.UPHILL_GUY: self.head.uphill_guy_tension,
-            Member.UPHILL_ANCHOR: uphill,
-            Member.DOWNHILL_GUY: self.head.downhill_guy_tension,
-            Member.DOWNHILL_ANCHOR: self.downhill_anchor.size,
-            Member.POST: self.head.post_compression,
-            Member.POST_BASE: max(-self.post_base.y, 0.0),  # across the plate, (S8)
-        }
+        return _list_forces(
+            foot=self.foot_anchor.size,
+            uphill=(self.head.uphill_guy_tension, self.uphill_anchor.size),
+            downhill=(self.head.downhill_guy_tension, self.downhill_anchor.size),
+            post=self.head.post_compression,
+            out_of_ground=self.post_base.y,
+            is_foot_shared=self.is_foot_shared,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ManyForces:
+    """Forces of many supports that have one layout and heads of their own.
+
+    Attributes
+    ----------
+    of_members : mapping of str to ndarray
+        Characteristic force that each member must resist [N].
+    head_pull : ndarray
+        Size of the pull on the head [N].
+    foot_turn : ndarray
+        Inclination of the pull on the foot anchor, as `measure_pull` has it [rad].
+    is_held : ndarray of bool
+        The support has an equilibrium; the forces are of use only where it has.
+    """
+
+    of_members: Mapping[str, Floats]
+    head_pull: Floats
+    foot_turn: Floats
+    is_held: Mask
+
+
+def compute_many_forces(
+    layout: SupportLayout,
+    head: Vector[Floats],
+    *,
+    foot_pull_per_m: Vector[Floats],
+    head_pull_per_m: Vector[Floats],
+) -> ManyForces:
+    """Member forces of many supports at once, as `compute_anchor_forces` has them.
+
+    Parameters
+    ----------
+    layout : SupportLayout
+        Of all of them.
+    head : tuple of ndarray, shape (2,)
+        Where each net hangs, from its foot [m].
+    foot_pull_per_m, head_pull_per_m : tuple of ndarray, shape (2,)
+        As there, finite, of shapes that go together with the heads' [N/m].
+
+    Verified by
+    -----------
+    tests/structure/test_many_forces.py
+    """
+    foot = _scale(foot_pull_per_m, layout.post_spacing)
+    pull = _scale(head_pull_per_m, layout.post_spacing)
+    ground = 0.0 * head[0]
+    x_base = locate_base(layout, *head)
+    post = find_direction(head, (x_base, ground))
+    held = hold_head(
+        pull,
+        post,
+        find_direction(head, (ground - layout.uphill_anchor_distance, ground)),
+        find_direction(head, (x_base + layout.downhill_anchor_distance, ground)),
+    )
+    uphill, downhill = held.uphill_guy_tension, held.downhill_guy_tension
+    return ManyForces(
+        of_members=_list_forces(
+            foot=measure_length(*foot),
+            uphill=(uphill, uphill),
+            downhill=(downhill, downhill),
+            post=held.post_compression,
+            out_of_ground=held.post_compression * post[1],
+            is_foot_shared=layout.uphill_anchor_distance == 0.0,
+        ),
+        head_pull=measure_length(*pull),
+        foot_turn=measure_pull(*foot, Member.FOOT_ANCHOR),
+        is_held=as_mask(held.is_held),
+    )
+
+
+def _list_forces(
+    *,
+    foot: Number,
+    uphill: Vector[Number],
+    downhill: Vector[Number],
+    post: Number,
+    out_of_ground: Number,
+    is_foot_shared: bool,
+) -> dict[str, Number]:
+    """Forces by (S7) and (S8): guy and anchor in pairs; the base across its plate."""
+    (uphill_guy, uphill_anchor), (downhill_guy, downhill_anchor) = uphill, downhill
+    if is_foot_shared:
+        foot = uphill_anchor = foot + uphill_anchor
+    return {
+        Member.FOOT_ANCHOR: foot,
+        Member.UPHILL_GUY: uphill_guy,
+        Member.UPHILL_ANCHOR: uphill_anchor,
+        Member.DOWNHILL_GUY: downhill_guy,
+        Member.DOWNHILL_ANCHOR: downhill_anchor,
+        Member.POST: post,
+        Member.POST_BASE: take_larger(-out_of_ground, 0.0),
+    }
 
 
 def compute_anchor_forces(
@@ -182,5 +284,5 @@ def _force_from_head(
     return GroundForce(member=member, x=thrust * x / length, y=thrust * y / length)
 
 
-def _scale(pull_per_m: Point, width: float) -> Point:
+def _scale(pull_per_m: Vector[Number], width: float) -> Vector[Number]:
     return (pull_per_m[0] * width, pull_per_m[1] * width)

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from netdesign.guards import require_within
+from netdesign.numerics.arrays import Number
+from netdesign.numerics.either import measure_turn
 from netdesign.structure.members import Member
 
 LEAST_AXIS, MOST_AXIS = math.radians(-30.0), math.radians(90.0)
@@ -46,23 +48,23 @@ class PullRange:
         return max(abs(self.least - axis), abs(self.largest - axis))
 
 
-def measure_pull(x: float, y: float, anchor: str) -> float:
+def measure_pull(x: Number, y: Number, anchor: str) -> Number:
     """Inclination of a pull on an anchor; structure/THEORY.md, eq. (S12).
 
     Parameters
     ----------
-    x, y : float
+    x, y : float or ndarray
         Force on the ground, X downslope and Y out of it [N].
     anchor : str
         Which of the three it is; it says which way along the slope counts as 0.
 
     Returns
     -------
-    float
+    float or ndarray
         Against the slope surface, pi/2 straight out of the ground [rad].
     """
     facing = -1.0 if anchor == Member.DOWNHILL_ANCHOR else 1.0
-    return math.atan2(y, facing * x)
+    return measure_turn(facing * x, y)
 
 
 def turn_by_splay(inclination: float, splay: float) -> float:

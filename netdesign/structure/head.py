@@ -6,9 +6,17 @@ import math
 import sys
 from dataclasses import dataclass
 from itertools import chain
-from typing import ClassVar
+from typing import ClassVar, Generic, TypeAlias
 
 from netdesign.guards import require_within
+from netdesign.numerics.arrays import Number
+from netdesign.numerics.either import (
+    Truth,
+    choose,
+    find_none,
+    measure_length,
+    take_larger,
+)
 from netdesign.outcome import Outcome
 from netdesign.structure.layout import Point, SupportPoints
 from netdesign.words.message import Message, say
@@ -17,6 +25,7 @@ from netdesign.words.message import Message, say
 # program: it bounds the forces at 57 times the pull, and so their rounding error.
 MIN_GUY_ANGLE = math.radians(1.0)
 
+Vector: TypeAlias = tuple[Number, Number]
 _ROUNDING = 64 * sys.float_info.epsilon  # relative to the pull
 
 
@@ -83,15 +92,68 @@ def compute_head_forces(
             outcome=Outcome.NONFINITE,
             reason=say("support.head_no_number"),
         )
-    post = _direction(points.head, points.post_base)
+    post = find_direction(points.head, points.post_base)
     if post == (0.0, 0.0):
         return FailedSupport(
             outcome=Outcome.OUT_OF_VALIDITY,
             reason=say("support.no_length"),
         )
-    if abs(_cross(pull, post)) <= _ROUNDING * math.hypot(*pull):
-        return _carry_by_post_alone(pull, post)
-    return _carry_by_pair(pull, post, points)
+    uphill = find_direction(points.head, points.uphill_anchor)
+    downhill = find_direction(points.head, points.downhill_anchor)
+    held = hold_head(pull, post, uphill, downhill)
+    if not held.is_held:
+        return FailedSupport(outcome=Outcome.NO_EQUILIBRIUM, reason=_explain(held))
+    return HeadForces(
+        post_compression=held.post_compression,
+        uphill_guy_tension=held.uphill_guy_tension,
+        downhill_guy_tension=held.downhill_guy_tension,
+        reason=say(_tell_carriers(held)),
+    )
+
+
+def hold_head(
+    pull: Vector[Number],
+    post: Vector[Number],
+    uphill: Vector[Number],
+    downhill: Vector[Number],
+) -> HeldHead[Number]:
+    """Forces in post and guys that hold the pull on a head, or on each of many.
+
+    Theory: structure/THEORY.md, eqs. (S2) to (S4).
+
+    Parameters
+    ----------
+    pull : tuple of float or ndarray, shape (2,)
+        Force of the net on the head, finite [N].
+    post, uphill, downhill : tuple of float or ndarray, shape (2,)
+        Unit vectors from the head to post base and anchors; (0, 0) for a guy of no
+        length. The post has one.
+
+    Verified by
+    -----------
+    tests/structure/test_many_forces.py
+    """
+    across = _cross(pull, post)
+    size = measure_length(*pull)
+    is_alone = abs(across) <= _ROUNDING * size
+    along = pull[0] * post[0] + pull[1] * post[1]
+    up = _resolve(pull, post, uphill)
+    down = _resolve(pull, post, downhill)
+    none = 0.0 * size
+    by_up = find_none(is_alone, find_none(up.holds))
+    by_down = find_none(is_alone, up.holds, find_none(down.holds))
+    of_pair = choose(by_up, up.compression, choose(by_down, down.compression, none))
+    return HeldHead(
+        post_compression=choose(is_alone, along, of_pair),
+        uphill_guy_tension=choose(by_up, up.tension, none),
+        downhill_guy_tension=choose(by_down, down.tension, none),
+        is_alone=is_alone,
+        is_held=find_none(
+            find_none(is_alone, by_up, by_down), is_alone & (along < 0.0)
+        ),
+        uphill=up,
+        downhill=down,
+    )
 
 
 def resolve_signed(
@@ -119,73 +181,108 @@ def resolve_signed(
     -----------
     tests/envelope/test_signed.py
     """
-    post, guy = _direction(head, post_base), _direction(head, anchor)
+    post, guy = find_direction(head, post_base), find_direction(head, anchor)
+    pair = _resolve(pull, post, guy)
+    return None if pair.is_along else (pair.signed_compression, pair.tension)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Pair(Generic[Number]):
+    """Post and one guy under a pull, signs allowed; eqs. (S2) and (S4).
+
+    ``is_along``: the guy lies along the post, and the forces say nothing.
+    """
+
+    signed_compression: Number
+    compression: Number
+    tension: Number
+    is_along: Truth
+    is_pushed: Truth
+    is_pulled: Truth
+
+    @property
+    def holds(self) -> Truth:
+        return find_none(self.is_along, self.is_pushed, self.is_pulled)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeldHead(Generic[Number]):
+    """Forces of post and guys at a head, or at each of many [N].
+
+    Attributes
+    ----------
+    post_compression, uphill_guy_tension, downhill_guy_tension : float or ndarray
+        Of use only where the head is held.
+    is_alone, is_held : bool or ndarray
+        The post carries alone; some members can hold the head.
+    uphill, downhill : _Pair
+        Post and each guy.
+    """
+
+    post_compression: Number
+    uphill_guy_tension: Number
+    downhill_guy_tension: Number
+    is_alone: Truth
+    is_held: Truth
+    uphill: _Pair[Number]
+    downhill: _Pair[Number]
+
+
+def _resolve(
+    pull: Vector[Number], post: Vector[Number], guy: Vector[Number]
+) -> _Pair[Number]:
     sine = _cross(post, guy)
-    if abs(sine) < math.sin(MIN_GUY_ANGLE):
-        return None
-    return _cross(pull, guy) / sine, _cross(pull, post) / sine
-
-
-def _carry_by_post_alone(pull: Point, post: Point) -> HeadForces | FailedSupport:
-    """Eq. (S3): the pull has no part across the post, both guys are slack."""
-    compression = pull[0] * post[0] + pull[1] * post[1]
-    if compression < 0.0:
-        return FailedSupport(
-            outcome=Outcome.NO_EQUILIBRIUM,
-            reason=say("support.post_in_tension"),
-        )
-    return HeadForces(post_compression=compression, reason=say("support.post_alone"))
-
-
-def _carry_by_pair(
-    pull: Point, post: Point, points: SupportPoints
-) -> HeadForces | FailedSupport:
-    """Try the post with the uphill guy, else with the downhill guy."""
-    uphill = _resolve(pull, post, _direction(points.head, points.uphill_anchor))
-    if not isinstance(uphill, Message):
-        return HeadForces(
-            post_compression=uphill[0],
-            uphill_guy_tension=uphill[1],
-            reason=say("support.post_and_uphill"),
-        )
-    downhill = _resolve(pull, post, _direction(points.head, points.downhill_anchor))
-    if not isinstance(downhill, Message):
-        return HeadForces(
-            post_compression=downhill[0],
-            downhill_guy_tension=downhill[1],
-            reason=say("support.post_and_downhill"),
-        )
-    return FailedSupport(
-        outcome=Outcome.NO_EQUILIBRIUM,
-        reason=say("support.no_equilibrium", uphill=uphill, downhill=downhill),
+    is_along = abs(sine) < math.sin(MIN_GUY_ANGLE)
+    divisor = choose(is_along, 1.0 + 0.0 * sine, sine)
+    compression = _cross(pull, guy) / divisor
+    tension = _cross(pull, post) / divisor
+    # A pull along the guy's own line leaves a post force of rounding size.
+    rounding = _ROUNDING * measure_length(*pull) / abs(divisor)
+    return _Pair(
+        signed_compression=compression,
+        compression=take_larger(compression, 0.0),
+        tension=tension,
+        is_along=is_along,
+        is_pushed=tension < 0.0,
+        is_pulled=compression < -rounding,
     )
 
 
-def _resolve(pull: Point, post: Point, guy: Point) -> tuple[float, float] | Message:
-    """Eq. (S2): compression of the post and tension of the guy, or why not."""
-    sine = _cross(post, guy)
-    if abs(sine) < math.sin(MIN_GUY_ANGLE):
+def _tell_carriers(held: HeldHead[float]) -> str:
+    if held.is_alone:
+        return "support.post_alone"
+    by_up = held.uphill.holds
+    return "support.post_and_uphill" if by_up else "support.post_and_downhill"
+
+
+def _explain(held: HeldHead[float]) -> Message:
+    """Reason why nothing holds a head."""
+    if held.is_alone:
+        return say("support.post_in_tension")
+    return say(
+        "support.no_equilibrium",
+        uphill=_explain_pair(held.uphill),
+        downhill=_explain_pair(held.downhill),
+    )
+
+
+def _explain_pair(pair: _Pair[float]) -> Message:
+    if pair.is_along:
         return say("support.guy_along_post")
-    compression = _cross(pull, guy) / sine
-    tension = _cross(pull, post) / sine
-    if tension < 0.0:
-        return say("support.guy_pushes")
-    # A pull along the guy's own line leaves a post force of rounding size.
-    if compression < -_ROUNDING * math.hypot(*pull) / abs(sine):
-        return say("support.post_pulls")
-    return max(compression, 0.0), tension
+    return say("support.guy_pushes" if pair.is_pushed else "support.post_pulls")
 
 
-def _cross(a: Point, b: Point) -> float:
+def _cross(a: Vector[Number], b: Vector[Number]) -> Number:
     """Moment of ``b`` about the tail of ``a``, positive from X towards Y."""
     return a[0] * b[1] - a[1] * b[0]
 
 
-def _direction(start: Point, end: Point) -> Point:
+def find_direction(start: Vector[Number], end: Vector[Number]) -> Vector[Number]:
     """Unit vector from ``start`` to ``end``; (0, 0) where they coincide."""
     x, y = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(x, y)
-    return (x / length, y / length) if length > 0.0 else (0.0, 0.0)
+    length = measure_length(x, y)
+    length = choose(length > 0.0, length, 1.0 + 0.0 * length)
+    return x / length, y / length
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Number
 
 # Defaults of this program, chosen for a sensible geometry; from no standard.
 DEFAULT_POST_TILT = math.radians(15.0)
@@ -83,10 +84,7 @@ def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
     head : tuple of float, shape (2,)
         Where the net hangs, (x, y) from its foot [m].
     """
-    x_head, y_head = head
-    x_base = layout.post_base_distance
-    if x_base is None:
-        x_base = x_head - y_head * math.tan(layout.post_tilt)
+    x_base = locate_base(layout, *head)
     return SupportPoints(
         net_foot=(0.0, 0.0),
         head=head,
@@ -94,3 +92,18 @@ def place_support(layout: SupportLayout, head: Point) -> SupportPoints:
         uphill_anchor=(-layout.uphill_anchor_distance, 0.0),
         downhill_anchor=(x_base + layout.downhill_anchor_distance, 0.0),
     )
+
+
+def locate_base(layout: SupportLayout, x_head: Number, y_head: Number) -> Number:
+    """Post base downslope of the net's foot [m], below a head or below many.
+
+    Parameters
+    ----------
+    layout : SupportLayout
+        What the engineer chose.
+    x_head, y_head : float or ndarray
+        Where the net hangs, from its foot [m].
+    """
+    if layout.post_base_distance is not None:
+        return 0.0 * x_head + layout.post_base_distance
+    return x_head - y_head * math.tan(layout.post_tilt)

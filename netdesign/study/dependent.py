@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass, replace
 
 from netdesign.checks import Standard
+from netdesign.checks.check import lack_factor
 from netdesign.checks.schema import ACTION_FACTOR, POST_EFFICIENCY
 from netdesign.envelope.ranges import Ranges
 from netdesign.errors import ModelError
@@ -123,7 +124,7 @@ def _settle_post(
     on_action = known.standard.find(ACTION_FACTOR)
     on_post = known.standard.find_resistance_factor(given.mode, given.basis)
     if efficiency is None:
-        lack = say("check.no_factor", factor=POST_EFFICIENCY)
+        lack = lack_factor(POST_EFFICIENCY)
         return replace(given, lack=lack)
     if on_action is None or on_post is None:
         return given
@@ -180,7 +181,7 @@ class SnowPressure:
     density: float
     gravity: float
     height_vertical: float
-    load: SnowLoad
+    load: SnowLoad[float]
 
 
 def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
@@ -200,9 +201,7 @@ def find_snow_pressure(row: NetRow, ranges: Ranges) -> SnowPressure:
 
 def _find_pressure(model: LoadModel, row: NetRow, densest: float) -> SnowPressure:
     height = row.held_thickness / math.cos(row.slope_angle)
-    on_density = (
-        1.0 if row.altitude is None else compute_altitude_factor(model, row.altitude)
-    )
+    on_density = compute_altitude_factor(model, row.altitude)
     cases = (
         (densest, height),
         (on_density * model.density, height),

@@ -9,9 +9,15 @@ from netdesign.checks import CheckResult, Standard, load_standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
 from netdesign.guideline.comparison import find_glide_factor
-from netdesign.guideline.load_model import read_end_effect
+from netdesign.guideline.load_model import (
+    compute_altitude_factor,
+    read_end_effect,
+    read_load_model,
+)
+from netdesign.numerics.arrays import Number
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow
+from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import (
     LoadedWidth,
@@ -73,12 +79,48 @@ def load_guideline() -> Standard:
 
 
 def find_row_glide_factor(row: NetRow) -> float:
-    """Glide factor of a row as typed [-], or that of its ground."""
+    """Glide factor by which the guideline loads a row; THEORY of the guideline.
+
+    As typed [-], or that of its ground; never less than the least of the
+    guideline's tables.
+    """
+    return find_glide_factors(row, row.snow_thickness)
+
+
+def find_glide_factors(row: NetRow, snow_thickness: Number) -> Number:
+    """Glide factor of a row under snow of another thickness, or of many [-]."""
+    limits = load_glide_limits()
     if row.glide_factor is not None:
-        return row.glide_factor
-    table = load_guideline().find_table(GLIDE_FACTORS)
-    largest = max((value for _, _, value in table.rows), default=1.0) if table else 1.0
-    return find_glide_factor(row.ground, row.snow_thickness, largest)
+        return 0.0 * snow_thickness + max(row.glide_factor, limits[0])
+    return find_glide_factor(row.ground, snow_thickness, limits)
+
+
+def find_altitude_factor(row: NetRow) -> float:
+    """Factor on the density of load case 1 at a row [-]; the largest if not known."""
+    return compute_altitude_factor(read_load_model(load_guideline()), row.altitude)
+
+
+def list_assumed(row: NetRow) -> list[Message]:
+    """What the guideline's load takes for granted about a row."""
+    found = []
+    if row.altitude is None:
+        found.append(say("row.altitude_assumed", factor=find_altitude_factor(row)))
+    glide = row.glide_factor
+    if glide is None:
+        anything = (1.0, LARGEST_GLIDE_FACTOR)
+        glide = find_glide_factor(row.ground, row.snow_thickness, anything)
+    least = load_glide_limits()[0]
+    if glide < least:
+        found.append(say("row.glide_assumed", glide=glide, least=least))
+    return found
+
+
+@lru_cache(maxsize=1)
+def load_glide_limits() -> tuple[float, float]:
+    """Least and largest glide factor of the guideline's tables [-]."""
+    tables = [one for one in load_guideline().tables if one.id in GLIDE_FACTORS]
+    found = [value for table in tables for _, _, value in table.rows]
+    return min(found), max(found)
 
 
 def find_effects(row: NetRow, standard: Standard) -> RowEffects:

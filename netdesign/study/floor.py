@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Literal
 
 from netdesign.checks import Standard
-from netdesign.envelope.ranges import USUAL, Case, Interval, Ranges
+from netdesign.envelope.ranges import USUAL, Case, Ranges
 from netdesign.guideline.comparison import NetGeometry
-from netdesign.guideline.floor import Floor, FloorForce, LoadedNet, find_floor
+from netdesign.guideline.floor import Floor, FloorForce, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
-from netdesign.study.effects import find_row_glide_factor, load_guideline
+from netdesign.study.effects import (
+    find_altitude_factor,
+    find_glide_factors,
+    list_assumed,
+    load_guideline,
+)
 from netdesign.study.records import FloorForceRecord, FloorRecord
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
@@ -22,19 +28,29 @@ def find_row_floor(row: NetRow, ranges: Ranges, standard: Standard) -> Floor | N
     """
     if standard.floor == "none":
         return None
-    span: Interval = ranges["inclination"]
+    low, high = (_place_at(row, ranges, end) for end in ("low", "high"))
+    span = ranges["inclination"]
     return find_floor(
         read_load_model(load_guideline()),
-        [
-            LoadedNet(
-                net=build_geometry(one, span.low),
-                glide_factor=find_row_glide_factor(one),
-            )
-            for one in list_corners(row, ranges)
-        ],
-        inclinations=(span.low, span.high),
-        altitude=row.altitude,
+        NetRanges(
+            net=build_geometry(row, span.low),
+            inclinations=(span.low, span.high),
+            thicknesses=(low.snow_thickness, high.snow_thickness),
+            stiffnesses=(low.net_stiffness_per_m, high.net_stiffness_per_m),
+            slacks=(low.slack, high.slack),
+            find_glide_factors=lambda thickness: (
+                find_glide_factors(low, thickness),
+                find_glide_factors(high, thickness),
+            ),
+        ),
+        row.altitude,
     )
+
+
+def _place_at(row: NetRow, ranges: Ranges, end: Literal["low", "high"]) -> NetRow:
+    """Row at one end of all ranges; the load rises with each, or falls."""
+    values = {name: getattr(span, end) for name, span in ranges.intervals}
+    return row.at(Case.of(values))
 
 
 def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
@@ -50,7 +66,7 @@ def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
     ]
 
 
-def build_geometry(row: NetRow, inclination: float) -> NetGeometry:
+def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
     """Net row as the guideline needs it, at an inclination [rad]."""
     return NetGeometry(
         slope_angle=row.slope_angle,
@@ -63,8 +79,8 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry:
     )
 
 
-def record_floor(floor: Floor | None) -> FloorRecord | None:
-    """Floor in engineer's units, each force with the load that it follows from."""
+def record_floor(floor: Floor | None, row: NetRow) -> FloorRecord | None:
+    """Floor of a row in engineer's units, each force with what it follows from."""
     if floor is None:
         return None
     standard = load_guideline()
@@ -72,6 +88,8 @@ def record_floor(floor: Floor | None) -> FloorRecord | None:
         profile=standard.id,
         sha256=standard.sha256,
         forces=[_record_force(one) for one in floor.forces],
+        altitude_factor=find_altitude_factor(row),
+        assumed=list_assumed(row),
         reason=floor.reason,
     )
 
@@ -83,6 +101,9 @@ def _record_force(one: FloorForce) -> FloorForceRecord:
         force_kN=kilonewton_from_newton(one.force),
         load_case=one.case.name,
         inclination_deg=given_degree_from_radian(one.at.net.inclination),
+        snow_thickness_m=one.at.net.snow_thickness,
+        slack=one.at.net.slack,
+        stiffness_kN_per_m=kilonewton_from_newton(one.at.net.stiffness),
         density_kg_m3=one.case.density,
         height_vertical_m=one.case.height_vertical,
         creep_factor=one.load.creep_factor,

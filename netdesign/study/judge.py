@@ -22,6 +22,7 @@ from netdesign.structure.members import (
     name_in_panel,
 )
 from netdesign.study.cases import CheckRun
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import find_loads
@@ -154,10 +155,11 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         head=head,
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
-        floor=record_floor(floor),
+        floor=record_floor(floor, row),
         panel=record_panel(row, solved.results, extremes, governing),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
+            *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
             *list_test_notes(checks, task.standard),
             *list_case_notes(cases),
             *list_history_notes(extremes),

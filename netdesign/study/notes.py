@@ -13,7 +13,7 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.effects import RowEffects
+from netdesign.study.effects import RowEffects, list_assumed
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
@@ -102,6 +102,7 @@ def list_row_notes(
             notes.append(told)
     if row.is_overtopped:
         notes.append(say("check.overtopped"))
+    notes += list_assumed(row)
     if row.panel_lack is not None:
         notes.append(say("panel.plain_figure", lack=row.panel_lack))
     return [*notes, *_list_pull_notes(pulls)]

@@ -8,10 +8,11 @@ from dataclasses import replace
 
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue
+from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.cases import CheckRun
-from netdesign.study.effects import load_guideline
+from netdesign.study.effects import load_glide_limits, load_guideline
 from netdesign.study.records import ProfileRecord, ProfileValue, Provenance
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem")
@@ -41,10 +42,15 @@ def _list_floor_values(standard: Standard) -> list[StandardValue]:
     """
     if standard.floor == "none":
         return []
-    model = [one for one in load_guideline().values if one.id.startswith("snow.")]
-    if all(standard.find(one.id) == one for one in model):
+    guideline, limits = load_guideline(), load_glide_limits()
+    tables = [one for one in guideline.tables if one.id in GLIDE_FACTORS]
+    used = [
+        *(one for one in guideline.values if one.id.startswith("snow.")),
+        *(one for table in tables for one in table.values if one.value in limits),
+    ]
+    if all(one in standard.listed for one in used):
         return []
-    return [replace(one, id=f"floor.{one.id}") for one in model]
+    return [replace(one, id=f"floor.{one.id}") for one in used]
 
 
 def _record_value(value: StandardValue) -> ProfileValue:

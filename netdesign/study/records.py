@@ -475,6 +475,9 @@ class FloorForceRecord:
     force_kN: float  # characteristic
     load_case: str  # "load_case_1" or "load_case_2"
     inclination_deg: float  # of the net, where the force is largest
+    snow_thickness_m: float  # of the snow that is held, there as well
+    slack: float
+    stiffness_kN_per_m: float
     density_kg_m3: float
     height_vertical_m: float
     creep_factor: float
@@ -491,6 +494,8 @@ class FloorRecord:
     profile: str  # whose load model
     sha256: str
     forces: list[FloorForceRecord]  # empty where the floor is not available
+    altitude_factor: float  # on the density of load case 1
+    assumed: list[Text] = field(default_factory=list)  # of the row, for its load
     reason: Text | None = None  # why it is not
 
 

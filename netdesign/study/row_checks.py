@@ -88,7 +88,7 @@ def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
         doubt = _find_doubt(task, extreme) if extreme else None
         action = end.demand(given.member) if end else None
         result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
-        settled = settle_check(task.site, row, result)
+        settled = settle_check(task.site, row, result, "edge")
         check = place_check(record_result(settled, given), "edge")
         if end is not None and extreme is not None:
             check = replace(
@@ -110,7 +110,9 @@ def _check_directions(
     return [
         record_result(settle_check(task.site, task.row, lateral)),
         *(
-            place_check(record_result(settle_check(task.site, task.row, one)), place)
+            place_check(
+                record_result(settle_check(task.site, task.row, one, place)), place
+            )
             for place, one in directions
         ),
     ]
@@ -179,12 +181,12 @@ def _record_member(
 ) -> CheckRecord:
     given, result = one.given, one.result
     if one.extreme is None or one.demand is None:
-        settled = settle_check(task.site, task.row, result)
+        settled = settle_check(task.site, task.row, result, one.width.position)
         return place_check(record_result(settled, given), one.width.position)
     before = task.probe.faults if task.probe else 0
     spreads = list_spreads(task, one, one.extreme)
     changes = list_changes(task, one, effects, is_worst=is_worst)
-    settled = settle_check(task.site, task.row, result)
+    settled = settle_check(task.site, task.row, result, one.width.position)
     plain = one.demand.record(effects, given.member)
     action = add_parts(plain, one.extreme.governing, given.member)
     check = replace(
@@ -206,6 +208,6 @@ def _distrust(task: RowCheck, one: MemberCheck, check: CheckRecord) -> CheckReco
     result = judge_forces(
         one.demand.action, one.given, task.standard, gap=_FAULT_BESIDE, doubt=one.doubt
     )
-    settled = settle_check(task.site, task.row, result)
+    settled = settle_check(task.site, task.row, result, one.width.position)
     reason = tell_governing(settled.reason, check.action)
     return replace(check, verdict=settled.verdict, reason=reason)

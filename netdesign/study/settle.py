@@ -70,15 +70,17 @@ def read_geometry(row: NetRow, ranges: Ranges) -> RowGeometry:
     )
 
 
-def settle_check(site: Site, row: NetRow, result: CheckResult) -> CheckResult:
-    """Check with what the workbook says beside its numbers.
+def settle_check(
+    site: Site, row: NetRow, result: CheckResult, position: Position | None = None
+) -> CheckResult:
+    """Check on a support, if it has one, with what the workbook says of it.
 
     Forces of a net below its snow are those of snow up to its head: information.
     A check may be declared as proven elsewhere.
     """
     if row.is_overtopped and result.member != Member.NET:
         result = withhold(result, say("check.overtopped"))
-    declaration = site.find_declaration(row.id, result.member, result.mode)
+    declaration = site.find_declaration(row, result.member, result.mode, position or "")
     return declare(result, declaration)
 
 

@@ -12,6 +12,7 @@ from netdesign.edge.json_text import list_fields
 from netdesign.words.message import Message, say
 
 SAME = 1e-6  # relative; other machines differ in the last digits only
+ROUNDING = 1e-12  # relative; of the same number, summed in another order
 # Absolute, of residuals, shares and small differences, which are rounding themselves.
 _NOISE = 1e-6
 _PERCENT = "_percent"  # end of the name of a difference or an error
@@ -56,7 +57,7 @@ def compare_values(
     stored, again : object
         Studies, or the same part of each.
     is_exact : bool
-        Numbers count as different in their last digit already; otherwise by more than
+        Numbers count as different by more than their rounding; otherwise by more than
         a millionth, which other machines and libraries do not reach.
     """
     old, new = list_values(stored), list_values(again)
@@ -102,6 +103,6 @@ def _find_noise(place: str) -> float:
 
 def _is_same(old: Any, new: Any, noise: float) -> bool:
     if all(isinstance(one, float) or type(one) is int for one in (old, new)):
-        tolerance = SAME if noise else 0.0
+        tolerance = SAME if noise else ROUNDING
         return math.isclose(old, new, rel_tol=tolerance, abs_tol=noise)
     return type(old) is type(new) and bool(old == new)

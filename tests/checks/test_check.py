@@ -18,8 +18,10 @@ from netdesign.checks.check import find_characteristic
 from netdesign.errors import ModelError
 from netdesign.outcome import Verdict
 from netdesign.resistance.pull_out import PullOutTests
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
+from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.message import say
-from netdesign.words.names import as_given
+from netdesign.words.names import as_given, name, name_mode
 from tests.checks.entries import a_resistance, a_value
 
 KN = 1e3
@@ -211,7 +213,9 @@ def test_missing_factor_is_not_proven_and_named(left_out):
     values = [v for v in plain_standard().values if v.id != left_out]
     result = check_member(a_band(9.0), a_resistance(), a_standard(*values), gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert f"the profile has no factor {left_out}" in str(result.reason)
+    assert f"the profile lacks its value {left_out}, factor of the" in str(
+        result.reason
+    )
 
 
 def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
@@ -219,7 +223,26 @@ def test_declared_pull_out_has_no_factor_in_the_nf_style_profile():
     standard = load_standard("nf-p-95-304-style")
     result = check_member(a_band(1.0), resistance, standard, gap=None)
     assert result.verdict is Verdict.NOT_PROVEN
-    assert "resistance.pull_out with basis 'declared'" in str(result.reason)
+    for language in LANGUAGES:
+        told = render(result.reason, language)
+        assert "pull_out" not in told
+        assert "'declared'" not in told
+        for one in ("declared", "tested", "computed"):
+            assert render(name("basis", one), language) in told
+    assert "give tests of the site" in str(result.reason)
+
+
+@pytest.mark.parametrize(("_", "mode"), [*MEMBER_MODES, *DEPENDENT_MODES])
+@pytest.mark.parametrize("basis", ["", "tested", "declared"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_lack_of_a_factor_names_its_mode_in_words(_, mode, basis, language):
+    """Of a profile with a factor of the action only."""
+    resistance = a_resistance(mode=mode, basis=basis)
+    bare = a_standard(a_value("action.snow", 1.0))
+    result = check_member(a_band(0.5), resistance, bare, gap=None)
+    told = render(result.reason, language)
+    assert f"resistance.{mode}, " in told  # what its profile has to be given
+    assert f"({render(name_mode(mode), language)})" in told
 
 
 def test_tested_and_computed_pull_out_have_their_own_factors():
@@ -400,16 +423,17 @@ NO_RESISTANCE = "no resistance is given for type GEWI 25, cell Anchors!B4"
                 "resistance": a_resistance(basis=""),
                 "standard": a_standard(),
             },
-            "Not proven: the profile has no factor action.snow; the profile has no "
-            "factor resistance.tendon.",
+            "Not proven: the profile lacks its value action.snow, factor of the "
+            "action; the profile lacks its value resistance.tendon, factor of the "
+            "resistance (tendon).",
         ),
         (
             {
                 "action": a_band(0.5),
                 "standard": a_standard(a_value("action.snow", 1.0)),
             },
-            "Not proven: the profile has no factor resistance.tendon with basis "
-            "'declared'.",
+            "Not proven: the profile lacks its value resistance.tendon, factor of the "
+            "resistance (tendon).",
         ),
     ],
 )

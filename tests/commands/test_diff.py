@@ -70,4 +70,4 @@ def test_a_turned_verdict_ends_with_1_in_text_and_document(call, files):
         assert call("diff", files / "old.json", path, *options).code == 1
         assert call("diff", path, files / "old.json", *options).code == 1
     shown = call("diff", files / "old.json", path).out.splitlines()
-    assert shown == ["verdict", "  verdict: not_proven -> fail"]
+    assert shown == ["verdict", "  verdict: not proven -> fail"]

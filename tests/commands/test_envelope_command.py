@@ -177,7 +177,11 @@ def test_plain_lines_tell_cases_gap_and_time_left(scene, tmp_path):
         (("--density", "250:450:3", "--friction", "15:45"), 2, "give n in all of them"),
         (("--density", "250:950"), 3, "snow density = 950.0: must lie above 0"),
         (("--friction", "15:80"), 3, "friction"),
-        (("--glide", "1:50"), 3, "glide factor = 50.0: slip lengths of the creep law"),
+        (
+            ("--glide", "1:50"),
+            3,
+            'ground law "no-slip" does not slide, but the envelope',
+        ),
         (("--density", "250:300", "--executor", "slurm"), 2, "dask://HOST:PORT"),
         (("--density", "250:300", "--accuracy", "0"), 2, "accuracy"),
     ],

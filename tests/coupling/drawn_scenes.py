@@ -7,7 +7,7 @@ import numpy as np
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
-from netdesign.snow.snowpack import Layer, Snowpack
+from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 
 GROUNDS = ("free", "no-slip", "sliding")
 HIGH_GLIDE_FACTORS = (2.6, 2.8, 3.0, 3.2)
@@ -67,6 +67,46 @@ def draw_smooth_site(seed):
             friction_angle=math.radians(rng.uniform(10.0, 45.0)),
         ),
         ground_contact=("two-sided", "one-sided")[seed // 4 % 2],
+    )
+
+
+def draw_layered_site(seed, *, is_denser_below):
+    """A practical scene of 2 to 4 layers on ground that glides.
+
+    physics.md has phi (design range) and ES; the guideline N and the nets' heights of
+    1.5 to 4.5 m. Chosen here, within what physics.md calls usual: psi to 50 degrees,
+    L / d, theta (design range 25 to 35 degrees), slack to 0.08, densities of layers.
+    """
+    rng = np.random.default_rng([17, seed])
+    thickness = float(rng.uniform(1.5, 4.5))
+    count = int(rng.integers(2, 5))
+    parts = rng.uniform(0.2, 1.0, count)
+    density = rng.uniform(150.0, 450.0, count)
+    if is_denser_below:
+        density = np.sort(density)[::-1]
+    layers = tuple(
+        Layer(thickness=float(high), density=float(rho))
+        for high, rho in zip(thickness * parts / parts.sum(), density, strict=True)
+    )
+    pack = build_layered_snowpack(
+        layers,
+        slope_angle=math.radians(rng.uniform(28.0, 50.0)),
+        upslope_length=thickness * float(rng.uniform(3.0, 10.0)),
+    )
+    stands_out = bool(rng.integers(2))
+    return Scene(
+        snowpack=pack,
+        ground=build_ground_from_glide_factor(
+            float(rng.uniform(1.2, 3.2)), pack.thickness
+        ),
+        net=Net(
+            height_normal=pack.thickness
+            * (rng.uniform(1.0, 1.25) if stands_out else 1.0),
+            inclination=math.radians(rng.uniform(10.0, 35.0)),
+            stiffness_per_m=float(np.exp(rng.uniform(math.log(2e6), math.log(1e8)))),
+            slack=float(rng.uniform(0.0, 0.08)),
+            friction_angle=math.radians(rng.uniform(15.0, 45.0)),
+        ),
     )
 
 

@@ -1,4 +1,7 @@
-"""Layered snow drawn over the practical ranges: solved, soon, or refused soon."""
+"""Layered snow drawn over the practical ranges: solved, soon, or refused soon.
+
+The suite takes a few draws; ``python -m pytest -m robustness`` takes hundreds.
+"""
 
 import math
 from dataclasses import replace
@@ -19,6 +22,7 @@ from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
+from tests.coupling.drawn_scenes import draw_layered_site
 
 GROUNDS = ("no-slip", "free", "sliding")
 # Linear solves times triangles that a scene may take, solved or refused: some 20
@@ -89,6 +93,50 @@ def test_drawn_layers_are_solved(work, number, is_denser_below):
     assert solution.balance.relative_residual <= 1e-8
     assert solution.balance.suction_share <= 0.05
     assert sum(work) <= MOST_WORK
+
+
+# Of a practical scene, solved or refused: some 2 s.
+MOST_PRACTICAL_WORK = 1e5
+
+
+@pytest.mark.parametrize("is_denser_below", [True, False])
+@pytest.mark.parametrize("seed", range(6))
+def test_practical_layers_are_solved(work, seed, is_denser_below):
+    scene = draw_layered_site(seed, is_denser_below=is_denser_below)
+    solution = solve_steady(scene, on_failure="raise")
+    assert solution.balance.relative_residual <= 1e-8
+    assert sum(work) <= MOST_PRACTICAL_WORK
+
+
+def is_of_geometry(scene, refused):
+    """Uniform snow of the same mass is refused for the same reason."""
+    uniform = replace(scene, snowpack=replace(scene.snowpack, layers=()))
+    result = solve_steady(uniform)
+    return (
+        isinstance(result, FailedSolution) and result.reason.key == refused.reason.key
+    )
+
+
+@pytest.mark.robustness
+@pytest.mark.parametrize("is_denser_below", [True, False])
+def test_of_hundreds_of_practical_layers_less_than_one_in_a_hundred_is_refused(
+    work, is_denser_below
+):
+    """Apart: what the geometry is refused for, and what the solver does not find."""
+    scenes, of_geometry, own = 400, [], []
+    for seed in range(scenes):
+        work.clear()
+        scene = draw_layered_site(seed, is_denser_below=is_denser_below)
+        solution = solve_steady(scene)
+        assert sum(work) <= MOST_PRACTICAL_WORK, seed
+        if isinstance(solution, Solution):
+            assert solution.balance.relative_residual <= 1e-8, seed
+        elif is_of_geometry(scene, solution):
+            of_geometry.append(seed)
+        else:
+            own.append(seed)
+    assert len(own) < 0.01 * scenes, own
+    assert len(of_geometry) < 0.01 * scenes, of_geometry
 
 
 # Layers in an order in which the net's rounds wander: soft snow between stiff.

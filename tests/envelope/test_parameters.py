@@ -6,11 +6,14 @@ import pytest
 from netdesign.envelope.parameters import ONE_QUANTITY, PARAMETERS, place_scene
 from netdesign.envelope.ranges import Case, Interval, Ranges, build_case, require_valid
 from netdesign.errors import ModelError
+from netdesign.snow.ground import GROUND_KINDS, GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
+from netdesign.words.catalogue import LANGUAGES, render
 from tests.solving.small_scene import build_scene
 
-SCENE = build_scene(Case(density=300.0, friction_angle=0.4, inclination=0.5))
+FREE = build_scene(Case(density=300.0, friction_angle=0.4, inclination=0.5))
+SCENE = replace(FREE, ground=GroundLaw(kind="sliding", slip_length=1.37))
 VALUES = {
     "density": 333.0,
     "friction_angle": 0.31,
@@ -80,8 +83,12 @@ def test_values_go_to_the_unit_of_their_key_and_back(name):
 
 @pytest.mark.parametrize("pair", ONE_QUANTITY)
 def test_one_quantity_under_two_names_is_refused(pair):
-    with pytest.raises(ModelError, match="one quantity"):
+    with pytest.raises(ModelError, match="one quantity") as caught:
         box(**dict.fromkeys(pair, (1.1, 1.2)))
+    for language in LANGUAGES:
+        told = render(caught.value.message, language)
+        assert all(render(PARAMETERS[one].label, language) in told for one in pair)
+        assert "_" not in told
 
 
 def test_glide_takes_the_thickness_that_ranges_with_it():
@@ -139,10 +146,63 @@ def test_all_faults_come_at_once():
     assert "slack = 0.9" in str(caught.value)
 
 
-def test_a_rigid_wall_has_no_envelope():
+# Ends outside the model, as somebody gives them: in degrees and kN.
+OUTSIDE = {
+    "density": 1234.5,
+    "friction_angle": 97.31,
+    "inclination": 93.7,
+    "slope_angle": 97.3,
+    "thickness": -3.7,
+    "snow_height": -1.23,
+    "upslope_length": -17.37,
+    "slack": 7.3,
+    "net_stiffness": -40.123456789,
+    "slip_length": -0.37,
+    "glide_factor": 9.37,
+}
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_refusal_has_the_number_as_given_and_its_unit(name, language):
+    one, given = PARAMETERS[name], OUTSIDE[name]
+    with pytest.raises(ModelError) as caught:
+        require_valid(SCENE, box(**{name: sorted((one.read(given), one.read(1.2)))}))
+    told = render(caught.value.message, language)
+    assert f"= {given}:" in told.replace("\u00a0", "").replace(" :", ":")
+    assert " rad" not in told
+    assert " N/m" not in told
+    assert "deg" in told or not one.key.endswith("deg")
+    assert "kN/m" in told or not one.key.endswith("kN_per_m")
+
+
+@pytest.mark.parametrize("kind", [one for one in GROUND_KINDS if one != "sliding"])
+@pytest.mark.parametrize("name", ["slip_length", "glide_factor"])
+def test_glide_ranges_on_sliding_ground_only(kind, name):
+    still = replace(SCENE, ground=GroundLaw(kind=kind))
+    with pytest.raises(ModelError, match="does not slide, but the envelope") as caught:
+        place_scene(still, {name: 1.17})
+    with pytest.raises(ModelError, match="does not slide"):
+        require_valid(still, box(density=(250.0, 300.0), **{name: (1.1, 1.3)}))
+    for language in LANGUAGES:
+        told = render(caught.value.message, language)
+        assert render(PARAMETERS[name].label, language) in told
+        assert "_" not in told
+
+
+def test_no_value_but_a_glide_changes_the_ground():
+    others = {k: v for k, v in VALUES.items() if k != "glide_factor"}
+    for kind in GROUND_KINDS:
+        slip = 1.37 if kind == "sliding" else 0.0
+        scene = replace(SCENE, ground=GroundLaw(kind=kind, slip_length=slip))
+        assert place_scene(scene, others).ground == scene.ground
+
+
+@pytest.mark.parametrize("name", ["inclination", "friction_angle", "slack"])
+def test_a_rigid_wall_has_no_envelope(name):
     wall = Wall(height_normal=3.0, inclination=0.1, friction_angle=None)
     walled = replace(SCENE, net=wall)
     with pytest.raises(ModelError, match="rigid wall"):
-        require_valid(walled, box(inclination=(0.1, 0.2)))
+        require_valid(walled, box(**{name: (0.1, 0.2)}))
     with pytest.raises(ModelError, match="rigid wall"):
         build_case(walled, {})

@@ -1,30 +1,31 @@
-"""The guideline's load as floor: scan, corners, and where it is not available."""
+"""The guideline's load as floor: what a search may miss, and where there is none."""
 
 import math
 import random
 from dataclasses import replace
-from itertools import pairwise, product
 
+import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
 from netdesign.guideline.comparison import (
     NetGeometry,
+    find_glide_factor,
+    find_pulls,
     list_load_cases,
+    place_head,
     solve_load_case,
 )
-from netdesign.guideline.floor import (
-    SCAN_STEP,
-    LoadedNet,
-    find_floor,
-    list_inclinations,
-)
+from netdesign.guideline.floor import SCAN_STEP, SPANS, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.anchors import compute_many_forces
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import Member
 from netdesign.words.catalogue import render
 
 MODEL = read_load_model(load_standard("swiss-guideline-2007"))
+DOWNHILL = Member.DOWNHILL_GUY
 RANGE = (math.radians(24.3), math.radians(36.1))
 
 
@@ -71,8 +72,100 @@ def solve(net, glide, altitude, inclination):
         yield solve_load_case(MODEL, net, case, glide).anchors.member_forces
 
 
-def find(nets, altitude=None, inclinations=RANGE):
-    return find_floor(MODEL, nets, inclinations=inclinations, altitude=altitude)
+def build_ranges(net=None, glide=2.37, **changes):
+    """Ranges of one net over the inclinations, and over what is changed."""
+    net = net or a_net()
+    values = {
+        "net": net,
+        "inclinations": RANGE,
+        "thicknesses": (net.snow_thickness, net.snow_thickness),
+        "stiffnesses": (net.stiffness, net.stiffness),
+        "slacks": (net.slack, net.slack),
+        "find_glide_factors": lambda d: (0.0 * d + glide, 0.0 * d + glide),
+    }
+    return NetRanges(**(values | changes))
+
+
+def find(ranges, altitude=1742.0):
+    return find_floor(MODEL, ranges, altitude)
+
+
+def draw_ranges(draw):
+    """Wide ranges of all at once: N by itself, or by a slip length and the snow."""
+    net, low = draw_net(draw), math.radians(draw.uniform(0.0, 20.0))
+    thickness, tight = net.snow_thickness, draw.uniform(0.0, 0.11)
+    least, largest = draw.uniform(1.2, 2.0), draw.uniform(2.1, 3.2)
+    grounds = [
+        GroundLaw(kind="sliding", slip_length=draw.uniform(*pair))
+        for pair in ((0.05, 2.0), (2.0, 9.0))
+    ]
+    by_slip = draw.random() < 0.5
+
+    def find_glide_factors(d):
+        if by_slip:
+            return tuple(find_glide_factor(one, d, (1.2, 3.2)) for one in grounds)
+        return 0.0 * d + least, 0.0 * d + largest
+
+    return NetRanges(
+        net=net,
+        inclinations=(low, low + math.radians(draw.uniform(10.0, 35.0))),
+        thicknesses=(thickness * draw.uniform(0.3, 0.8), thickness),
+        stiffnesses=(net.stiffness, net.stiffness * draw.uniform(1.2, 10.0)),
+        slacks=(tight, tight + draw.uniform(0.01, 0.08)),
+        find_glide_factors=find_glide_factors,
+    )
+
+
+def solve_dense(ranges, altitude, counts, at_ends=2):
+    """Largest values over a dense grid, slack and stiffness within theirs, too."""
+    spans = (ranges.inclinations, ranges.thicknesses, (0.0, 1.0))
+    axes = [np.linspace(*span, n) for span, n in zip(spans, counts, strict=True)]
+    lean, d, share = (one.ravel() for one in np.meshgrid(*axes))
+    least, largest = ranges.find_glide_factors(d)
+    slack = np.linspace(*ranges.slacks, at_ends)
+    stiffness = np.linspace(*ranges.stiffnesses, at_ends)
+    slack, stiffness = (one.reshape(-1, 1) for one in np.meshgrid(slack, stiffness))
+    net = replace(
+        ranges.net,
+        inclination=lean,
+        snow_thickness=np.minimum(d, ranges.net.net_height),
+        slack=slack,
+        stiffness=stiffness,
+    )
+    found = {}
+    for case in list_load_cases(MODEL, net, altitude):
+        _, pull = find_pulls(MODEL, net, case, least + share * (largest - least))
+        forces = compute_many_forces(
+            net.layout,
+            place_head(net),
+            foot_pull_per_m=pull.foot,
+            head_pull_per_m=pull.head,
+        )
+        if not forces.is_held.all():
+            return None
+        guys = (forces.of_members[one] for one in (Member.UPHILL_GUY, DOWNHILL))
+        values = {
+            **forces.of_members,
+            "pull": forces.head_pull,
+            "less tension": -sum(guys),
+            "turn": forces.foot_turn,
+            "less turn": -forces.foot_turn,
+        }
+        for name, value in values.items():
+            found[name] = max(found.get(name, -math.inf), value.max())
+    return found
+
+
+def require_largest(floor, dense, small):
+    """Refuse a value of the dense grid that is above the floor by a share."""
+    post = floor.find(Member.POST).force
+    for one in floor.forces:
+        assert dense[one.member] <= one.force * (1.0 + small) + 1e-9 * post
+    head = floor.head
+    assert dense["pull"] <= head.pull * (1.0 + small)
+    assert head.least_tension <= -dense["less tension"] + small * post
+    assert dense["turn"] <= head.foot_largest + small
+    assert -dense["less turn"] >= head.foot_least - small
 
 
 def test_foot_of_a_short_snowpack_by_hand():
@@ -86,7 +179,7 @@ def test_foot_of_a_short_snowpack_by_hand():
         stiffness=9.1e6,
         layout=replace(a_net().layout, post_spacing=spacing),
     )
-    floor = find([LoadedNet(net=net, glide_factor=2.4)], inclinations=(delta, delta))
+    floor = find(build_ranges(net, 2.4, inclinations=(delta, delta)), 1500.0)
     expected = []
     for rho, share in ((0.27, 1.0), (0.40, 0.77)):
         height = share * thickness / math.cos(math.radians(45.0))
@@ -111,48 +204,157 @@ def test_foot_of_a_short_snowpack_by_hand():
     assert max(expected) == expected[1] > 1.05 * expected[0]
 
 
-def test_scan_misses_less_than_a_hundred_thousandth():
-    """Four times as many inclinations find no force that is larger by 1e-5.
+@pytest.mark.parametrize(("degrees", "count"), [(11.81, 49), (0.1, 3), (0.0, 1)])
+def test_grid_has_the_distances_that_theory_tells(degrees, count):
+    """A quarter of a degree at most, eight parts of the others, snow to the head."""
+    tried, glides = [], [1.3, 2.7]
+
+    def find_glide_factors(d):
+        tried.append(d)
+        return 0.0 * d + glides[0], 0.0 * d + glides[1]
+
+    ends = (0.43, 0.43 + math.radians(degrees))
+    net = a_net()
+    for top, thicknesses, most in ((1.0, 9, 2.7), (1.3, 10, 2.7), (1.3, 10, 1.3)):
+        tried.clear()
+        glides[1] = most
+        wide = (0.5 * net.snow_thickness, top * net.net_height)
+        find(
+            build_ranges(
+                net,
+                inclinations=ends,
+                thicknesses=wide,
+                find_glide_factors=find_glide_factors,
+            )
+        )
+        _, grid, *_ = tried
+        assert grid.size == count * thicknesses * (9 if most > 1.3 else 1)
+        assert {grid.min(), grid.max()} == set(wide)
+        assert np.unique(grid).size == thicknesses
+        assert net.net_height in grid
+
+
+def test_search_over_inclinations_misses_less_than_a_hundred_thousandth():
+    """Sixteen times as many inclinations find no force that is larger by 1e-5.
 
     Over wide ranges, so that some forces are largest inside them.
     """
     draw, inside = random.Random(3), 0
-    for _ in range(24):
-        net, glide = draw_net(draw), draw.uniform(1.05, 3.2)
+    for _ in range(60):
         low = math.radians(draw.uniform(0.0, 20.0))
         ends = (low, low + math.radians(draw.uniform(10.0, 35.0)))
-        floor = find([LoadedNet(net=net, glide_factor=glide)], 1873.0, ends)
+        ranges = build_ranges(draw_net(draw), draw.uniform(1.2, 3.2), inclinations=ends)
+        floor = find(ranges, 1873.0)
         assert floor.reason is None
-        fine = math.ceil(4.0 * (ends[1] - ends[0]) / SCAN_STEP)
-        for k in range(fine + 1):
-            at = ends[0] + (ends[1] - ends[0]) * k / fine
-            for forces in solve(net, glide, 1873.0, at):
-                for member, force in forces.items():
-                    assert force <= floor.find(member).force * (1.0 + 1e-5)
+        fine = math.ceil(16.0 * (ends[1] - ends[0]) / SCAN_STEP)
+        require_largest(floor, solve_dense(ranges, 1873.0, (fine + 1, 1, 1), 1), 1e-5)
         places = {one.at.net.inclination for one in floor.forces if one.force > 0.0}
         inside += len(places - set(ends))
-    assert inside >= 5
+    assert inside >= 15
+
+
+def test_search_over_all_ranges_misses_less_than_a_hundred_thousandth():
+    """Four times finer in all directions find no force that is larger by 1e-5."""
+    draw, inside, tried = random.Random(5), set(), 0
+    for _ in range(16):
+        ranges = draw_ranges(draw)
+        floor, dense = find(ranges), solve_dense(ranges, 1742.0, (61, 33, 33))
+        assert (floor.reason is None) == (dense is not None)
+        if dense is None:
+            continue
+        tried += 1
+        require_largest(floor, dense, 1e-5)
+        for one in floor.forces:
+            d = one.at.net.snow_thickness
+            is_end = d in (*ranges.thicknesses, ranges.net.net_height)
+            inside |= set() if is_end or one.force == 0.0 else {one.member}
+    assert tried >= 10
+    assert DOWNHILL in inside  # corners alone would miss it
+
+
+def test_ends_of_slack_and_stiffness_bound_what_lies_between():
+    """As proven in THEORY: five of each, at any inclination, thickness and N."""
+    draw, tried = random.Random(23), 0
+    for _ in range(40):
+        ranges = draw_ranges(draw)
+        one = replace(ranges, inclinations=ranges.inclinations[:1] * 2,
+                      thicknesses=ranges.thicknesses[1:] * 2)  # fmt: skip
+        floor, dense = find(one), solve_dense(one, 1742.0, (1, 1, 17), 5)
+        if floor.reason is None:
+            tried += 1
+            require_largest(floor, dense, 1e-6)
+    assert tried >= 30
+
+
+def test_inside_of_the_thicknesses_exceeds_all_corners():
+    """The downhill guy: thin snow brings little, thick snow presses the head down."""
+    net = a_net(slack=0.02, stiffness=3e6)
+    wide = build_ranges(net, 1.9, thicknesses=(0.4 * 3.37, 3.37))
+
+    def find_at(d):
+        return find(replace(wide, thicknesses=(d, d))).find(DOWNHILL).force
+
+    floor = find(wide).find(DOWNHILL)
+    at = floor.at.net.snow_thickness
+    assert floor.force > 1.1 * max(find_at(d) for d in wide.thicknesses) > 0.0
+    assert wide.thicknesses[0] < at < wide.thicknesses[1]
+    assert find_at(at) == pytest.approx(floor.force, rel=1e-6)
+    assert max(find_at(0.97 * at), find_at(1.03 * at)) < floor.force
 
 
 def test_largest_force_is_that_of_its_own_case_inclination_and_net():
-    glide, altitude = 2.37, 2130.0
-    floor = find([LoadedNet(net=a_net(), glide_factor=glide)], altitude)
-    assert {one.member for one in floor.forces} == set(Member) - {Member.NET}
-    for one in floor.forces:
-        names = ("load_case_1", "load_case_2")
-        again = dict(
-            zip(names, solve(a_net(), glide, altitude, one.at.net.inclination),
-                strict=True)
-        )  # fmt: skip
-        assert again[one.case.name][one.member] == one.force
-        assert RANGE[0] <= one.at.net.inclination <= RANGE[1]
-        assert all(forces[one.member] <= one.force for forces in again.values())
+    """All that stands at a force gives it again, by the scalar closed forms."""
+    draw = random.Random(17)
+    for ranges in (build_ranges(), *(draw_ranges(draw) for _ in range(6))):
+        floor = find(ranges, 2130.0)
+        if floor.reason is not None:
+            continue
+        assert {one.member for one in floor.forces} == set(Member) - {Member.NET}
+        for one in floor.forces:
+            net = one.at.net
+            cases = list_load_cases(MODEL, net, 2130.0)
+            again = [
+                solve_load_case(MODEL, net, case, one.at.glide_factor) for case in cases
+            ]
+            forces = {k.name: k.anchors.member_forces[one.member] for k in again}
+            assert forces[one.case.name] == one.force == max(forces.values())
+            assert one.case in cases
+            (own,) = [k for k in again if k.name == one.case.name]
+            assert (own.load, own.pull) == (one.load, one.pull)
+            low, high = ranges.inclinations
+            assert low <= net.inclination <= high
+            assert net.slack in ranges.slacks
+            assert net.stiffness in ranges.stiffnesses
+            least, most = ranges.find_glide_factors(np.array(net.snow_thickness))
+            if net.snow_thickness < net.net_height:
+                assert least - 1e-12 <= one.at.glide_factor <= most + 1e-12
+
+
+def test_least_tension_is_none_where_either_guy_may_work():
+    """Thin snow needs the downhill guy, thick snow the uphill one: one between none."""
+    net = a_net(slack=0.001, stiffness=9e6)
+    both = build_ranges(net, 1.9, thicknesses=(0.3 * 3.37, 3.37))
+    lean = math.radians(30.0)
+    ends = [
+        find(replace(both, thicknesses=(d, d), inclinations=(lean, lean)))
+        for d in both.thicknesses
+    ]
+    head = find(both).head
+    assert find(both).find(DOWNHILL).force > 0.0
+    assert find(both).find(Member.UPHILL_GUY).force > 0.0
+    assert head.least_tension == 0.0
+    for one in ends:
+        tensions = [
+            guys[Member.UPHILL_GUY] + guys[DOWNHILL]
+            for at in [one.forces[0].at.net]
+            for guys in solve(at, 1.9, 1742.0, lean)
+        ]
+        assert one.head.least_tension == pytest.approx(min(tensions), rel=1e-12)
+        assert one.head.least_tension > 0.0
 
 
 def test_altitude_counts_in_load_case_1_alone():
-    nets = [LoadedNet(net=a_net(), glide_factor=2.37)]
-    low, high = find(nets, 1500.0), find(nets, 2990.0)
-    assert find(nets, None) == low
+    low, high = (find(build_ranges(), altitude) for altitude in (1500.0, 2990.0))
     for below, above in zip(low.forces, high.forces, strict=True):
         assert above.force >= below.force
     assert high.find(Member.UPHILL_GUY).case.name == "load_case_1"
@@ -160,66 +362,83 @@ def test_altitude_counts_in_load_case_1_alone():
     assert 1.2 < ratio < 1.5
 
 
-def test_corners_of_the_other_ranges_bound_what_lies_between():
-    """Slack, stiffness, glide factor and height: corners, against 30 points inside."""
-    draw, spans = random.Random(7), 0
-    for _ in range(12):
-        net = draw_net(draw)
-        ends = {
-            "slack": (net.slack, net.slack + draw.uniform(0.01, 0.05)),
-            "stiffness": (net.stiffness, net.stiffness * draw.uniform(1.2, 3.0)),
-            "snow_thickness": (net.snow_thickness * 0.7, net.snow_thickness),
-            "glide": (draw.uniform(1.1, 2.0), draw.uniform(2.1, 3.2)),
-        }
-        corners = [dict(zip(ends, one, strict=True)) for one in product(*ends.values())]
-        floor = find([build(net, **one) for one in corners], 1742.0)
-        if floor.reason is not None:
-            continue
-        spans += 1
-        for _ in range(30):
-            inside = {key: draw.uniform(*pair) for key, pair in ends.items()}
-            at = draw.uniform(*RANGE)
-            one = build(net, **inside)
-            for forces in solve(one.net, one.glide_factor, 1742.0, at):
-                for member, force in forces.items():
-                    assert force <= floor.find(member).force * (1.0 + 1e-4)
-    assert spans >= 6
-
-
-def build(net, glide, **changes):
-    return LoadedNet(net=replace(net, **changes), glide_factor=glide)
-
-
-def test_inclinations_are_close_and_hold_both_ends():
-    low, high = RANGE
-    found = list_inclinations(low, high)
-    assert (found[0], found[-1]) == (low, high)
-    steps = [b - a for a, b in pairwise(found)]
-    assert 0.0 < min(steps) <= max(steps) <= SCAN_STEP * (1.0 + 1e-9)
-    assert list_inclinations(low, low) == [low]
+def test_altitude_that_is_not_known_gets_the_largest_factor():
+    """f_c of 3000 m and above, from the numbers of the profile."""
+    assert find(build_ranges(), None) == find(build_ranges(), 3000.0)
+    assert find(build_ranges(), None) == find(build_ranges(), 4810.0)
+    other = replace(MODEL, altitude_top=2000.0)
+    lower = find_floor(other, build_ranges(), None).find(Member.UPHILL_GUY)
+    assert lower.case.density == pytest.approx(270.0 * 1.1, rel=1e-12)
+    assert lower.force < find(build_ranges(), None).find(Member.UPHILL_GUY).force
 
 
 def test_where_the_closed_forms_fail_there_is_no_floor_but_a_reason():
     """A slope beyond what the load model takes; a support that cannot stand."""
-    steep = a_net(slope_angle=1.52)
-    floor = find([LoadedNet(net=a_net(), glide_factor=2.0),
-                  LoadedNet(net=steep, glide_factor=2.0)])  # fmt: skip
-    assert floor.forces == ()
+    floor = find(build_ranges(a_net(slope_angle=1.52)))
+    assert (floor.forces, floor.head) == ((), None)
     assert floor.find(Member.POST) is None
     told = render(floor.reason, "en")
     assert "load case 1 at a net inclination of 24.3 degrees" in told
+    assert "slope angle" in told
     no_guy = replace(
         a_net().layout, post_base_distance=6.0, uphill_anchor_distance=0.0,
         downhill_anchor_distance=0.0,
     )  # fmt: skip
-    fallen = find([LoadedNet(net=a_net(layout=no_guy), glide_factor=2.0)])
+    fallen = find(build_ranges(a_net(layout=no_guy)))
     assert fallen.forces == ()
     assert "floor of every demand" in render(fallen.reason, "en")
 
 
+def test_reason_names_the_inclination_and_load_case_that_fail():
+    """Only the thinnest settled snow covers too little of the net."""
+    thin = build_ranges(thicknesses=(0.055 * 3.61, 3.37))
+    told = render(find(thin).reason, "en")
+    assert "load case 2" in told
+    assert "loaded share" in told
+
+
 def test_force_is_in_proportion_to_the_post_spacing():
     wide = replace(a_net().layout, post_spacing=2.0 * 3.73)
-    one = find([LoadedNet(net=a_net(), glide_factor=2.2)])
-    two = find([LoadedNet(net=a_net(layout=wide), glide_factor=2.2)])
+    one, two = find(build_ranges()), find(build_ranges(a_net(layout=wide)))
     for narrow, twice in zip(one.forces, two.forces, strict=True):
         assert twice.force == pytest.approx(2.0 * narrow.force, rel=1e-12)
+    assert two.head.pull == pytest.approx(2.0 * one.head.pull, rel=1e-12)
+    assert two.head.foot_least == pytest.approx(one.head.foot_least, rel=1e-12)
+
+
+def test_states_of_the_spans_bring_what_the_head_says():
+    """By the scalar closed forms; where a guy may be slack, the least state is told."""
+    draw = random.Random(29)
+    drawn = [build_ranges(), *(draw_ranges(draw) for _ in range(9))]
+    seen = set()
+    for ranges in drawn:
+        floor = find(ranges)
+        if floor.reason is not None:
+            continue
+        head, keys = floor.head, [one.member for one in floor.spans]
+        assert keys == list(SPANS)
+        found = []
+        for one in floor.spans:
+            glide = one.at.glide_factor
+            anchors = solve_load_case(MODEL, one.at.net, one.case, glide).anchors
+            guys = anchors.head
+            foot = anchors.foot_anchor
+            found.append(
+                {
+                    "pull": math.hypot(*anchors.head_pull),
+                    "tension": guys.uphill_guy_tension + guys.downhill_guy_tension,
+                    "turn": math.atan2(foot.y, foot.x),
+                }
+            )
+        assert found[0]["pull"] == pytest.approx(head.pull, rel=1e-12)
+        assert found[2]["turn"] == pytest.approx(head.foot_least, abs=1e-12)
+        assert found[3]["turn"] == pytest.approx(head.foot_largest, abs=1e-12)
+        is_held = head.least_tension > 0.0
+        seen.add(is_held)
+        if is_held:
+            least = head.least_tension
+            assert found[1]["tension"] == pytest.approx(least, rel=1e-12)
+        sizes = (found[0]["pull"], -found[1]["tension"], -found[2]["turn"])
+        told = [one.force for one in floor.spans]
+        assert told == pytest.approx([*sizes, found[3]["turn"]], rel=1e-12)
+    assert seen == {True, False}

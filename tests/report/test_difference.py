@@ -1,14 +1,17 @@
 import json
+import math
 import random
+import re
 from dataclasses import replace
 
 import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.difference import compare_studies, name_area, write_difference
-from netdesign.report.words import ENGLISH
+from netdesign.report.words import ENGLISH, show_check
 from netdesign.study.document import read_document, write_document
 from netdesign.study.records import DeclarationRecord
+from netdesign.words.catalogue import LANGUAGES
 from tests.alter_study import alter_leaf, list_leaves
 from tests.report.build_study import build_independent, build_study
 
@@ -109,7 +112,7 @@ def test_a_check_that_does_not_govern_turns_first_and_by_name():
     new = turn(old, row=1, check=place, verdict=Verdict.FAIL, **lost)
     new = replace(new, project=replace(new.project, revision="C"))
     first, *others = compare_studies(old, new)
-    name = old.rows[1].checks[place].id
+    name = show_check(ENGLISH, old.rows[1].checks[place])
     assert (first.name(ENGLISH), first.old, first.new) == (
         f"check {name}",
         "pass",
@@ -153,12 +156,12 @@ def test_reordered_rows_are_told():
 
 def test_values_are_told_apart_however_close():
     old = build_study()
-    extreme = replace(old.rows[0].extremes[0], max_kN=100.0 + 1e-11)
+    extreme = replace(old.rows[0].extremes[0], max_kN=100.0 + 1e-9)
     row = replace(old.rows[0], extremes=[replace(extreme, max_kN=100.0)])
     close = replace(old.rows[0], extremes=[extreme])
     before, after = (replace(old, rows=[one]) for one in (row, close))
     (change,) = compare_studies(before, after)
-    assert str(change).endswith("100 -> 100.00000000001")
+    assert str(change).endswith("100 -> 100.000000001")
 
 
 def test_every_value_of_a_study_is_compared():
@@ -213,8 +216,91 @@ def test_a_pass_that_is_only_declared_now_comes_first_among_the_verdicts():
     lost = compare_studies(old, new)
     assert [(one.old, one.new) for one in lost[:2]] == [("pass", "declared")] * 2
     assert all(one.is_turned for one in lost[:2])
-    name = f"{declared.id}: declared as proven"
+    name = f"{show_check(ENGLISH, declared)}: declared as proven"
     found = changes_of(old, new)["check", row.id, name]
     assert found == (None, "G-17, B. R., D!B2")
     gained = compare_studies(new, old)
     assert [(one.old, one.new) for one in gained[:2]] == [("declared", "pass")] * 2
+
+
+def round_otherwise(part):
+    """The same document with another last digit in every number."""
+    if isinstance(part, dict):
+        return {key: round_otherwise(one) for key, one in part.items()}
+    if isinstance(part, list):
+        return [round_otherwise(one) for one in part]
+    return math.nextafter(part, math.inf) if isinstance(part, float) and part else part
+
+
+def test_rounding_is_no_change():
+    document = json.loads(write_document(obey_laws(build_study())))
+    other = round_otherwise(document)
+    assert other != document
+    old, new = (read_document(json.dumps(one)) for one in (document, other))
+    assert compare_studies(old, new) == []
+
+
+def change_much():
+    """Two studies with changes of every kind, and checks that came and went."""
+    old = obey_laws(build_study())
+    row = old.rows[0]
+    fewer = replace(row, checks=row.checks[2:])
+    checks = [
+        replace(
+            one,
+            verdict=Verdict.FAIL,
+            resistance_basis={"tested": "computed"}.get(one.resistance_basis, "tested"),
+            utilisation=1.37,
+        )
+        for one in row.checks[:-1]
+    ]
+    inputs = [replace(one, value="free") for one in row.inputs]
+    extremes = [replace(one, max_kN=37.1) for one in row.extremes]
+    laws = [replace(one, is_met=not one.is_met) for one in row.independent]
+    turned = replace(
+        row, checks=checks, inputs=inputs, extremes=extremes, independent=laws
+    )
+    other = replace(old, verdict=Verdict.DECLARED)
+    return replace(other, rows=[fewer, *old.rows[1:]]), replace(
+        old, rows=[turned, *old.rows[2:]]
+    )
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("way", [1, -1])
+def test_changes_are_told_in_words_and_differ_as_told(language, way):
+    """Of a study; what is told in sum only has its place in the document."""
+    changes = compare_studies(*change_much()[::way])
+    told = [
+        one.tell(language) for one in changes if one.area not in ("other", "profile")
+    ]
+    assert len(told) > 30
+    for line in told:
+        assert re.findall(r"(?!kN_)[a-z]+_[a-z]+", line) == []
+        before, after = line.split(": ")[-1].split(" -> ")
+        assert before != after
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_got_worse_stands_before_what_is_gone(way):
+    """The verdict of the study is the first of all."""
+    changes = compare_studies(*change_much()[::way])
+    verdicts = [one for one in changes if one.area == "verdict"]
+    assert changes[: len(verdicts)] == verdicts
+    assert (verdicts[0].row, verdicts[0].name(ENGLISH)) == ("", "verdict")
+    ways = [(one.old, one.new) for one in verdicts[1:]]
+    gone = next(place for place, (_, new) in enumerate(ways) if new is None)
+    failing = [place for place, (_, new) in enumerate(ways) if new == "fail"]
+    assert failing
+    assert all(place < gone for place in failing)
+
+
+def test_a_basis_is_told_in_words_and_kept_as_a_key():
+    old = build_study()
+    row = replace(old.rows[0], checks=[
+        replace(one, resistance_basis="tested") for one in old.rows[0].checks
+    ])  # fmt: skip
+    bare = replace(row, checks=[replace(c, resistance_basis="") for c in row.checks])
+    changes = compare_studies(replace(old, rows=[row]), replace(old, rows=[bare]))
+    assert {(one.old, one.new) for one in changes} == {("tested", "")}
+    assert changes[0].tell("de").endswith("durch Versuche belegt -> kein Wert")

@@ -75,6 +75,34 @@ def test_tables_agree(page, book, section, sheet, attribute):
                     assert value == pytest.approx(cell.number, rel=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("sheet", "attribute"),
+    [
+        ("Actions", "actions"),
+        ("Statics", "statics"),
+        ("Statics of the guideline", "floor_statics"),
+        ("Resistances", "resistances"),
+    ],
+)
+def test_figures_agree(page, book, sheet, attribute):
+    """Page and sheet have the same numbers, the page with five digits at least."""
+    lines = read_rows(book[sheet], "Net row")
+    for row in build_view(STUDY).rows:
+        table = getattr(row.figures, attribute)
+        shown = [cell for one in page.tables[f"{row.anchor}-figures"] for cell in one]
+        shown = {text for cells in shown for text in cells}
+        mine = [line for line in lines if line["Net row"] == row.id]
+        assert mine
+        for cells, line in zip(table.rows, mine, strict=True):
+            for cell, value in zip(cells, list(line.values())[1:], strict=True):
+                assert cell.text in shown
+                if cell.number is None:
+                    assert value == cell.text
+                else:
+                    assert value == pytest.approx(cell.number, rel=1e-15)
+                    assert float(cell.text) == pytest.approx(cell.number, rel=6e-5)
+
+
 def test_verdicts_agree(page, book):
     stream = io.StringIO()
     print_summary(STUDY, Console(file=stream, width=200))

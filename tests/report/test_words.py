@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -7,6 +8,8 @@ from netdesign.errors import SolveError
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.report import words
+from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.study.record_provenance import name_law
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_check, build_extreme, build_row
 
@@ -72,3 +75,18 @@ def test_names_of_checks_and_cases():
     worst = build_extreme("post", row.cases).case
     assert words.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
     assert words.name_case_short(worst) == "450 / 15 / 35"
+
+
+@pytest.mark.parametrize("law", CREEP_LAWS.values(), ids=str)
+def test_the_source_of_a_creep_law_is_told_in_the_language(law):
+    """Laws of somebody's own keep their words."""
+    stored = name_law(law)
+    told = {
+        words.show_own(words.Words(language), stored): language
+        for language in LANGUAGES
+    }
+    assert len(told) == len(LANGUAGES)
+    assert told[stored] == "en"
+    assert all(text.startswith(f"{law.name} (") for text in told)
+    own = name_law(replace(law, source="our own tests"))
+    assert words.show_own(words.Words("de"), own) == f"{law.name} (our own tests)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable
 from dataclasses import fields, replace
 
@@ -19,6 +20,28 @@ def drive(response: Response, dimension: int, **settings: float) -> Maxima:
     search = MaximaSearch(dimension, SearchSettings(**settings))
     while points := search.ask():
         search.tell([answer(response, point) for point in points])
+    return search.result
+
+
+def drive_roughly(
+    response: Response, dimension: int, share: float, seed: int
+) -> Maxima:
+    """The same, but values of the first design below 0.9 of the largest are rough.
+
+    They are wrong by up to that share, which is told.
+    """
+    rng, search = np.random.default_rng(seed), MaximaSearch(dimension, SearchSettings())
+    while points := search.ask():
+        values = np.array([response(np.array(point)) for point in points])
+        doubts = np.zeros_like(values)
+        if search.gap == math.inf:
+            far = (values < 0.9 * values.max(axis=0)).all(axis=1)
+            doubts[far] = share * np.abs(values[far])
+        values += rng.uniform(-1.0, 1.0, values.shape) * doubts
+        search.tell(
+            [tuple(map(float, one)) for one in values],
+            doubts=[tuple(map(float, one)) if one.any() else None for one in doubts],
+        )
     return search.result
 
 

@@ -88,3 +88,16 @@ def test_a_log_that_lacks_cases_never_answers(known):
     short = replace(known.maxima, log=known.maxima.log[:-1])
     cut = replace(known, maxima=short)
     assert repeat(cut, recall(known))[0] is None
+
+
+def test_a_doubt_that_differs_ends_it(known):
+    """The bounds hold for values that are known as well as they were."""
+    place = 7  # after the one that failed
+    doubt = tuple(1e-3 * abs(one) for one in known.maxima.values[place])
+    doubts = list(known.maxima.doubts)
+    doubts[place] = doubt
+    rough = replace(known, maxima=replace(known.maxima, doubts=tuple(doubts)))
+    assert repeat(rough, recall(rough))[0] is None
+    back = decode_search(encode_search(rough)).maxima
+    assert back.doubts == rough.maxima.doubts
+    assert back.surrogate.doubts[place - 1] == pytest.approx(doubt)

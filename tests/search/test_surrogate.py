@@ -72,3 +72,25 @@ def test_a_score_counts_far_away_by_the_distance_of_its_neighbour():
 def test_up_to_three_parameters_every_score_counts_far_away_alike():
     model = fit_surrogate(PLACES, KINKED)
     assert np.all(model.far_shares == FAR_SHARE)
+
+
+def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
+    """Eq. (M3a), against models of values that are moved by their doubts."""
+    doubts = np.zeros_like(KINKED)
+    doubts[[3, 11, 20]] = [[0.31, 0.02], [0.07, 0.0], [0.0, 0.13]]
+    model = fit_surrogate(PLACES, KINKED, 0.0, doubts)
+    elsewhere = RNG.uniform(0.0, 1.0, (30, 3))
+    mean = model.predict(elsewhere).mean
+    moved = np.zeros_like(mean)
+    for place in (3, 11, 20):
+        values = KINKED.copy()
+        values[place] += doubts[place]
+        moved += np.abs(fit_surrogate(PLACES, values).predict(elsewhere).mean - mean)
+    assert moved.max() > 0.05
+    assert model.find_sway(elsewhere, (1, 0)) == pytest.approx(moved[:, ::-1])
+
+
+def test_values_without_doubts_have_no_sway():
+    model = fit_surrogate(PLACES, KINKED)
+    assert not model.find_sway(PLACES, (0, 1)).any()
+    assert model.find_sway(PLACES, (1,)).shape == (24, 1)

@@ -1,14 +1,18 @@
 """Sheet Declared: checks by their names in any language, every fault with its cell."""
 
+from dataclasses import replace
 from datetime import datetime
 
 import pytest
 
+from netdesign.checks import Declaration
 from netdesign.errors import SiteDataError
 from netdesign.site.declared_sheet import DECLARABLE
+from netdesign.site.model import DEPENDENT_MODES, MEMBER_MODES
 from netdesign.site.reader import read_site
 from netdesign.words.catalogue import LANGUAGES, render
 from netdesign.words.names import name_check
+from tests.small_site import build_row, build_site, resist
 
 HEADINGS = ["net row", "check", "document", "author", "date"]
 SOUND_LINE = ["R1", "Post base, bearing", "Report G-17", "B. Rüegg", "2026-03-09"]
@@ -36,15 +40,16 @@ def test_a_line_is_read_with_its_cell_and_found_for_its_row_only(sheets, save):
     assert (found.row_id, found.member, found.mode) == ("R1", "post_base", "bearing")
     assert (found.document, found.author, found.date) == tuple(SOUND_LINE[2:])
     assert found.source == "Declared!B2"
-    assert site.find_declaration("R1", "post_base", "bearing") is found
-    assert site.find_declaration("R2", "post_base", "bearing") is None
-    assert site.find_declaration("R1", "post", "compression") is None
+    first, second = site.rows
+    assert site.find_declaration(first, "post_base", "bearing") is found
+    assert site.find_declaration(second, "post_base", "bearing") is None
+    assert site.find_declaration(first, "post", "compression") is None
 
 
 def test_a_line_without_a_row_is_of_all_rows(sheets, save):
     line = [None, *SOUND_LINE[1:4], None]
     site = read_site(save(with_lines(sheets, line)))
-    for row in ("R1", "R2"):
+    for row in site.rows:
         found = site.find_declaration(row, "post_base", "bearing")
         assert (found.document, found.date) == ("Report G-17", "")
 
@@ -63,6 +68,72 @@ def test_every_check_is_known_by_the_name_that_reports_give_it(sheets, save, lan
     ]
     found = read_site(save(with_lines(sheets, *lines))).declared
     assert [(one.member, one.mode) for one in found] == list(DECLARABLE)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_check_of_the_end_is_known_by_its_name_and_is_of_the_end(
+    sheets, save, language
+):
+    """Whatever stands on a support; the same check inside the row is another one."""
+    of_supports = [one for one in DECLARABLE if one[0] != "net" and one[1] != "lateral"]
+    lines = [
+        [
+            "R2",
+            render(name_check(*subject, position), language),
+            "Report",
+            "A. B.",
+            None,
+        ]
+        for subject in of_supports
+        for position in ("", "edge")
+    ]
+    site = read_site(save(with_lines(sheets, *lines)))
+    row = site.rows[1]
+    assert len(site.declared) == 2 * len(of_supports)
+    for member, mode in of_supports:
+        for position, expected in (("intermediate", ""), ("edge", "edge")):
+            found = site.find_declaration(row, member, mode, position)
+            assert (found.member, found.mode) == (member, mode)
+            assert found.position == expected
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("subject", [("net", "spacing"), ("post", "lateral")])
+def test_what_stands_on_no_support_has_no_end(sheets, save, language, subject):
+    check = render(name_check(*subject, "edge"), language)
+    finding = the_finding(save(with_lines(sheets, ["R1", check, *SOUND_LINE[2:]])))
+    assert str(finding.rule) == "is no check that may be declared"
+    assert "..., end of the row" in str(finding.accepted)
+
+
+@pytest.mark.parametrize(("member", "mode"), [*MEMBER_MODES, *DEPENDENT_MODES])
+@pytest.mark.parametrize("other", [None, "other"])
+def test_a_declaration_holds_at_the_end_for_the_same_type_only(member, mode, other):
+    """Another type has another resistance, which nobody has proven."""
+    general = Declaration(
+        row_id="R", member=member, mode=mode, document="G-17", author="B. R.",
+        date="", source="Declared!B2",
+    )  # fmt: skip
+    ends = other and tuple(
+        replace(one, type_id=other if one.member == member else one.type_id)
+        for one in resist()
+    )
+    row = build_row("R", end_resistances=ends)
+
+    def find(position, *declared):
+        site = build_site(row, declared=declared)
+        return site.find_declaration(row, member, mode, position)
+
+    assert find("intermediate", general) is general
+    assert find("edge", general) is (None if other else general)
+    of_end = replace(general, position="edge")
+    assert find("edge", general, of_end) is find("edge", of_end) is of_end
+    assert find("intermediate", general, of_end) is general
+    assert find("intermediate", of_end) is None
+    assert find("", of_end) is None
+    for one, _ in MEMBER_MODES:
+        is_other = bool(other) and one == member
+        assert row.has_same_type_at_end(one) is not is_other
 
 
 @pytest.mark.parametrize(

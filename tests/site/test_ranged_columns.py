@@ -4,9 +4,12 @@ import math
 
 import pytest
 
-from netdesign.envelope.ranges import Case
+from netdesign.envelope.parameters import PARAMETERS
+from netdesign.envelope.ranges import USUAL, Case
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.reader import read_site
-from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
+from tests.small_site import build_row
 
 # Nets column by the line of sheet Ranges that takes its place
 LINES = {
@@ -99,6 +102,37 @@ def test_glide_ranges_on_sliding_ground(sheets, save, line, own):
     else:
         assert row.ground.slip_length == pytest.approx(4.7)
         assert row.at(case(slip_length=0.8)).ground.slip_length == 0.8
+
+
+FURTHER = [one.key for one in FURTHER_QUANTITIES]
+GLIDE = {"slip_length", "glide_factor"}
+
+
+@pytest.mark.parametrize("name", FURTHER)
+def test_every_quantity_that_ranges_changes_a_row(name):
+    ground = build_ground_from_glide_factor(1.4, 2.5)
+    row = build_row("R", ground=ground, glide_factor=1.4, snow_thickness=2.5)
+    value = 1.5 if name in GLIDE else 2.37
+    value = 0.0437 if name == "slack" else value
+    assert row.at(case(**{name: value})) != row
+    assert row.at(case(**{name: value})) != row.at(case(**{name: 1.01 * value}))
+
+
+@pytest.mark.parametrize(
+    "name", sorted({*PARAMETERS, "post_spacing"} - {*FURTHER, *USUAL})
+)
+def test_a_quantity_without_a_place_in_a_row_is_a_fault(name):
+    row = build_row("R", ground=GroundLaw(kind="sliding", slip_length=1.1))
+    with pytest.raises(ValueError, match=name):
+        row.at(case(slack=0.03, **{name: 0.4}))
+
+
+@pytest.mark.parametrize("name", sorted(GLIDE))
+@pytest.mark.parametrize("kind", ["free", "no-slip"])
+def test_a_row_that_does_not_slide_takes_no_glide(name, kind):
+    row = build_row("R", ground=GroundLaw(kind=kind))
+    with pytest.raises(ValueError, match=name):
+        row.at(case(**{name: 1.3}))
 
 
 @pytest.mark.parametrize(("name", "column"), [c for c in COLUMNS.items() if c[1]])

@@ -146,6 +146,20 @@ def test_a_declaration_of_all_rows_holds_in_each_and_hides_no_pass(judge):
         assert row.verdict is Verdict.DECLARED
 
 
+@pytest.mark.parametrize(
+    ("position", "expected"),
+    [("", ["foot_anchor.pull_out"]), ("edge", ["foot_anchor.pull_out.end"])],
+)
+def test_an_end_of_another_type_is_declared_by_its_own_line(judge, position, expected):
+    ends = tuple(replace(one, type_id="T2") for one in resist())
+    row = build_row("R1", end_resistances=ends)
+    study = judge(row, declared=(replace(PULL_OUT, position=position),))
+    checks = forces(study.rows[0])
+    declared = [k for k, c in checks.items() if c.verdict is Verdict.DECLARED]
+    assert declared == expected
+    assert {c.verdict for k, c in checks.items() if k not in declared} == {Verdict.PASS}
+
+
 def test_what_fails_here_stays_a_failure_though_declared(judge):
     weak = resist(foot_anchor__pull_out=WEAK)
     study = judge(build_row("R1", resistances=weak), declared=(PULL_OUT,))

@@ -8,10 +8,11 @@ import pytest
 
 from netdesign.checks import Band, load_standard
 from netdesign.envelope.ranges import Interval, Ranges
+from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import Project
-from netdesign.snow.ground import build_ground_from_glide_factor
+from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.structure.members import CARRYING_MEMBERS, Member
 from netdesign.study.audit import audit_study
 from netdesign.study.cases import solve_site
@@ -47,6 +48,7 @@ LIGHT = {
     "net_stiffness_per_m": 2e7,
     "slack": 0.08,
     "gap": 1.0,
+    "altitude": 1450.0,
 }
 ROW = build_row("R1", **LIGHT)
 
@@ -116,16 +118,21 @@ def test_every_demand_is_the_larger_of_both_and_says_which(solved):
 
 
 def test_numbers_of_the_load_model_stand_in_the_study_under_every_profile():
-    """As values of the floor, unless the profile has the very same of its own."""
+    """As values of the floor, unless the profile has the very same of its own.
+
+    With the least and the largest glide factor of the guideline's tables.
+    """
     model = [one for one in SWISS.values if one.id.startswith("snow.")]
     assert len(model) == 13
+    ends = ("glide.factor.north.1", "glide.factor.south.4")
+    model += [one for one in SWISS.listed if one.id in ends]
     for profile, prefix in (("eurocode", "floor."), ("swiss-guideline-2007", "")):
         standard = load_standard(profile)
         found = {one.id: one for one in record_profile(standard).values}
         for value in model:
             one = found[f"{prefix}{value.id}"]
             assert (one.value, one.status) == (value.value, value.status)
-        assert len(found) == len(standard.listed) + (13 if prefix else 0)
+        assert len(found) == len(standard.listed) + (15 if prefix else 0)
         none = record_profile(replace(standard, floor="none"))
         assert not [one for one in none.values if one.id.startswith("floor.")]
 
@@ -135,10 +142,49 @@ def test_load_model_is_the_guideline_s_under_every_profile(profile):
     assert a_floor(standard=load_standard(profile)) == a_floor()
 
 
+def test_snow_of_a_profile_of_one_s_own_changes_no_floor_and_no_comparison(solved):
+    """The load model is the guideline's as it comes; the study lists it beside."""
+    values = [
+        replace(one, value=0.7 * one.value) if one.id == "snow.density" else one
+        for one in SWISS.values
+    ]
+    own = replace(SWISS, id="mine", values=tuple(values))
+    assert own.find("snow.density").value == pytest.approx(0.189)
+    assert a_floor(standard=own) == a_floor()
+    records = [judge(solved, one)[1] for one in (SWISS, own)]
+    assert records[0].rows[0].floor == records[1].rows[0].floor
+    assert records[0].rows[0].guideline == records[1].rows[0].guideline
+    listed = {one.id: one.value for one in records[1].profile.values}
+    assert listed["floor.snow.density"] == 0.27
+    assert listed["snow.density"] == pytest.approx(0.189)
+
+
+def test_what_the_floor_takes_for_granted_stands_in_record_and_notes(solved):
+    _, plain = judge(solved)
+    assert plain.rows[0].floor.assumed == []
+    assert plain.rows[0].floor.altitude_factor == 1.0
+    changes = {"altitude": None, "glide_factor": 1.1}
+    site, study = judge(solved, **changes)
+    floor = study.rows[0].floor
+    assert floor.altitude_factor == pytest.approx(1.3, rel=1e-12)
+    told = [str(one) for one in floor.assumed]
+    assert told[0].endswith("takes its largest altitude factor, 1.30")
+    assert "factor of 1.1 lies below the least" in told[1]
+    assert told[1].endswith("the load of the guideline takes 1.2")
+    assert [one for one in study.rows[0].notes if one in floor.assumed] == floor.assumed
+    assert audit_study(read_document(write_document(study)), SWISS, site) == []
+    densities = {one.name: one.density_kg_m3 for one in study.rows[0].guideline.cases}
+    assert densities["load_case_1"] == pytest.approx(351.0, rel=1e-12)
+    assert {one.glide_factor for one in study.rows[0].guideline.cases} == {1.2}
+    none = replace(SWISS, floor="none")
+    _, without = judge(solved, none, **changes)
+    assert set(floor.assumed) <= set(without.rows[0].notes)
+
+
 def test_profile_without_a_floor_has_none():
     none = replace(SWISS, floor="none")
     assert a_floor(standard=none) is None
-    assert record_floor(None) is None
+    assert record_floor(None, ROW) is None
 
 
 def test_floor_that_is_not_known_proves_nothing(solved):
@@ -267,11 +313,29 @@ def study_floor(study):
 
 
 def test_every_force_of_the_floor_follows_from_what_stands_beside_it(solved):
-    """Load and tension of the record give the foot's force by (G7)."""
+    """By (G1) to (G9), from the record and the row's own geometry alone."""
     _, study = judge(solved)
     foot = study.rows[0].floor.forces[0]
     share = {"load_case_1": 1.0, "load_case_2": 0.77}[foot.load_case]
-    lean = math.radians(foot.inclination_deg)
+    lean, slope = math.radians(foot.inclination_deg), ROW.slope_angle
+    height = foot.height_vertical_m
+    assert share * foot.snow_thickness_m / math.cos(slope) == pytest.approx(height)
+    unit = foot.density_kg_m3 * 10.0 / 1e3
+    along = 0.4 * unit * height**2 * foot.creep_factor * foot.glide_factor
+    prism = 0.5 * unit * (height * math.cos(slope)) ** 2 * math.tan(lean)
+    down = along * 0.35 / (foot.glide_factor * math.tan(slope))
+    down += prism * math.cos(slope)
+    along += prism * math.sin(slope)
+    assert foot.load_along_kN_per_m == pytest.approx(along, rel=1e-9)
+    assert foot.load_across_kN_per_m == pytest.approx(-down, rel=1e-9)
+    across = along * math.cos(lean) + down * math.sin(lean)
+    k = share * foot.snow_thickness_m / ROW.net_height
+    v1, v2 = 1.0 - 0.5 * k, 0.5 * k
+    square = k * (v1**2 - v1 * v2 + v2**2) / 3.0 + (1.0 - k) * v2**2
+    tension = foot.chord_tension_kN_per_m
+    stretch = (1.0 + foot.slack) * tension / foot.stiffness_kN_per_m
+    needed = 0.5 * square * (across / tension) ** 2
+    assert needed == pytest.approx(foot.slack + stretch, rel=1e-9)
     x = (1.0 - share / 2.0) * foot.load_along_kN_per_m
     y = (1.0 - share / 2.0) * foot.load_across_kN_per_m
     x += foot.chord_tension_kN_per_m * math.sin(lean)
@@ -287,6 +351,65 @@ def test_altitude_of_the_row_counts_in_its_floor():
     low = a_floor().find(Member.UPHILL_GUY)
     assert high.case.density == pytest.approx(270.0 * (1.0 + 0.02 * 9.7))
     assert high.force > 1.1 * low.force
+    unknown = a_floor(replace(ROW, altitude=None))
+    assert unknown == a_floor(replace(ROW, altitude=3000.0))
+    assert unknown.find(Member.UPHILL_GUY).case.density == pytest.approx(351.0)
+
+
+@pytest.mark.parametrize(
+    "ground", [GroundLaw(kind="no-slip"), GroundLaw(kind="sliding", slip_length=0.01)]
+)
+def test_rough_ground_has_the_least_factor_of_the_guideline(ground):
+    """As if the least of its tables had been typed, and if less is typed."""
+    rough = a_floor(replace(ROW, ground=ground))
+    for glide in (1.0, 1.1, 1.2):
+        assert a_floor(replace(ROW, glide_factor=glide)) == rough
+    assert {one.load.glide_factor for one in rough.forces} == {1.2}
+
+
+def test_further_ranges_enter_the_floor_and_a_single_value_is_that_value():
+    further = {
+        "snow_height": Interval(low=2.1 * math.sqrt(2.0), high=4.0 * math.sqrt(2.0)),
+        "slack": Interval(low=0.03, high=0.08),
+        "net_stiffness": Interval(low=9e6, high=2e7),
+        "slip_length": Interval(low=0.3, high=5.1),
+        "upslope_length": Interval(low=4.0, high=9.0),
+    }
+    draw, inside = random.Random(6), 0
+    row = replace(ROW, glide_factor=None)
+    wide = find_row_floor(row, widen_ranges(further), SWISS)
+    for _ in range(40):
+        point = {name: draw.uniform(one.low, one.high) for name, one in further.items()}
+        single = {k: Interval(low=v, high=v) for k, v in point.items()}
+        lean = draw.uniform(RANGES["inclination"].low, RANGES["inclination"].high)
+        single["inclination"] = Interval(low=lean, high=lean)
+        one = find_row_floor(row, widen_ranges(single), SWISS)
+        for force in one.forces:
+            at = force.at
+            assert at.net.inclination == lean
+            assert (at.net.slack, at.net.stiffness) == (
+                point["slack"],
+                point["net_stiffness"],
+            )
+            thickness = point["snow_height"] * math.cos(ROW.slope_angle)
+            assert at.net.snow_thickness == pytest.approx(thickness, rel=1e-12)
+            slip = GroundLaw(kind="sliding", slip_length=point["slip_length"])
+            glide = find_glide_factor(slip, at.net.snow_thickness, (1.2, 3.2))
+            assert at.glide_factor == pytest.approx(glide, rel=1e-12)
+            assert force.force <= wide.find(force.member).force * (1.0 + 1e-6)
+            inside += force.force > 0.0
+    assert inside > 150
+    typed = find_row_floor(
+        ROW,
+        widen_ranges({"glide_factor": Interval(low=1.1, high=2.9)}),
+        SWISS,
+    )
+    assert max(one.at.glide_factor for one in typed.forces) == 2.9
+    assert min(one.at.glide_factor for one in typed.forces) >= 1.2
+
+
+def widen_ranges(further):
+    return Ranges(intervals=tuple((dict(RANGES.intervals) | further).items()))
 
 
 def list_changes(check):

@@ -10,6 +10,7 @@ from netdesign.envelope.parameters import PARAMETERS
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.outcome import Outcome
+from netdesign.site.columns.all_tables import FURTHER_QUANTITIES
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
@@ -244,6 +245,14 @@ def test_only_what_does_not_range_is_moved():
     assert list_spans(slip, RANGES)[-1].name == "slip_length"
     rough = replace(slip, ground=GroundLaw(kind="no-slip"))
     assert list_spans(rough, RANGES)[-1].name == "net_stiffness"
+
+
+def test_every_quantity_of_a_workbook_has_a_limit_where_it_does_not_range():
+    """One name of each quantity, whichever the row was given by."""
+    slips = replace(ROW, glide_factor=None)
+    names = {span.name for row in (ROW, slips) for span in list_spans(row, RANGES)}
+    further = {one.key for one in FURTHER_QUANTITIES}
+    assert further - names == {"snow_height"}  # its thickness has
 
 
 def test_every_search_holds_what_is_given():

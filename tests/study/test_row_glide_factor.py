@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from netdesign.checks import load_standard
@@ -13,7 +14,11 @@ from netdesign.snow.ground import (
     build_ground_from_glide_factor,
 )
 from netdesign.study.cases import solve_site
-from netdesign.study.effects import find_row_glide_factor
+from netdesign.study.effects import (
+    find_glide_factors,
+    find_row_glide_factor,
+    load_glide_limits,
+)
 from netdesign.study.judge import judge_site
 from tests.small_site import RUN, build_row, build_site
 
@@ -31,7 +36,7 @@ def a_row(ground=SLIDING, glide_factor=None):
     return replace(row, glide_factor=glide_factor, layout=layout)
 
 
-@pytest.mark.parametrize("glide", [1.0004, 2.713, 3.2])
+@pytest.mark.parametrize("glide", [1.2003, 2.713, 3.2])
 def test_a_typed_factor_is_taken_as_it_is(glide):
     """Whatever slip length the ground has: it is not asked."""
     assert find_row_glide_factor(a_row(glide_factor=glide)) == glide
@@ -47,14 +52,41 @@ def test_without_one_the_slip_length_leads_back_to_it(glide):
 @pytest.mark.parametrize(
     ("ground", "expected"),
     [
-        (GroundLaw(kind="no-slip"), 1.0),
+        (GroundLaw(kind="no-slip"), 1.2),  # the least of the guideline's tables
+        (GroundLaw(kind="sliding", slip_length=0.013), 1.2),
         (GroundLaw(kind="free"), 3.2),  # the largest of the guideline's tables
         (GroundLaw(kind="sliding", slip_length=199.0), LARGEST_GLIDE_FACTOR),
     ],
 )
 def test_at_the_ends_of_the_table(ground, expected):
     assert find_row_glide_factor(a_row(ground)) == expected
-    assert find_glide_factor(ground, a_row().snow_thickness, 3.2) == expected
+    assert find_glide_factor(ground, a_row().snow_thickness, (1.2, 3.2)) == expected
+
+
+def test_no_factor_lies_below_the_least_of_the_guideline_s_tables():
+    """Typed, of a slip length or of a ground without slip; limits from the profile."""
+    tables = load_standard("swiss-guideline-2007").tables
+    rows = [one.rows for one in tables if one.id.startswith("glide.factor")]
+    factors = [value for table in rows for _, _, value in table]
+    assert load_glide_limits() == (min(factors), max(factors)) == (1.2, 3.2)
+    for glide in (1.0, 1.0004, 1.1999):
+        assert find_row_glide_factor(a_row(glide_factor=glide)) == 1.2
+
+
+def test_factors_of_many_thicknesses_are_those_of_each():
+    thicknesses = np.array([0.31, 1.47, 2.9, 4.4])
+    grounds = [
+        SLIDING,
+        GroundLaw(kind="sliding", slip_length=0.4),
+        GroundLaw(kind="no-slip"),
+        GroundLaw(),
+    ]
+    for row in [*(a_row(ground) for ground in grounds), a_row(glide_factor=2.17)]:
+        many = find_glide_factors(row, thicknesses)
+        each = [
+            find_row_glide_factor(replace(row, snow_thickness=d)) for d in thicknesses
+        ]
+        assert many.tolist() == each
 
 
 def study(glide_factor):

@@ -20,9 +20,11 @@ FAMILIES: tuple[str, ...] = (
     *("os_error.", "shape."),
     *("finding.error", "finding.note", "case_count."),
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
-    *("evidence.", "law.", "termination.", "verdict.", "meaning."),
+    *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
+    "creep_law.",
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     "floor.profile_",
+    *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(
         "profile_about.",

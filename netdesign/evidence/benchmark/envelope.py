@@ -229,8 +229,8 @@ def _measure_one_row() -> dict[str, Any]:
     gap = max(one.hidden / max(one.force.value, scale) for one in extremes)
     error = max(
         pull.error / pull.size
-        for result in found.results
-        if result.solution is not None
+        for result, doubt in zip(found.results, found.maxima.doubts, strict=True)
+        if result.solution is not None and doubt is None  # not far below the maxima
         for pull in (result.solution.foot, result.solution.head)
     )
     solved = runner.counts.solved

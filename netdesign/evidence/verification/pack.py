@@ -18,6 +18,7 @@ from netdesign.evidence.verification.coupled import (
 from netdesign.evidence.verification.histories import list_histories
 from netdesign.evidence.verification.manufactured import list_manufactured
 from netdesign.evidence.verification.panels import list_panels
+from netdesign.evidence.verification.plan_view import list_plan_view
 from netdesign.evidence.verification.sliding_net import list_sliding_net
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
 
@@ -38,6 +39,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_depth_averaged,
     list_histories,
     list_panels,
+    list_plan_view,
 )
 
 

@@ -72,8 +72,9 @@ class Chart:
         """
         paths: dict[str, dict[str, str]] = {}
         for left, top, width, height, fill in cells:
-            of_width = paths.setdefault(_show(width), {})
-            tile = f"M{_show(left + width / 2)} {_show(top)}v{_show(height)}"
+            of_width = paths.setdefault(show_place(width), {})
+            middle, start = show_place(left + width / 2), show_place(top)
+            tile = f"M{middle} {start}v{show_place(height)}"
             of_width[fill] = of_width.get(fill, "") + tile
         for width_pt, fills in paths.items():
             lines = "".join(f'<path stroke="{f}" d="{d}"/>' for f, d in fills.items())
@@ -119,7 +120,7 @@ class Chart:
         """One line of text; y is its base line [pt]."""
         weight = ' font-weight="bold"' if bold else ""
         self.labels.setdefault(f'text-anchor="{anchor}"{weight}', []).append(
-            f'<text x="{_show(x)}" y="{_show(y)}">{escape(words)}</text>'
+            f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
         )
 
     def axes(self, frame: Frame, *, y_ticks: bool = True, x_ticks: bool = True) -> None:
@@ -128,11 +129,11 @@ class Chart:
         path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
         for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
             x = frame.x(value)
-            path += f"M{_show(x)} {_show(bottom)}v{_TICK}"
+            path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
             self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
         for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
             y = frame.y(value)
-            path += f"M{_show(left)} {_show(y)}h-{_TICK}"
+            path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
             self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
@@ -154,13 +155,13 @@ class Chart:
         )
 
 
-def _show(place: float) -> str:
+def show_place(place: float) -> str:
     """Place on the page to a tenth of a point, without a zero that says nothing."""
     return f"{place:.1f}".removesuffix(".0")
 
 
 def _list_points(points: Iterable[tuple[float, float]]) -> str:
-    return " ".join(f"{_show(x)},{_show(y)}" for x, y in points)
+    return " ".join(f"{show_place(x)},{show_place(y)}" for x, y in points)
 
 
 def drop_straight(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -173,13 +174,23 @@ def drop_straight(points: Sequence[tuple[float, float]]) -> list[tuple[float, fl
     """
     kept, start = list(points[:1]), 0
     for end in range(2, len(points)):
-        (x0, y0), (x1, y1) = points[start], points[end]
-        rise = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0
         between = points[start + 1 : end]
-        if any(abs(y0 + rise * (x - x0) - y) > _STRAIGHT for x, y in between):
+        if any(
+            _measure_off(one, points[start], points[end]) > _STRAIGHT for one in between
+        ):
             start = end - 1
             kept.append(points[start])
     return [*kept, *points[1:][-1:]]
+
+
+def _measure_off(
+    point: tuple[float, float], start: tuple[float, float], end: tuple[float, float]
+) -> float:
+    """Distance of a point from the line through two others [pt]."""
+    x, y = point[0] - start[0], point[1] - start[1]
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(dx, dy)
+    return abs(x * dy - y * dx) / length if length else math.hypot(x, y)
 
 
 def list_ticks(low: float, high: float, most: int = 5) -> list[float]:

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
 from netdesign.report.drawing.figures import GREY, INK, PALE, SNOW
+from netdesign.report.drawing.plain_svg import drop_straight
 from netdesign.report.drawing.section_frame import (
     LONGEST_ARROW,
     ROD,
@@ -56,7 +57,8 @@ def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
     net = [point for piece in trace_curve(drawing.net_m, _CHORDS) for point in piece]
     covered = [(x, y) for x, y in net if y <= thickness]
     surface = [(covered[-1][0], thickness), (top_end, thickness)]
-    outline = paper.all_at([(top_end, 0.0), *covered, *surface])
+    curve = drop_straight(paper.all_at(covered))
+    outline = [paper.at((top_end, 0.0)), *curve, *paper.all_at(surface)]
     sketch.area(outline, SNOW)
     sketch.clip_area(name, outline)
     edges = (
@@ -98,7 +100,7 @@ def _draw_net(sketch: Sketch, paper: Paper) -> None:
         if i == len(sticks) or sticks[i] != sticks[start]:
             run = [point for piece in pieces[start:i] for point in piece]
             dash = "" if sticks[start] else SLIP_DASH
-            sketch.line(paper.all_at(run), width=1.8, dash=dash)
+            sketch.line(drop_straight(paper.all_at(run)), width=1.8, dash=dash)
             start = i
 
 

@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from html import escape
 
 from netdesign.report.drawing.figures import ACCENT, INK
-from netdesign.report.drawing.plain_svg import Chart
+from netdesign.report.drawing.plain_svg import Chart, show_place
 
 Point = tuple[float, float]
 
+_SHORTEST = 0.4  # of loose lines [pt]
 _HEAD_LENGTH, _HEAD_HALF = 6.5, 2.3  # of an arrow [pt]
 
 
@@ -36,9 +37,12 @@ class Sketch(Chart):
         width: float,
         clip: str = "",
     ) -> None:
-        """Loose lines in one path; ``clip`` names an area that bounds them."""
+        """Loose lines in one path; ``clip`` names an area that bounds them.
+
+        Those too short to be seen are left out.
+        """
         path = "".join(
-            f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}" for a, b in pairs
+            _write_segment(a, b) for a, b in pairs if math.dist(a, b) > _SHORTEST
         )
         within = f' clip-path="url(#{clip})"' if clip else ""
         if path:
@@ -49,7 +53,7 @@ class Sketch(Chart):
 
     def clip_area(self, name: str, points: Sequence[Point]) -> None:
         """Define an area that may bound other shapes."""
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        path = " ".join(f"{show_place(x)},{show_place(y)}" for x, y in points)
         self.shapes.append(
             f'<clipPath id="{name}"><polygon points="{path}"/></clipPath>'
         )
@@ -85,3 +89,10 @@ class Sketch(Chart):
             f'<text x="{at[0]:.2f}" y="{at[1]:.2f}" text-anchor="{anchor}" '
             f'fill="{fill}"{weight}>{escape(text)}</text>'
         )
+
+
+def _write_segment(start: Point, end: Point) -> str:
+    """Line of a path, its end counted from its start: fewer digits."""
+    (x0, y0), (x1, y1) = ((round(x, 1), round(y, 1)) for x, y in (start, end))
+    numbers = (show_place(one) for one in (x0, y0, x1 - x0, y1 - y0))
+    return "M{} {}l{} {}".format(*numbers)

@@ -39,6 +39,7 @@ _PAGE_SECTIONS = (
     "scope",
     "assumptions",
     "ranges",
+    "formulas",
     "profile",
     "notes",
     "quality",
@@ -49,6 +50,7 @@ _SUMMARY_SECTIONS = ("drawing", "checks", "changes")
 _ROW_SECTIONS = (
     *_SUMMARY_SECTIONS,
     "worked",
+    "figures",
     "uncertainty",
     "envelope",
     "extremes",

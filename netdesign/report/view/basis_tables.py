@@ -24,6 +24,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.notes import tell_evidence
 from netdesign.study.records import Study
+from netdesign.words.message import say
 
 _SCOPE = ("scope.treated", "scope.not_treated", "scope.decision")
 _MODEL = (
@@ -32,6 +33,10 @@ _MODEL = (
     "assumption.hinged_post",
     "assumption.coulomb",
 )
+
+
+# Left empty, its factor is taken by the guideline's load.
+_ALTITUDE = say("column.Nets.altitude")
 
 
 def list_scope(words: Words) -> tuple[str, ...]:
@@ -91,9 +96,12 @@ def _group_defaults(
     for place, inputs in places:
         for echo in inputs:
             is_kind = isinstance(echo.value, float) or not of_numbers
+            label = words.show(echo.label)
             if echo.cell == DEFAULT and echo.value != "" and is_kind:
                 shown = show_quantity(understand(echo, words), echo.unit)
-                label = words.show(echo.label)
+                found.setdefault((label, shown), []).append(place)
+            elif echo.label == _ALTITUDE and echo.value == "":
+                shown = words("show.largest_altitude_factor")
                 found.setdefault((label, shown), []).append(place)
     return {key: show_text(", ".join(names)) for key, names in found.items()}
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -17,6 +19,7 @@ from netdesign.report.words import (
     Words,
     add_unit,
     name_heading,
+    show_check,
     show_member,
     show_number,
 )
@@ -104,6 +107,7 @@ def build_drivers(row: RowStudy, words: Words) -> Table:
     keys = ("first_order", "total", "unexplained")
     numbers = [words(f"heading.{key}") for key in keys]
     low, high = words("heading.at_low_end"), words("heading.at_high_end")
+    names = {check.id: show_check(words, check) for check in row.checks}
     return Table(
         caption=words("caption.driver_table"),
         columns=(
@@ -123,7 +127,7 @@ def build_drivers(row: RowStudy, words: Words) -> Table:
                 Cell(text=f"{one.first_order:.3f}", number=one.first_order),
                 Cell(text=f"{one.total:.3f}", number=one.total),
                 Cell(text=f"{bound.unexplained or 0.0:.3f}", number=bound.unexplained),
-                text_cell(_name_flips(bound, one.key)),
+                text_cell(_name_flips(bound, one.key, names)),
             )
             for bound in _list_bounds(row.envelope)
             if bound.max_kN > 0.0
@@ -141,10 +145,14 @@ def _name_case(case: dict[str, float]) -> str:
     return ", ".join(f"{value:.5g}" for value in case.values())
 
 
-def _name_flips(bound: BoundRecord, key: str) -> str:
-    """Critical values of a quantity: ``312.4 (foot_anchor.tendon)``."""
-    return "; ".join(
-        f"{show_number(key, float(f'{flip.value:.4g}'))} ({flip.check})"
+def _name_flips(bound: BoundRecord, key: str, names: Mapping[str, str]) -> str:
+    """Critical values of a quantity: ``312.4 (Foot anchor, tendon)``."""
+    told = [
+        (
+            show_number(key, float(f"{flip.value:.4g}")),
+            names.get(flip.check, flip.check),
+        )
         for flip in bound.flips
         if flip.key == key
-    )
+    ]
+    return "; ".join(f"{value} ({check})" for value, check in told)

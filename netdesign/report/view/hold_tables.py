@@ -33,7 +33,7 @@ def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
     """Limits of a check, each alone: ``holds while slack >= 0.021 (now 0.03)``."""
     if check is None:
         return ()
-    key = "show.holds" if check.verdict is Verdict.PASS else "show.turns"
+    key = _choose_sentence(check)
     return tuple(
         words(
             key,
@@ -46,6 +46,23 @@ def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
     )
 
 
+def _choose_sentence(check: CheckRecord) -> str:
+    """Sentence of a limit: beyond it a check turns, or its force does.
+
+    A check that carries its force may still not pass: a case without a result, a creep
+    law out of its range, a declaration.
+    """
+    if not _carries(check):
+        return "show.turns"
+    return "show.holds" if check.verdict is Verdict.PASS else "show.within"
+
+
+def _carries(check: CheckRecord) -> bool:
+    """True where the largest force is within the resistance, as the record has it."""
+    _, used = check.utilisation_band
+    return used is not None and used <= 1.0
+
+
 def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
     limits = [
         f"{sign} {show_given(value)}"
@@ -54,7 +71,7 @@ def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
     ]
     if len(limits) == 1:
         return limits[0]
-    key = "show.both" if check.verdict is Verdict.PASS else "show.either"
+    key = "show.both" if _carries(check) else "show.either"
     return words(key, one=limits[0], other=limits[1])
 
 

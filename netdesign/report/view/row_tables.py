@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from netdesign.outcome import Verdict
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -28,6 +29,7 @@ from netdesign.report.words import (
     show_with_unit,
 )
 from netdesign.structure.members import ROPE_OF
+from netdesign.study.flips import CLOSE
 from netdesign.study.records import (
     ActionRecord,
     AnchorRecord,
@@ -270,8 +272,18 @@ def build_changes(row: RowStudy, words: Words) -> Table:
             for check in row.checks
             for change in check.changes
         ),
-        empty=words("heading.no_change_needed"),
+        empty=words(
+            "heading.no_change_needed"
+            if all(map(is_far_from_limit, row.checks))
+            else "heading.no_change_alone"
+        ),
     )
+
+
+def is_far_from_limit(check: CheckRecord) -> bool:
+    """True of a check that passes, and is told no change that would turn it."""
+    _, used = check.utilisation_band
+    return check.verdict is Verdict.PASS and (used is None or used < CLOSE)
 
 
 def list_flips(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
@@ -436,6 +448,9 @@ def _widen(force: str, action: ActionRecord) -> str:
 _FLOOR = (
     "force_kN",
     "inclination_deg",
+    "snow_thickness_m",
+    "slack",
+    "stiffness_kN_per_m",
     "density_kg_m3",
     "height_vertical_m",
     "creep_factor",
@@ -452,8 +467,9 @@ def build_floor(row: RowStudy, words: Words) -> Table:
     empty = words("floor.none")
     if floor is not None and floor.reason is not None:
         empty = words.show(floor.reason)
+    assumed = "".join(f"; {words.show(one)}" for one in floor.assumed) if floor else ""
     return Table(
-        caption=words("caption.floor"),
+        caption=words("caption.floor") + assumed,
         columns=(
             text_column(words("heading.member")),
             text_column(words("heading.load_case")),

@@ -305,7 +305,9 @@ def build_provenance(study: Study, words: Words) -> Table:
         "started": made.started,
         "site_file": made.site_file,
         "site_hash": made.site_sha256,
-        "limit_profile": f"{study.profile.id}, {study.profile.edition}",
+        "limit_profile": words(
+            "show.label", label=study.profile.id, text=name_profile(study, words)
+        ),
         "profile_version": study.profile.version,
         "profile_choice": study.profile.choice,
         "profile_hash": study.profile.sha256,
@@ -331,12 +333,19 @@ def build_provenance(study: Study, words: Words) -> Table:
     )
 
 
+def name_profile(study: Study, words: Words) -> str:
+    """Title and edition of the limit profile."""
+    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
+
+
 def list_settings(study: Study, words: Words) -> list[tuple[str, str]]:
     """Settings of a run by their names; the method in words."""
     return [
         (
             words.show(name("setting", key)),
-            words.show(name("method_used", text)) if key == "method" else text,
+            words.show(name("method_used", text))
+            if key == "method"
+            else show_own(words, text),
         )
         for key, text in study.provenance.settings.items()
     ]

@@ -16,6 +16,7 @@ from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
     envelope_tables,
+    figure_tables,
     hold_tables,
     panel_tables,
     row_tables,
@@ -39,7 +40,6 @@ from netdesign.report.words import (
     name_case,
     show_check,
     show_member,
-    show_own,
     show_quantity,
     show_text,
     show_verdict,
@@ -50,6 +50,21 @@ from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figures:
+    """Tables of all figures of a row's checks."""
+
+    statics: Table
+    floor_statics: Table
+    sideways: Table
+    widths: Table
+    actions: Table
+    checks: Table
+    resistances: Table
+    tests: Table
+    turns: Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,6 +100,7 @@ class RowView:
     guideline: Table
     guideline_sentence: str
     floor: Table
+    figures: Figures
     panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
 
@@ -115,6 +131,8 @@ class ReportView:
     profile_title: str
     profile: Table
     notes: tuple[str, ...]
+    formulas: Table
+    figure_tables: Table  # what each of a row's tables of figures holds
     quality: Table
     outcomes: Table
     provenance: Table
@@ -160,12 +178,14 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         ranges=tables.build_inputs(
             study.range_inputs, words("heading.ranges_of_envelope"), words
         ),
-        profile_title=_name_profile(study, words),
+        profile_title=tables.name_profile(study, words),
         profile=tables.build_profile(study, words),
         notes=(
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
         ),
+        formulas=figure_tables.build_formulas(words),
+        figure_tables=figure_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -222,8 +242,23 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
         notes=tuple(words.show(note) for note in row.notes),
+    )
+
+
+def _view_figures(row: RowStudy, words: Words) -> Figures:
+    return Figures(
+        statics=figure_tables.build_statics(row, words),
+        floor_statics=figure_tables.build_floor_statics(row, words),
+        sideways=figure_tables.build_sideways(row, words),
+        widths=figure_tables.build_widths(row, words),
+        actions=figure_tables.build_actions(row, words),
+        checks=figure_tables.build_check_figures(row, words),
+        resistances=figure_tables.build_resistances(row, words),
+        tests=figure_tables.build_tests(row, words),
+        turns=figure_tables.build_turns(row, words),
     )
 
 
@@ -245,15 +280,11 @@ def _identify(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
         ("project", project.name),
         ("number", project.number),
         ("revision", project.revision),
-        ("limit_profile", _name_profile(study, words)),
+        ("limit_profile", tables.name_profile(study, words)),
         ("site_file", study.provenance.site_file),
         ("date", study.provenance.started[:10]),
     )
     return tuple((words(f"heading.{key}"), show_text(text)) for key, text in pairs)
-
-
-def _name_profile(study: Study, words: Words) -> str:
-    return show_own(words, f"{study.profile.title}, {study.profile.edition}")
 
 
 def _tell_verification(study: Study, words: Words) -> tuple[tuple[str, str], ...]:

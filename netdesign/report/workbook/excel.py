@@ -14,16 +14,21 @@ from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import A3, A4, Book
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 _FIRST_LINE = 4  # of a table below its caption and headings, zero-based
 _NO_TIME = datetime(1980, 1, 1)
+_WIDE = ("statics", "floor_statics")
 SHEETS = (
     "summary",
     "inputs",
     "checks",
+    "actions",
+    "statics",
+    "floor_statics",
+    "resistances",
     "envelope",
     "cases",
     "changes",
@@ -31,6 +36,7 @@ SHEETS = (
     "support",
     "directions",
     "guideline",
+    "formulas",
     "quality",
     "assumptions",
     "profile",
@@ -91,7 +97,10 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_summary_sheet(book, study, view)
     _add_inputs(book, view)
     add_check_sheet(book, study, view)
+    _add_figures(book, view)
     _add_row_tables(book, study, view)
+    formulas = book.words("heading.formulas")
+    book.add_table_sheet("formulas", formulas, [view.formulas, view.figure_tables])
     for name, title, parts in (
         ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
         ("assumptions", "heading.assumptions", [view.assumptions]),
@@ -147,6 +156,9 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         if name == "guideline":
             floors = _list_parts(view, "floor")
             shown.append(_stack(book, book.words("caption.floor"), floors))
+        if name == "directions":
+            turns = [(row.id, row.figures.turns) for row in view.rows]
+            shown.append(_stack(book, book.words("caption.turns"), turns))
         if name == "support":
             shown += _list_panels(book, view)
         sheet = book.add_table_sheet(name, book.words(title), shown)
@@ -155,6 +167,24 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
             add_force_chart(book, sheet, (_FIRST_LINE, bottom), (0, 1, 2))
         if name == "cases" and stacked.rows:
             add_case_chart(book, sheet, _span(parts), bottom)
+
+
+def _add_figures(book: Book, view: ReportView) -> None:
+    """Sheets of what the figures of the checks follow from, all rows together."""
+    for name, tables_of_sheet in (
+        ("actions", ("actions", "widths")),
+        ("statics", ("statics", "sideways")),
+        ("floor_statics", ("floor_statics",)),
+        ("resistances", ("resistances", "tests")),
+    ):
+        shown = []
+        for table in tables_of_sheet:
+            parts = [(row.id, getattr(row.figures, table)) for row in view.rows]
+            caption = parts[0][1].caption if parts else ""
+            shown.append(_stack(book, caption, parts))
+        paper = A3 if name in _WIDE else A4
+        title = book.words(f"heading.{name}")
+        book.add_table_sheet(name, title, shown, paper=paper)
 
 
 def _list_panels(book: Book, view: ReportView) -> list[Table]:

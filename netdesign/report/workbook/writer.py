@@ -159,9 +159,11 @@ class Book:
             self.set_height(sheet, row, count_lines(texts, widths))
         return top + 3 + len(table.rows)
 
-    def add_table_sheet(self, name: str, title: str, tables: Sequence[Table]) -> Any:
+    def add_table_sheet(
+        self, name: str, title: str, tables: Sequence[Table], *, paper: int = A4
+    ) -> Any:
         """Sheet of tables one below the other; a single one can be filtered."""
-        sheet = self.add_sheet(name, title)
+        sheet = self.add_sheet(name, title, paper=paper)
         self.link_back(sheet)
         top = 2
         for table in tables:

@@ -553,7 +553,9 @@ DECLARED = word_plan(
                 key="check",
                 kind="text",
                 required=True,
-                note="as the reports name it: Post base, bearing",
+                note='as the reports name it: Post base, bearing; without "end of the '
+                'row" it holds at the ends of the row only where the type there is the '
+                "same",
             ),
             Field(
                 key="document",

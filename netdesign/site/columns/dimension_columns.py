@@ -58,7 +58,7 @@ ROW_POSITION = (
         ("m",),
         (0.0, 6000.0),
         "above sea level, for the density of the guideline's load cases; left empty, "
-        "their factor for altitude is 1",
+        "it is taken with the largest factor for altitude",
     ),
 )
 ANCHOR_DIMENSIONS = (

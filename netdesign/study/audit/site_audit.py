@@ -29,6 +29,7 @@ from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
@@ -195,6 +196,7 @@ def _audit_judgement(
         yield say("audit.judged_otherwise", place=place, value=found.message)
     notes = [
         *list_row_notes(given, effects, pulls),
+        *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, standard),
         *list_case_notes(row.cases),
     ]
@@ -203,7 +205,7 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
-    for found in compare_values(row.floor, record_floor(floor))[:_MOST]:
+    for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
     for check in row.checks:
         if check.member in ROPE_OF:
@@ -269,13 +271,13 @@ def _expect_directions(
         gap=_UNKNOWN_GAP if lack is None and is_open else lack,
     )
 
-    def settle(result: CheckResult) -> CheckRecord:
-        return record_result(settle_check(basis.site, given, result))
+    def settle(result: CheckResult, position: Position | None = None) -> CheckRecord:
+        return record_result(settle_check(basis.site, given, result, position))
 
     found = [
         settle(check_sideways(given, sideways, gap)),
         *(
-            place_check(settle(one), position)
+            place_check(settle(one, position), position)
             for position, one in check_directions(pulls, standard, gap)
         ),
     ]
@@ -376,8 +378,9 @@ def _judge_again(
     gap = None if is_whole else _UNKNOWN_GAP
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
-    settled = settle_check(basis.site, basis.row, result)
-    again = place_check(record_result(settled, given), position or width.position)
+    place = position or width.position
+    settled = settle_check(basis.site, basis.row, result, place)
+    again = place_check(record_result(settled, given), place)
     if not is_whole:  # a gap in its own words is one
         return replace(again, reason=check.reason)
     if check.action is None:

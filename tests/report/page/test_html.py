@@ -62,7 +62,7 @@ def test_ids_are_unique(page):
 def test_every_section_is_there(page):
     expected = html.list_sections(build_view(build_study()))
     assert set(expected) <= set(PageReader(page).ids)
-    assert len(expected) == 11 + 3 * 11
+    assert len(expected) == 12 + 3 * 12
 
 
 def test_a_missing_section_raises(monkeypatch):
@@ -146,7 +146,7 @@ def test_summary_is_shorter_and_keeps_the_verdicts(page):
 def test_drawings_need_no_style_sheet(page):
     """Ratio bars keep their colours where CSS does not reach into SVG."""
     bars = page.split('<svg class="bar"')[1:]
-    assert all("fill=" in bar.split("</svg>")[0] for bar in bars)
+    assert all(bar.split("</svg>")[0].count(" stroke=") == 4 for bar in bars)
 
 
 def test_tables_have_captions_and_scopes(page):

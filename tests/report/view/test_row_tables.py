@@ -1,10 +1,14 @@
 """Support, guideline, intervals and changes as rows of words."""
 
+import io
 from dataclasses import replace
 
 import pytest
+from rich.console import Console
 
+from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
+from netdesign.report.terminal import print_changes
 from netdesign.report.view.row_tables import (
     build_anchors,
     build_changes,
@@ -14,8 +18,10 @@ from netdesign.report.view.row_tables import (
     describe_change,
     describe_widths,
 )
-from netdesign.report.words import ENGLISH
+from netdesign.report.words import ENGLISH, Words
+from netdesign.study.flips import CLOSE
 from netdesign.study.records import ChangeRecord
+from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 
 ROW = build_study().rows[0]
@@ -121,3 +127,30 @@ def test_page_draws_the_polygon_of_the_head():
     page = render_html(build_study(rows=1))
     assert 'aria-label="Force polygon of the post head"' in page
     assert "<script" not in page
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("verdict", Verdict)
+@pytest.mark.parametrize("used", [None, 0.371, 0.8999, 0.9001, 1.07])
+def test_a_row_without_changes_needs_none_only_where_all_is_well(
+    verdict, used, language
+):
+    """An overtopped row has checks that are not proven, and no change for them."""
+
+    def build(verdict, used):
+        demand = None if used is None else 83.7 * used
+        numbers = dict.fromkeys(("demand_low_kN", "demand_high_kN"), demand)
+        numbers |= {"resistance_kN": 83.7, "changes": []}
+        return replace(ROW.checks[0], verdict=verdict, **numbers)
+
+    checks = [build(Verdict.PASS, 0.4), build(verdict, used)]
+    study = build_study(rows=1)
+    study = replace(study, rows=[replace(study.rows[0], checks=checks)])
+    words = Words(language)
+    is_well = verdict is Verdict.PASS and (used is None or used < CLOSE)
+    key = "no_change_needed" if is_well else "no_change_alone"
+    assert build_changes(study.rows[0], words).empty == words(f"heading.{key}")
+    stream = io.StringIO()
+    print_changes(study, Console(file=stream, width=400), language)
+    key = "no_change" if is_well else "no_change_alone"
+    assert stream.getvalue().strip() == words(f"show.{key}")

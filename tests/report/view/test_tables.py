@@ -1,12 +1,20 @@
 """Inputs of a row: typed, understood, and how the one follows from the other."""
 
+from dataclasses import replace
+
 import pytest
 
-from netdesign.report.view.tables import build_inputs
+from netdesign.checks import list_standards, load_standard
+from netdesign.report.view.tables import build_inputs, build_provenance
+from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.site.columns.all_tables import SEARCHED, SHEETS
 from netdesign.site.model import InputEcho
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.study.record_provenance import name_law
+from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.message import say
+from tests.report.build_study import build_study
 
 SLIP = InputEcho(
     label=say("column.Nets.slip_length"),
@@ -68,3 +76,23 @@ def test_samples_that_nobody_counted_are_searched_in_each_language(language, sho
     echo = InputEcho(label=label, unit="", text="", value=SEARCHED, cell="default")
     (row,) = build_inputs([echo], "", Words(language)).rows
     assert row[2].text == shown
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("profile", list_standards())
+def test_the_provenance_names_profile_and_law_as_the_pages_do(profile, language):
+    standard, words = load_standard(profile), Words(language)
+    study = build_study(rows=1)
+    record = replace(
+        study.profile, id=profile, title=standard.title, edition=standard.edition
+    )
+    settings = {"creep_law": name_law(BOUTILLIER_2004)}
+    provenance = replace(study.provenance, settings=settings)
+    study = replace(study, profile=record, provenance=provenance)
+    told = {line[0].text: line[1].text for line in build_provenance(study, words).rows}
+    title = build_view(study, language).profile_title
+    assert told[words("heading.limit_profile")].endswith(title)
+    assert profile in told[words("heading.limit_profile")]
+    is_english = language == "en"
+    assert ("written for netdesign" in title) is is_english
+    assert any(name_law(BOUTILLIER_2004) == one for one in told.values()) is is_english

@@ -1,0 +1,144 @@
+"""Cases of a row on their way from being asked for to their results.
+
+Those that friction cannot change are not solved. Those of a search's first design are
+solved roughly first, then again where they may matter. Theory: envelope/THEORY.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.rows import RowTask, build_point_task, roughen_settings
+from netdesign.envelope.run import CaseResult, resolve_case
+from netdesign.search.surrogate import Point
+from netdesign.solving.solve import Settings
+from netdesign.solving.state import CaseEnd
+from netdesign.solving.workers import Batch, Ends
+
+
+class Cases:
+    """Some points of a row, until all their results are known.
+
+    Attributes
+    ----------
+    rough : frozenset of int
+        Places of results that are known roughly only.
+    """
+
+    rough: frozenset[int] = frozenset()
+
+    def __init__(
+        self,
+        task: RowTask,
+        points: Sequence[Point],
+        skip: FrictionSkip,
+        settings: Settings | None = None,
+    ) -> None:
+        """Take the points, and the settings of their solves if not the row's own."""
+        self._points, self._skip = points, skip
+        self._tasks = [build_point_task(task, point, settings) for point in points]
+        asked = zip(points, self._tasks, strict=True)
+        self._jobs = {point: one.job for point, one in asked if one.job is not None}
+        self._ends: dict[Point, CaseEnd] = {}
+        self._lines = self._list_lines()
+
+    def _list_lines(self) -> list[list[Point]]:
+        open_points = [point for point in self._jobs if point not in self._ends]
+        return self._skip.list_lines(open_points)
+
+    def ask(self) -> list[Batch]:
+        """Batches to be solved next; none once the rest need no solve."""
+        return [tuple(self._jobs[point] for point in line) for line in self._lines]
+
+    def tell(self, answers: Sequence[Ends]) -> None:
+        """Take the ends of the batches asked for, in their order."""
+        for line, answer in zip(self._lines, answers, strict=True):
+            for point, end in zip(line, answer, strict=False):  # until it sticks
+                self._ends[point] = end
+                self._skip.learn(point, end)
+        self._lines = self._list_lines()
+
+    def finish(self) -> list[CaseResult]:
+        """Results in the order of the points; ends that friction cannot change."""
+        for point in self._jobs:
+            if point not in self._ends:
+                self._ends[point] = self._skip.recall(point)
+        known: dict[int, CaseResult] = {}
+        results = []
+        for point, task in zip(self._points, self._tasks, strict=True):
+            end = self._ends.get(point)
+            same = known.get(id(end)) if end else None  # one end of several frictions
+            result = replace(same, case=task.case) if same else resolve_case(task, end)
+            known[id(end)] = result
+            results.append(result)
+        return results
+
+
+class FirstCases:
+    """Cases of the first design: on the two coarsest meshes, then as they deserve.
+
+    A case that failed there, has no panel, or may come near a largest force, is solved
+    again as the row asks for, unless it is that accurate already. The others stay
+    rough.
+
+    Attributes
+    ----------
+    rough : frozenset of int
+        Places of results that are known roughly only.
+    """
+
+    def __init__(
+        self,
+        task: RowTask,
+        points: Sequence[Point],
+        skip: FrictionSkip,
+        find_near: Callable[[Sequence[CaseResult]], set[int]],
+    ) -> None:
+        """Take the points, and what finds the places of those that matter."""
+        self._task, self._points, self._skip = task, points, skip
+        self._find_near = find_near
+        self._settings = roughen_settings(task.settings)
+        self._cases = Cases(task, points, skip, self._settings)
+        self._first: list[CaseResult] | None = None
+        self._again: list[int] = []
+        self.rough: frozenset[int] = frozenset()
+        self._go_on()
+
+    def ask(self) -> list[Batch]:
+        """Batches to be solved next; none once the rest need no solve."""
+        return self._cases.ask()
+
+    def tell(self, answers: Sequence[Ends]) -> None:
+        """Take the ends of the batches asked for, in their order."""
+        self._cases.tell(answers)
+        self._go_on()
+
+    def finish(self) -> list[CaseResult]:
+        """Results in the order of the points."""
+        results = list(self._first or ())
+        for place, result in zip(self._again, self._cases.finish(), strict=True):
+            results[place] = result
+        return results
+
+    def _go_on(self) -> None:
+        """Ask for the cases that matter once more, after the last of all is known."""
+        if self._first is not None or self._cases.ask():
+            return
+        self._first = self._cases.finish()
+        rough = {k for k, one in enumerate(self._first) if self._would_gain(one)}
+        near = self._find_near(self._first)
+        self._again, self.rough = sorted(rough & near), frozenset(rough - near)
+        points = [self._points[place] for place in self._again]
+        self._skip.forget(points)
+        self._cases = Cases(self._task, points, self._skip)
+
+    def _would_gain(self, result: CaseResult) -> bool:
+        """More meshes could change the result."""
+        if self._settings == self._task.settings or result.fault is not None:
+            return False
+        if result.solution is None:
+            return True
+        pulls = (result.solution.foot, result.solution.head)
+        return any(one.error > self._task.settings.accuracy * one.size for one in pulls)

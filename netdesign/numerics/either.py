@@ -1,0 +1,101 @@
+"""Elementary functions of one number or of an array, so that a formula stands once.
+
+A number stays a number and is as fast as with ``math``; an array gives an array.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+import numpy as np
+
+from netdesign.guards import require_positive, require_within
+from netdesign.numerics.arrays import Mask, Number
+
+Truth = bool | Mask
+
+
+def find_tangent(angle: Number) -> Number:
+    """Tangent of an angle [rad]."""
+    return np.tan(angle) if isinstance(angle, np.ndarray) else math.tan(angle)
+
+
+def find_sine(angle: Number) -> Number:
+    """Sine of an angle [rad]."""
+    return np.sin(angle) if isinstance(angle, np.ndarray) else math.sin(angle)
+
+
+def find_cosine(angle: Number) -> Number:
+    """Cosine of an angle [rad]."""
+    return np.cos(angle) if isinstance(angle, np.ndarray) else math.cos(angle)
+
+
+def find_root(value: Number) -> Number:
+    """Square root."""
+    return np.sqrt(value) if isinstance(value, np.ndarray) else math.sqrt(value)
+
+
+def find_cube_root(value: Number) -> Number:
+    """Cube root."""
+    return np.cbrt(value) if isinstance(value, np.ndarray) else math.cbrt(value)
+
+
+def measure_length(x: Number, y: Number) -> Number:
+    """Length of a vector."""
+    return np.hypot(x, y) if isinstance(x, np.ndarray) else math.hypot(x, y)
+
+
+def measure_turn(x: Number, y: Number) -> Number:
+    """Angle of a vector from the first axis, -pi to pi [rad]."""
+    return np.arctan2(y, x) if isinstance(x, np.ndarray) else math.atan2(y, x)
+
+
+def take_larger(one: Number, other: Number | float) -> Number:
+    """Larger one of two."""
+    return np.maximum(one, other) if isinstance(one, np.ndarray) else max(one, other)
+
+
+def take_smaller(one: Number, other: Number | float) -> Number:
+    """Smaller one of two."""
+    return np.minimum(one, other) if isinstance(one, np.ndarray) else min(one, other)
+
+
+def choose(condition: Truth, one: Number, other: Number) -> Number:
+    """The one where the condition holds, else the other; both are worked out."""
+    if isinstance(condition, np.ndarray):
+        return cast(Number, np.where(condition, one, other))
+    return one if condition else other
+
+
+def find_none(*conditions: Truth) -> Truth:
+    """Truth that none of the conditions holds."""
+    first, *others = conditions
+    for one in others:
+        first = first | one
+    return ~first if isinstance(first, np.ndarray) else not first
+
+
+def as_mask(condition: Truth) -> Mask:
+    """Condition of many as what it is, an array."""
+    return np.asarray(condition)
+
+
+def require_all_within(
+    name: str, value: float | Number, low: float, high: float, unit: str = ""
+) -> None:
+    """Refuse what `require_within` refuses, of any number of an array."""
+    if isinstance(value, np.ndarray):
+        for end in (value.min(), value.max()):
+            require_within(name, float(end), low, high, unit)
+    else:
+        require_within(name, value, low, high, unit)
+
+
+def require_all_positive(name: str, value: float | Number, unit: str = "") -> None:
+    """Refuse what `require_positive` refuses, of any number of an array."""
+    if isinstance(value, np.ndarray):
+        for end in (value.min(), value.max()):
+            require_positive(name, float(end), unit)
+    else:
+        require_positive(name, value, unit)

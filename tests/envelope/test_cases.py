@@ -1,0 +1,196 @@
+"""First design of a search: rough first, then again where it may matter."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.coupling.solution import EndPull
+from netdesign.envelope.cases import FirstCases
+from netdesign.envelope.friction import FrictionSkip
+from netdesign.envelope.ranges import Case, Interval, Ranges
+from netdesign.envelope.result_reader import ResultReader
+from netdesign.envelope.rows import RowTask, build_point_task
+from netdesign.envelope.search import search_rows
+from netdesign.envelope.signed import read_signed, read_signed_errors
+from netdesign.outcome import Outcome
+from netdesign.search.maxima import SearchSettings
+from netdesign.solving.runner import Runner
+from netdesign.solving.state import CaseEnd
+from netdesign.words.message import say
+from tests.solving.made_up_workers import Recording, Spoiling
+from tests.solving.small_scene import LAYOUT, build_scene, solve_case
+
+SETTINGS = SolverSettings(accuracy=0.004, levels=MESH_LEVELS[:4])
+TASK = RowTask(
+    scene=build_scene(Case(density=300.0, friction_angle=0.5, inclination=0.5)),
+    ranges=Ranges(
+        intervals=(
+            ("density", Interval(low=253.0, high=418.0)),
+            (
+                "friction_angle",
+                Interval(low=math.radians(14.3), high=math.radians(44.1)),
+            ),
+        )
+    ),
+    layout=LAYOUT,
+    settings=SETTINGS,
+    search=SearchSettings(gap=0.004),
+    confirmed_by=None,
+)
+
+
+def show(result):
+    return {member: band.value for member, band in result.member_forces.items()}
+
+
+@pytest.fixture(scope="module")
+def workers():
+    return Recording()
+
+
+@pytest.fixture(scope="module")
+def found(workers):
+    (one,) = search_rows([TASK], Runner(workers=workers))
+    assert one.gap is None
+    return one
+
+
+def list_rough(found):
+    return [
+        (point, result)
+        for point, result, doubt in zip(
+            found.maxima.points, found.results, found.maxima.doubts, strict=True
+        )
+        if doubt is not None
+    ]
+
+
+def test_only_what_lies_far_below_the_largest_forces_stays_rough(found):
+    rough = list_rough(found)
+    assert 3 <= len(rough) <= len(found.results) - 10
+    largest = {m: one.force.value for m, one in found.extremes.items()}
+    for _, result in rough:
+        for member, band in result.member_forces.items():
+            assert band.high < 0.9 * largest[member] or largest[member] == 0.0
+        pulls = (result.solution.foot, result.solution.head)
+        assert any(pull.error > 0.004 * pull.size for pull in pulls)
+
+
+def test_rough_results_are_converged_and_state_errors_that_hold(found):
+    for point, result in list_rough(found):
+        assert result.is_converged
+        assert result.solution.balance.relative_residual <= 1e-8
+        exact = solve_case(build_point_task(TASK, point))
+        assert exact.solution.elements > result.solution.elements
+        for member, band in exact.member_forces.items():
+            own = result.member_forces[member]
+            assert abs(own.value - band.value) <= own.high - own.value
+
+
+def test_all_others_are_solved_as_the_row_asks_for(found):
+    rough = {point for point, _ in list_rough(found)}
+    others = [
+        (point, result)
+        for point, result in zip(found.maxima.points, found.results, strict=True)
+        if point not in rough
+    ]
+    assert found.skipped == 0
+    for point, result in others[::4]:
+        exact = solve_case(build_point_task(TASK, point))
+        assert show(exact) == show(result)
+
+
+def test_the_bound_holds_for_cases_that_are_all_solved_accurately(found):
+    for point in np.random.default_rng(3).uniform(size=(40, 2)):
+        result = solve_case(build_point_task(TASK, tuple(point.tolist())))
+        for place, member in enumerate(found.members):
+            force = result.member_forces[member].value
+            assert force <= found.maxima.upper_bound[place] * (1.0 + 1e-9)
+
+
+def test_a_search_on_two_meshes_solves_nothing_twice():
+    task = replace(TASK, settings=replace(SETTINGS, levels=MESH_LEVELS[:2]))
+    workers = Recording()
+    (found,) = search_rows([task], Runner(workers=workers))
+    assert len(workers.jobs) == len(found.results) - found.skipped
+    assert set(found.maxima.doubts) == {None}
+
+
+def test_what_fails_roughly_is_solved_again():
+    """Also where its force would not matter; the search never sees the failure."""
+
+    def spoil(job, end):
+        if job.settings == SETTINGS or job.scene.snowpack.density > 260.0:
+            return end
+        reason = say("text.as_given", text="too coarse")
+        return CaseEnd(outcome=Outcome.MAX_ITERATIONS, reason=reason)
+
+    (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil)))
+    assert found.gap is None
+    assert all(result.case.density > 260.0 for _, result in list_rough(found))
+
+
+def test_without_any_result_every_case_is_near():
+    task = build_point_task(TASK, (0.5, 0.5))
+    failed = replace(
+        solve_case(task), outcome=Outcome.DIVERGED, member_forces={}, solution=None
+    )
+    assert ResultReader(layout=LAYOUT).find_near([failed, failed]) == {0, 1}
+
+
+def test_snow_that_sticks_is_known_anew_where_its_case_was_solved_again():
+    """What friction cannot change is taken from the accurate case, not the rough."""
+    task = replace(
+        TASK,
+        ranges=Ranges(
+            intervals=(
+                ("density", Interval(low=400.0, high=418.0)),  # all are near
+                ("friction_angle", Interval(low=0.92, high=1.01)),
+            )
+        ),
+    )
+    points = [(side, share) for side in (0.0, 0.37, 1.0) for share in (0.0, 0.41, 1.0)]
+    skip = FrictionSkip(task.ranges.axes)
+    reader, workers = ResultReader(layout=LAYOUT), Recording()
+    cases = FirstCases(task, points, skip, reader.find_near)
+    while batches := cases.ask():
+        cases.tell(Runner(workers=workers).solve_batches(batches))
+    results = cases.finish()
+    assert skip.skipped > 0
+    assert not cases.rough
+    coarsest = solve_case(
+        build_point_task(task, points[0], replace(SETTINGS, levels=MESH_LEVELS[:2]))
+    )
+    assert {one.solution.elements for one in results}.isdisjoint(
+        {coarsest.solution.elements}
+    )
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_signed_errors_bound_what_errors_of_the_pulls_do(seed):
+    rng = np.random.default_rng(seed)
+    result = solve_case(build_point_task(TASK, tuple(rng.uniform(size=2).tolist())))
+    errors = read_signed_errors(result, LAYOUT)
+    before = read_signed(result, LAYOUT)
+    state, angle = result.solution, rng.uniform(0.0, 2.0 * math.pi)
+    shift = np.array([math.cos(angle), math.sin(angle)]) * state.head.error
+    moved = replace(
+        state,
+        head=EndPull(
+            x=state.head.x + shift[0],
+            y=state.head.y + shift[1],
+            error=state.head.error,
+        ),
+    )
+    after = read_signed(replace(result, solution=moved), LAYOUT)
+    changes = {name: abs(after[name] - before[name]) for name in before}
+    assert any(change > 0.1 * errors[name] for name, change in changes.items())
+    for name, change in changes.items():
+        assert change <= errors[name] * (1.0 + 1e-9)
+    foot = state.foot.error * LAYOUT.post_spacing
+    assert errors["signed foot"] == pytest.approx(foot)
+    shared = errors["signed foot"] + errors["signed uphill guy"]
+    assert errors["signed foot and uphill guy"] == pytest.approx(shared)

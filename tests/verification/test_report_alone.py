@@ -1,0 +1,128 @@
+"""Every figure of every check follows from report.html alone.
+
+Who reads here has the page and its formulas, nothing of the program. Two sites: the
+example, and one of drawn numbers with what the example lacks.
+"""
+
+import copy
+import random
+import re
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import SolverSettings
+from netdesign.report.page.html import render_html
+from netdesign.site.reader import read_site
+from netdesign.site.template.workbook import write_site_workbook
+from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.judge import judge_site
+from tests.report.reading import PageReader
+from tests.verification.page_again import read_page, work_out, work_out_page
+from tests.verification.untidy_site import PROFILE, write_untidy_site
+
+SWISS = "swiss-guideline-2007"
+RUN = CheckRun(settings=SolverSettings(accuracy=0.05), command="", started="")
+SEED = 7
+TABLES = ("states", "floors", "actions", "checks", "turns")
+KEYED = ("widths", "resistances", "tests")
+# Nothing that is printed follows from these alone: errors of the pulls; a count.
+GIVEN = ("±f", "±h", "n")
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("alone")
+    write_site_workbook(folder / "example.xlsx", example=True)
+    with pytest.MonkeyPatch.context() as patch:
+        write_untidy_site(folder / "untidy.xlsx", patch, SEED)
+    return {
+        name: judge(folder / f"{name}.xlsx", profile)
+        for name, profile in (("example", SWISS), ("untidy", PROFILE))
+    }
+
+
+def judge(path, profile):
+    site = read_site(path)
+    return judge_site(site, search_site(site, RUN), load_standard(profile), RUN)
+
+
+@pytest.fixture(scope="module")
+def pages(studies):
+    return {name: render_html(study) for name, study in studies.items()}
+
+
+@pytest.mark.parametrize(("name", "least"), [("example", 4900), ("untidy", 2000)])
+def test_every_figure_follows_from_the_page_alone(pages, name, least):
+    again = work_out_page(pages[name])
+    assert again.wrong == []
+    assert again.count >= least
+
+
+def test_the_drawn_site_has_what_the_example_lacks(pages):
+    printed, page = read_page(pages["untidy"]), pages["untidy"]
+    floored, shared, free = printed.rows.values()
+    governed = [one for one in floored.actions if one["Eg"] >= one["Ec⁺"]]
+    assert len(governed) > len(floored.actions) / 2
+    assert floored.widths["end"]["be'"] < floored.widths["end"]["be"]
+    assert all(one["xU"] == 0.0 for one in shared.states)
+    assert any(one["Td"] > 0.0 for one in shared.states)
+    assert shared.held == {}
+    assert set(free.widths) == {"inside"}
+    assert floored.held["β"] != free.held["β"]
+    told = "; ".join(g["Rk="] for row in printed.rows.values()
+                     for g in row.resistances.values())  # fmt: skip
+    for part in ("min(", "π/4 · ((", "π · ", "1770 MPa", "kPa", "cos ", "γ C of"):
+        assert part in told
+    assert "Partial factors of EN 1990" in page
+    assert "DECLARED" in {one["Verdict"] for one in floored.checks}
+    assert "slack, low" in printed.ranges
+
+
+def list_figures(printed):
+    """Row, table, line and symbol of every number of the tables of figures."""
+    for name, row in printed.rows.items():
+        tables = {key: getattr(row, key) for key in TABLES}
+        tables |= {key: list(getattr(row, key).values()) for key in KEYED}
+        for table, lines in tables.items():
+            for place, line in enumerate(lines):
+                for symbol, value in line.items():
+                    if isinstance(value, float) and value and symbol not in GIVEN:
+                        yield name, table, place, symbol
+
+
+@pytest.mark.parametrize("name", ["example", "untidy"])
+def test_a_figure_that_is_off_by_a_hundredth_is_noticed(pages, name):
+    printed, draw, missed = read_page(pages[name]), random.Random(SEED), []
+    for row, table, place, symbol in draw.sample(list(list_figures(printed)), 250):
+        changed = copy.deepcopy(printed.rows[row])
+        lines = getattr(changed, table)
+        line = list(lines.values())[place] if table in KEYED else lines[place]
+        line[symbol] *= 1.01
+        if not work_out(replace(printed, rows={row: changed})).wrong:
+            missed.append((row, table, place, symbol))
+    below_floor = [one for one in missed if one[1] == "actions" and one[3] == "Es⁻"]
+    assert missed == below_floor  # a low end that the floor cuts off
+    assert len(missed) <= 3
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_other_languages_print_the_same_figures(studies, pages, language):
+    for name, study in studies.items():
+        mine, other = (
+            PageReader(page) for page in (pages[name], render_html(study, language))
+        )
+        for row in (one for one in mine.ids if one.endswith("-figures")):
+            for table, theirs in zip(mine.tables[row], other.tables[row], strict=True):
+                assert list_numbers(table) == list_numbers(theirs)
+
+
+def list_numbers(table):
+    """Whole cells that are numbers, by place."""
+    return [
+        (i, j, cell)
+        for i, line in enumerate(table)
+        for j, cell in enumerate(line)
+        if re.fullmatch(r"-?[\d.]+(e[+-]\d+)?", cell)
+    ]

@@ -1,0 +1,193 @@
+"""A site of drawn numbers, unlike the example in whatever the page may show."""
+
+import random
+
+from netdesign.site.template import workbook as template
+
+PROFILE = "eurocode"
+
+
+def write_untidy_site(path, patch, seed):
+    """Three net rows: floor and bent bar, shared anchor, loaded downhill guy."""
+    lines = draw_site(random.Random(seed))
+    patch.setattr(template, "load_example", lambda: lines)
+    template.write_site_workbook(path, example=True)
+
+
+def draw_site(draw):
+    def vary(value, digits=3):
+        return float(f"{value * draw.uniform(0.97, 1.03):.{digits}g}")
+
+    return {
+        "Project": [
+            {"item": "name", "value": "Drawn slope"},
+            {"item": "author", "value": "A. Nobody"},
+            {"item": "extrapolated creep law accepted", "value": "boutillier-2004"},
+        ],
+        "Ranges": [
+            _range("density", "kg/m3", vary(212.0), vary(277.0)),
+            _range("friction angle", "deg", vary(17.3), vary(38.9)),
+            _range("net inclination", "deg", vary(26.7), vary(32.6)),
+            _range("slack", "-", vary(0.034), vary(0.061)),
+        ],
+        "Anchors": list(_list_anchors(vary)),
+        "Ropes": list(_list_ropes(vary)),
+        "Posts": list(_list_posts(vary)),
+        "Nets": list(_list_nets(vary)),
+        "Ends": [{"row": "U1", "foot_anchor": "strong"}],
+        "Declared": [
+            {
+                "row": "U1",
+                "check": "Post base, sliding",
+                "document": "Report 17",
+                "author": "B. Nobody",
+                "date": "2026-02-03",
+            }
+        ],
+    }
+
+
+def _range(quantity, unit, low, high):
+    return {"quantity": quantity, "unit": unit, "low": low, "high": high}
+
+
+def _list_anchors(vary):
+    yield {
+        "id": "bent",
+        "kind": "micropile",
+        "bar_diameter": vary(51.0),
+        "inner_diameter": vary(28.0),
+        "bar_strength": vary(540.0),
+        "lever_arm": vary(23.0),
+        "test_count": 3,
+        "test_least": vary(690.0),
+        "test_mean": vary(780.0),
+    }
+    yield {
+        "id": "strong",
+        "kind": "bar",
+        "bar_diameter": vary(57.0),
+        "bar_strength": vary(510.0),
+        "lever_arm": vary(2.3),
+        "test_count": 2,
+        "test_least": vary(770.0),
+        "test_mean": vary(910.0),
+    }
+    yield {
+        "id": "drilled",
+        "kind": "rope anchor",
+        "tendon": vary(433.0),
+        "drill_diameter": vary(91.0),
+        "bond_length": vary(4.3),
+        "ground": "sandstone",
+    }
+
+
+def _list_ropes(vary):
+    yield {
+        "id": "guy",
+        "rope_diameter": 22.0,
+        "construction": "6x36-IWRC",
+        "grade": 1770,
+        "termination": "ferrule",
+    }
+    yield {"id": "number", "rope": vary(287.0)}
+
+
+def _list_posts(vary):
+    yield {
+        "id": "slim",
+        "area": vary(54.3),
+        "second_moment": vary(889.0),
+        "buckling_length": vary(4.1),
+        "yield_strength": 355,
+        "buckling_curve": "b",
+        "post_width": vary(160.0),
+        "section_modulus": vary(311.0),
+        "base_friction": vary(0.57),
+        "plate_length": vary(0.61),
+        "plate_width": vary(0.47),
+        "bearing_stress": vary(1130.0),
+    }
+    yield {
+        "id": "stout",
+        "area": vary(78.1),
+        "second_moment": vary(2003.0),
+        "buckling_length": vary(3.9),
+        "yield_strength": 235,
+        "post_width": vary(200.0),
+        "section_modulus": vary(570.0),
+        "sliding": vary(171.0),
+        "bearing": vary(611.0),
+    }
+
+
+def _list_nets(vary):
+    yield {
+        "id": "U1",
+        "gap": vary(1.97, 3),
+        "slope_angle": vary(44.1),
+        "snow_height": vary(5.1),
+        "upslope_length": vary(6.3),
+        "ground_law": "sliding",
+        "glide_factor": vary(2.37),
+        "net_height": vary(4.3),
+        "net_stiffness": vary(17300.0),
+        "post_spacing": vary(3.43),
+        "post_base_distance": vary(1.37),
+        "uphill_anchor_distance": vary(4.71),
+        "downhill_anchor_distance": vary(3.57),
+        "foot_anchor": "bent",
+        "foot_axis": vary(27.0),
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "uphill_guy": "guy",
+        "downhill_guy": "number",
+        "post": "slim",
+        "altitude": vary(2130.0),
+        "guy_count": 2,
+        "guy_splay": vary(23.7),
+    }
+    yield {
+        "id": "U2",
+        "slope_angle": vary(37.3),
+        "snow_thickness": vary(2.41),
+        "upslope_length": vary(17.9),
+        "ground_law": "no-slip",
+        "net_height": vary(2.93),
+        "net_stiffness": vary(9170.0),
+        "post_spacing": vary(3.71),
+        "post_tilt": vary(11.3),
+        "uphill_anchor_distance": 0.0,
+        "downhill_anchor_distance": vary(2.89),
+        "foot_anchor": "drilled",
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "uphill_guy": "number",
+        "downhill_guy": "guy",
+        "post": "stout",
+    }
+    yield {
+        "id": "U3",
+        "gap": 0.0,
+        "slope_angle": vary(33.1),
+        "snow_thickness": vary(2.83),
+        "upslope_length": vary(14.3),
+        "ground_law": "free",
+        "net_height": vary(3.07),
+        "net_stiffness": vary(7430.0),
+        "post_spacing": vary(2.71),
+        "post_tilt": vary(38.0),
+        "uphill_anchor_distance": vary(3.31),
+        "downhill_anchor_distance": vary(4.13),
+        "foot_anchor": "strong",
+        "foot_axis": vary(3.1),
+        "uphill_anchor": "drilled",
+        "downhill_anchor": "drilled",
+        "downhill_axis": vary(41.0),
+        "uphill_guy": "guy",
+        "downhill_guy": "guy",
+        "post": "slim",
+        "guy_count": 2,
+        "guy_splay": vary(31.0),
+    }
