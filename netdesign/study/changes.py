@@ -10,14 +10,13 @@ from functools import partial
 from netdesign.checks import (
     Band,
     CheckResult,
-    Standard,
 )
 from netdesign.envelope.extremes import find_extreme
 from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction, NetRow, Resistance
+from netdesign.site.model import BaseFriction, Resistance
 from netdesign.structure.members import name_in_panel
 from netdesign.study.calibration import find_doubt
 from netdesign.study.effects import RowEffects, find_effects
@@ -151,7 +150,7 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         governing=extreme.governing.case,
         results=task.solved.results,
         use_floor=use_floor,
-        widen=partial(_find_width, task.standard, one),
+        widen=partial(_find_width, task, one),
     )
 
 
@@ -161,9 +160,9 @@ def _widen(name: str, band: Band, results: Sequence[CaseResult]) -> float:
     return band.high / at_cases if at_cases else 1.0
 
 
-def _find_width(standard: Standard, one: MemberCheck, row: NetRow) -> float:
-    """Width that loads a support of a row that was changed [m]."""
-    supports = find_effects(row, standard).supports
+def _find_width(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Width that loads a support over ranges in which something was moved [m]."""
+    supports = find_effects(task.row, task.standard, ranges).supports
     widths = [w.width for w in supports if w.position == one.width.position]
     return max(widths, default=one.width.width)
 

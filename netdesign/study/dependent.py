@@ -32,8 +32,8 @@ from netdesign.resistance.steel import (
     compute_bent_bar_resistance,
 )
 from netdesign.site.model import AnchorType, BaseFriction, NetRow, Resistance
+from netdesign.study.corners import list_corners
 from netdesign.study.effects import find_row_glide_factor, load_guideline
-from netdesign.study.floor import list_corners
 from netdesign.study.pulls import AnchorPull
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.message import Message, say

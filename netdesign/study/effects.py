@@ -8,6 +8,7 @@ from functools import lru_cache
 from netdesign.checks import CheckResult, Standard, load_standard
 from netdesign.checks.check import not_proven
 from netdesign.checks.schema import GLIDE_FACTORS, LATERAL_SHARE
+from netdesign.envelope.ranges import Ranges
 from netdesign.guideline.comparison import find_glide_factor
 from netdesign.guideline.load_model import (
     compute_altitude_factor,
@@ -25,6 +26,7 @@ from netdesign.structure.row_position import (
     compute_lateral_factor,
     list_supports,
 )
+from netdesign.study.corners import list_corners
 from netdesign.words.message import Message, say
 
 GUIDELINE = "swiss-guideline-2007"
@@ -123,8 +125,12 @@ def load_glide_limits() -> tuple[float, float]:
     return min(found), max(found)
 
 
-def find_effects(row: NetRow, standard: Standard) -> RowEffects:
-    """Effects of the row's ends and of the load along the row, by the profile."""
+def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
+    """Effects of the row's ends and of the load along the row, by the profile.
+
+    At an end the largest N of all ranges counts; on ground of one slip length that is
+    the N of the thinnest snow.
+    """
     spacing = row.layout.post_spacing
     rule, share = read_end_effect(standard), standard.find(LATERAL_SHARE)
     edge = None
@@ -134,7 +140,7 @@ def find_effects(row: NetRow, standard: Standard) -> RowEffects:
             post_spacing=spacing,
             net_height=row.net_height,
             gap=row.gap,
-            glide_factor=find_row_glide_factor(row),
+            glide_factor=max(map(find_row_glide_factor, list_corners(row, ranges))),
         )
     lacks = [say("ends.no_end_effect")] if rule is None else []
     if share is None:

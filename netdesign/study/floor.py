@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import Literal
 
 from netdesign.checks import Standard
-from netdesign.envelope.ranges import USUAL, Case, Ranges
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.guideline.comparison import NetGeometry
 from netdesign.guideline.floor import Floor, FloorForce, NetRanges, find_floor
 from netdesign.guideline.load_model import read_load_model
@@ -51,19 +50,6 @@ def _place_at(row: NetRow, ranges: Ranges, end: Literal["low", "high"]) -> NetRo
     """Row at one end of all ranges; the load rises with each, or falls."""
     values = {name: getattr(span, end) for name, span in ranges.intervals}
     return row.at(Case.of(values))
-
-
-def list_corners(row: NetRow, ranges: Ranges) -> list[NetRow]:
-    """Rows at all ends of what ranges beside the usual three and is in the load.
-
-    The load knows no length of the snowpack.
-    """
-    names = [name for name in ranges.further if name != "upslope_length"]
-    usual = {name: ranges[name].low for name in USUAL}
-    ends = product(*({ranges[name].low, ranges[name].high} for name in names))
-    return [
-        row.at(Case.of({**usual, **dict(zip(names, one, strict=True))})) for one in ends
-    ]
 
 
 def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:

@@ -130,7 +130,9 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     row, solved = task.row, task.solved
     extremes = solved.extremes
     floor = task.find_floor(task.site.ranges)
-    loads = find_loads(row, solved.results, extremes, task.standard, floor)
+    loads = find_loads(
+        row, task.site.ranges, solved.results, extremes, task.standard, floor
+    )
     checks = check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     governing = _governing_result(checks, extremes)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from netdesign.checks import Band, Standard
 from netdesign.envelope.extremes import Extreme
 from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.ranges import Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow, Resistance
@@ -142,13 +143,14 @@ def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> Actio
 
 def find_loads(
     row: NetRow,
+    ranges: Ranges,
     results: Sequence[CaseResult],
     extremes: Mapping[str, Extreme],
     standard: Standard,
     floor: Floor | None,
 ) -> RowLoads:
     """Loads on a row beside its section, over its solved cases."""
-    effects = find_effects(row, standard)
+    effects = find_effects(row, standard, ranges)
     head = floor.head if floor else None
     return RowLoads(
         effects=effects,

@@ -52,7 +52,7 @@ def list_checked(
 def record_geometry(site: Site, row: NetRow, standard: Standard) -> list[CheckRecord]:
     """Checks of a row that no force enters."""
     geometry = [*check_geometry(read_geometry(row, site.ranges), standard)]
-    ends = check_ends(find_effects(row, standard))
+    ends = check_ends(find_effects(row, standard, site.ranges))
     results = [*geometry, *([ends] if ends else [])]
     return [record_result(settle_check(site, row, one)) for one in results]
 

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from netdesign.envelope.ranges import USUAL, Case, Ranges
+from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.study.probe import Probe
 
 TRIED_DENSITIES = (150.0, 600.0)  # [kg/m3], of snow that a search may try
+# Quantities that a glide factor follows from.
+ON_GLIDE = ("thickness", "snow_height", "slip_length", "glide_factor")
 _RIVAL = 0.9  # share of the governing force from which a case may take over
 _BESIDE = 0.13  # of every range: an eighth, and its rounding
 
@@ -25,6 +27,10 @@ class Move:
 
     name: str
     value: float
+
+    def on(self, ranges: Ranges) -> Ranges:
+        """Ranges with the quantity at this value."""
+        return ranges.with_value(self.name, self.value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,8 +60,8 @@ class Target:
         Utilisation by the guideline's load alone, over some ranges of the row, on a
         support as wide as now, 0 without a floor [-].
     widen : callable
-        Width that loads the support of a changed row [m]: the end effect grows with
-        the glide factor.
+        Width that loads the support over some ranges of the row [m]: the end effect
+        grows with the glide factor.
     """
 
     row: NetRow
@@ -65,7 +71,7 @@ class Target:
     governing: Case
     results: Sequence[CaseResult]
     use_floor: Callable[[Ranges], float] = lambda _: 0.0
-    widen: Callable[[NetRow], float] = lambda _: 1.0
+    widen: Callable[[Ranges], float] = lambda _: 1.0
     added: float = 0.0
     rise: float = 0.0
     beside: tuple[tuple[str, float], ...] = ()
@@ -110,9 +116,7 @@ class Target:
 
     def use_least(self, move: Move | None = None) -> float:
         """Utilisation by the guideline's load alone [-], of what is moved."""
-        ranges = self.ranges
-        if move is not None:
-            ranges = ranges.with_value(move.name, move.value)
+        ranges = self.ranges if move is None else move.on(self.ranges)
         return self.use_floor(ranges) * self._compare_width(move)
 
     def use(self, force: float) -> float:
@@ -124,13 +128,9 @@ class Target:
 
     def _compare_width(self, move: Move | None) -> float:
         """Width that loads the support of the moved row over that of the row as is."""
-        if move is None:
+        if move is None or move.name not in ON_GLIDE:
             return 1.0
-        usual = {name: self.ranges[name].high for name in USUAL}
-        row, moved = self.row, self.row.at(Case.of({**usual, move.name: move.value}))
-        if moved.ground == row.ground and moved.snow_thickness == row.snow_thickness:
-            return 1.0
-        return self.widen(moved) / self.widen(row)
+        return self.widen(move.on(self.ranges)) / self.widen(self.ranges)
 
 
 def list_near(target: Target) -> list[Case]:

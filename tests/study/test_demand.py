@@ -207,7 +207,7 @@ def test_floor_that_is_not_known_proves_nothing(solved):
 
 
 def test_band_is_cut_off_at_the_floor():
-    draw, effects = random.Random(31), find_effects(ROW, SWISS)
+    draw, effects = random.Random(31), find_effects(ROW, SWISS, RANGES)
     width = effects.supports[0]
     least = a_floor().find(Member.POST)
     scale = least.force
@@ -226,7 +226,7 @@ def test_band_is_cut_off_at_the_floor():
 
 
 def test_reason_names_the_load_and_gives_back_its_own_part():
-    effects = find_effects(ROW, SWISS)
+    effects = find_effects(ROW, SWISS, RANGES)
     least = a_floor().find(Member.FOOT_ANCHOR)
     force = Band(low=0.0, value=0.0, high=0.0)
     member = Member.FOOT_ANCHOR
@@ -440,7 +440,7 @@ def test_what_flips_a_check_knows_the_floor_and_is_solved_at_the_worse_support(s
     for thickness, is_met in ((bound, True), (bound + 0.02, False)):
         row = replace(site.rows[0], snow_thickness=thickness)
         force = a_floor(row).find(Member.FOOT_ANCHOR).force
-        effects = find_effects(row, SWISS)
+        effects = find_effects(row, SWISS, RANGES)
         factor = effects.factor(Member.FOOT_ANCHOR, effects.supports[1])
         used = 1.5 * 1.35 * force * factor / 700e3
         assert (used <= 1.0) is is_met

@@ -25,7 +25,7 @@ ROW = build_row("R7", gap=1.3, glide_factor=2.1)
 
 
 def notes(row=ROW, standard=STANDARD, law=BOUTILLIER_2004):
-    return list_end_notes(row, RANGES, law, find_effects(row, standard))
+    return list_end_notes(row, RANGES, law, find_effects(row, standard, RANGES))
 
 
 def test_note_has_both_effects_over_the_same_length():

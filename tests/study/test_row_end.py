@@ -14,7 +14,7 @@ from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit import audit_study
 from netdesign.study.effects import find_effects
 from netdesign.study.row_end import compute_end_factor
-from tests.small_site import build_row, resist
+from tests.small_site import RANGES, build_row, resist
 from tests.study.test_panel_study import (
     PROFILE,
     a_panel,
@@ -34,7 +34,7 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     _, study = judged
     row, checks = study.rows[0], checks_of(study)
     forces = {one.quantity: one for one in row.panel.extremes}
-    width = find_effects(with_panel(a_panel()), PROFILE).find_support("edge")
+    width = find_effects(with_panel(a_panel()), PROFILE, RANGES).find_support("edge")
     factor = compute_end_factor(width, 3.5)
     assert factor > 1.2
     lower, upper = (

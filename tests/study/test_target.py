@@ -90,7 +90,7 @@ def build_target(row, ranges):
         governing=Case(density=391.0, friction_angle=0.31, inclination=0.5),
         results=[],
         use_floor=lambda moved: 0.3 if moved is ranges else 0.4,
-        widen=lambda one: find_effects(one, STANDARD).supports[-1].width,
+        widen=lambda one: find_effects(row, STANDARD, one).supports[-1].width,
     )
 
 
@@ -103,7 +103,9 @@ def test_end_effect_follows_what_is_moved_and_nothing_else():
     assert target.use_least(Move(name="slack", value=0.02)) == 0.4
     larger = target.use_least(Move(name="glide_factor", value=row.glide_factor + 0.1))
     typed = draw_row(random.Random(7), glide_factor=row.glide_factor + 0.1)
-    widths = [find_effects(one, STANDARD).supports[-1].width for one in (typed, row)]
+    widths = [
+        find_effects(one, STANDARD, ranges).supports[-1].width for one in (typed, row)
+    ]
     assert larger == pytest.approx(0.4 * widths[0] / widths[1])
     assert widths[0] > widths[1]
 
@@ -115,3 +117,22 @@ def test_a_moved_thickness_keeps_the_glide_factor():
     at = row.at(case.with_value("thickness", 1.37))
     assert at.ground == build_ground_from_glide_factor(row.glide_factor, 1.37)
     assert at.ground != replace(row, snow_thickness=1.37).ground
+
+
+def test_at_an_end_the_largest_glide_factor_of_the_ranges_counts():
+    """Of one slip length the thinnest snow has it."""
+    draw = random.Random(17)
+    row = replace(draw_row(draw), glide_factor=None)
+    thin = 0.6 * row.snow_thickness
+    span = Interval(low=thin, high=row.snow_thickness)
+    wide, plain = draw_ranges(draw, thickness=span), draw_ranges(draw)
+    widths = [
+        find_effects(one, STANDARD, ranges).supports[-1].width
+        for one, ranges in (
+            (row, plain),
+            (row, wide),
+            (replace(row, snow_thickness=thin), plain),
+        )
+    ]
+    assert widths[1] == pytest.approx(widths[2], rel=1e-12)
+    assert widths[1] > 1.005 * widths[0]

@@ -165,7 +165,7 @@ def _audit_judgement(
 ) -> Iterator[Message]:
     """Judge every check again from its action, as if that had just been solved."""
     given, standard = basis.row, basis.standard
-    effects = find_effects(given, standard)
+    effects = find_effects(given, standard, basis.site.ranges)
     floor = find_row_floor(given, basis.site.ranges, standard)
     pulls = read_pulls(given, row.pulls)
     members = []
