@@ -502,7 +502,7 @@ def describe_load(check: CheckRecord, words: Words) -> str:
             case=show_text(words.show(name("load_case", action.floor_case))),
         )
         told.insert(0 if action.governs != "panel" else 1, pair)
-    return "; ".join(told)
+    return words.join(told)
 
 
 def _describe_panel(action: ActionRecord, words: Words) -> str:
