@@ -606,6 +606,7 @@ class RowAgain:
         if tests:
             worst = min(tests["Rmean"] / tests["ξmean"], tests["Rmin"] / tests["ξmin"])
             self.same(f"{what} of tests", given["Rk"], worst)
+            self.same(f"{what} of tests, R_k", tests["Rk"], given["Rk"])
             for key, name in (("ξmean", "mean"), ("ξmin", "least")):
                 factor = self.find_correlation(name, int(tests["n"]))
                 self.same(f"{what} {key}", tests[key], factor)
