@@ -19,6 +19,7 @@ OBJECTS = (
     "sideways",
     "load",
     "held_sideways",
+    "panel",
 )
 WORDS = ([*Verdict], [*Outcome])
 

@@ -12,6 +12,7 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
     """
     lines = template.load_example()
     lines["Nets"] = [line for line in lines["Nets"] if line["id"] in rows]
+    lines["Ends"] = [line for line in lines["Ends"] if line["row"] in rows]
     lines["Declared"] = [line for line in lines["Declared"] if line["row"] in rows]
     if is_grid:
         for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):

@@ -190,10 +190,9 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     reached = scan.try_points(points)
     solve = cache(scan.solve_one)  # members are often largest at the same place
     found: dict[str, FloorForce] = {}
-    for key, (sizes, columns) in _list_sizes(reached).items():
-        own = sizes[:, :, columns]
-        case, end, number = np.unravel_index(own.argmax(), own.shape)
-        point = tuple(points[:, columns][:, number])
+    for key, sizes in _list_sizes(reached).items():
+        case, end, number = np.unravel_index(sizes.argmax(), sizes.shape)
+        point = tuple(points[:, number])
         at, snow, result = solve(point, int(case), int(end))
         if result.solved is None:
             return Floor(reason=_explain(at, result))
@@ -213,21 +212,12 @@ def find_floor(model: LoadModel, ranges: NetRanges, altitude: float | None) -> F
     )
 
 
-def _list_sizes(tried: ManyForces) -> dict[str, tuple[Floats, slice]]:
-    """Sizes of which the largest counts, with the points where that was looked for."""
-    count = len(CARRYING_MEMBERS)
+def _list_sizes(tried: ManyForces) -> dict[str, Floats]:
+    """Sizes of which the largest counts, at all that was tried."""
     uphill, downhill = (tried.of_members[guy] for guy in _GUYS)
-    members: dict[str, tuple[Floats, slice]] = {
-        member: (tried.of_members[member], slice(k, k + 1))
-        for k, member in enumerate(CARRYING_MEMBERS)
-    }
-    spans = (
-        (tried.head_pull, slice(count, count + 1)),
-        (-(uphill + downhill), slice(count + 3, None)),
-        (-tried.foot_turn, slice(count + 2, count + 3)),
-        (tried.foot_turn, slice(count + 1, count + 2)),
-    )
-    return {**members, **dict(zip(SPANS, spans, strict=True))}
+    turn = tried.foot_turn
+    spans = (tried.head_pull, -(uphill + downhill), -turn, turn)
+    return {**tried.of_members, **dict(zip(SPANS, spans, strict=True))}
 
 
 def _measure(anchors: AnchorForces) -> dict[str, float]:

@@ -51,8 +51,8 @@ def find_largest(functions: Functions, axes: Sequence[Floats]) -> tuple[Floats, 
     functions : callable
         Points, shape (d, n), to the values of q functions, shape (q, n).
     axes : sequence of d ndarrays
-        Ascending values of the grid along each axis, both ends of the box included;
-        one value where the box has no width.
+        Ascending values of the grid along each axis, shape (any,), both ends of the
+        box included; one value where the box has no width.
 
     Returns
     -------

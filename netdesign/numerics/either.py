@@ -52,12 +52,24 @@ def measure_turn(x: Number, y: Number) -> Number:
 
 
 def take_larger(one: Number, other: Number | float) -> Number:
-    """Larger one of two."""
+    """Larger one of two.
+
+    Parameters
+    ----------
+    one, other : float or ndarray
+        In any unit, alike in both.
+    """
     return np.maximum(one, other) if isinstance(one, np.ndarray) else max(one, other)
 
 
 def take_smaller(one: Number, other: Number | float) -> Number:
-    """Smaller one of two."""
+    """Smaller one of two.
+
+    Parameters
+    ----------
+    one, other : float or ndarray
+        In any unit, alike in both.
+    """
     return np.minimum(one, other) if isinstance(one, np.ndarray) else min(one, other)
 
 
@@ -77,14 +89,31 @@ def find_none(*conditions: Truth) -> Truth:
 
 
 def as_mask(condition: Truth) -> Mask:
-    """Condition of many as what it is, an array."""
+    """Condition of many as what it is, an array of any shape."""
     return np.asarray(condition)
 
 
 def require_all_within(
     name: str, value: float | Number, low: float, high: float, unit: str = ""
 ) -> None:
-    """Refuse what `require_within` refuses, of any number of an array."""
+    """Refuse what `require_within` refuses, of any number of an array.
+
+    Parameters
+    ----------
+    name : str
+        In the refusal.
+    value : float or ndarray
+        One number or many, in ``unit``.
+    low, high : float
+        Accepted ends, in ``unit``.
+    unit : str
+        In the refusal.
+
+    Raises
+    ------
+    ModelError
+        If any number is outside.
+    """
     if isinstance(value, np.ndarray):
         for end in (value.min(), value.max()):
             require_within(name, float(end), low, high, unit)
@@ -93,7 +122,22 @@ def require_all_within(
 
 
 def require_all_positive(name: str, value: float | Number, unit: str = "") -> None:
-    """Refuse what `require_positive` refuses, of any number of an array."""
+    """Refuse what `require_positive` refuses, of any number of an array.
+
+    Parameters
+    ----------
+    name : str
+        In the refusal.
+    value : float or ndarray
+        One number or many, in ``unit``.
+    unit : str
+        In the refusal.
+
+    Raises
+    ------
+    ModelError
+        If any number is not finite and above zero.
+    """
     if isinstance(value, np.ndarray):
         for end in (value.min(), value.max()):
             require_positive(name, float(end), unit)

@@ -124,7 +124,7 @@ class ManyForces:
         Size of the pull on the head [N].
     foot_turn : ndarray
         Inclination of the pull on the foot anchor, as `measure_pull` has it [rad].
-    is_held : ndarray of bool
+    is_held : ndarray of bool, shape of the others
         The support has an equilibrium; the forces are of use only where it has.
     """
 

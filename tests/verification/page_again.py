@@ -41,6 +41,7 @@ class PrintedRow:
     held: dict
     widths: dict
     actions: list
+    by_panel: list
     checks: list
     resistances: dict
     tests: dict
@@ -80,6 +81,7 @@ def _read_row(reader, row):
         key = key or {"Check": "checks", "Anchor": "turns"}.get(first)
         if first == "Bringsthelargest":
             key = "floors" if "λ" in symbols else "states"
+        key = "by_panel" if "Eq" in head else key
         if first == "No.":
             key = "tests" if "n" in head else "resistances"
         found[key] = _turn(table) if first == "Bringsthelargest" else _line_up(table)
@@ -92,6 +94,7 @@ def _read_row(reader, row):
         held=found["held"][0] if "held" in found else {},
         widths={one["Support"]: one for one in found["widths"]},
         actions=found["actions"],
+        by_panel=found.get("by_panel", []),
         checks=found["checks"],
         resistances={one["No."]: one for one in found["resistances"]},
         tests={one["No."]: one for one in found.get("tests", [])},
@@ -286,9 +289,8 @@ class RowAgain:
         g = 10.0
         whole = self.thickness / math.cos(psi)
         if state["Case"] == "load case 1":
-            altitude = min(
-                self.input("altitude") or 0.0, value("From this altitude on")
-            )
+            highest, known = value("From this altitude on"), self.input("altitude")
+            altitude = highest if known is None else min(known, highest)
             above = max(altitude - value("Up to this altitude"), 0.0)
             growth = 1.0 + value("Growth of the altitude factor") * above / 100.0
             self.same(f"{what} rho", rho, growth * value("Mean density at the largest"))
@@ -370,7 +372,11 @@ class RowAgain:
         self.same("T_s", held["Ts"], least, 2e-5 * held["P"])
         if held["Tg"] is not None:
             (floor,) = self.find_states("least tension", self.row.floors)
-            self.same("T_g", held["Tg"], floor["Tu"] + floor["Td"], 2e-5 * held["P"])
+            tension = floor["Tu"] + floor["Td"]
+            if held["Tg"] == 0.0:  # it changes sides somewhere beside that state
+                self.holds("T_g", tension < 0.1 * held["P"], tension)
+            else:
+                self.same("T_g", held["Tg"], tension, 2e-5 * held["P"])
         found = max(held["Ts"] - held["ΔT"], 0.0)
         found = found if held["Tg"] is None else min(found, held["Tg"])
         self.same("T_min", held["Tmin"], found)
@@ -400,6 +406,7 @@ class RowAgain:
             self.same(f"{support} b", one["b"], self.spacing)
             if support == "inside":
                 self.same("inside b_e", one["be"], self.spacing)
+            if support != "end":
                 continue
             widths = self.list_end_widths()
             (width, factor, length), *others = sorted(widths, reverse=True)
@@ -429,6 +436,13 @@ class RowAgain:
     def act(self, one):
         what = f"{one['Member']} {one['Support']}"
         member = BASE if one["Member"] == SLIDING else one["Member"]
+        if one["Member"] in self.row.widths:  # at the row's end, pulled by a rope
+            width = self.row.widths[one["Member"]]
+            pulled = one["g"] * one["Es"] * width["be"] / width["b"]
+            self.same(f"{what} E_c", one["Ec"], pulled)
+            self.same(f"{what} E_k", one["Ek"], one["Ec"])
+            one["ends"] = {"⁻": None, "": pulled, "⁺": one["Ec⁺"]}
+            return
         solved = self.find_force(member, self.row.states)
         self.same(f"{what} E_s", one["Es"], solved)
         self.check_band(what, member, one)
@@ -455,8 +469,33 @@ class RowAgain:
             self.same(f"{what} E_g0", one["Eg0"], floor)
             least = (one["g"] * one["Eg0"] + one["A"]) * on_row
             self.same(f"{what} E_g", one["Eg"], least)
-        self.same(f"{what} E_k", one["Ek"], max(one["Ec"], least))
-        one["ends"] = {end: max(force, least) for end, force in coupled.items()}
+        beside = self.follow_panel(what, member, one, on_row)
+        one["ends"] = {
+            end: max(force, beside[end], least) for end, force in coupled.items()
+        }
+        self.same(f"{what} E_k", one["Ek"], one["ends"][""])
+
+    def follow_panel(self, what, member, one, on_row):
+        """Force on the support by the panel at each end; 0 in a row without one."""
+        found = [
+            p for p in self.row.by_panel
+            if (p["Member"], p["Support"]) == (one["Member"], one["Support"])
+        ]  # fmt: skip
+        if not found:
+            return dict.fromkeys(("⁻", "", "⁺"), 0.0)
+        (panel,) = found
+        states = self.find_states(f"{member} by the panel", self.row.states)
+        force = self.read_state(member, states[0]) if states else 0.0
+        if member == FOOT and states:
+            force = max(force, states[0]["Fmid"])
+        self.same(f"{what} E_p", panel["Ep"], force)
+        beside = {
+            end: (one["g"] * panel[f"Ep{end}"] + one[f"A{end}"]) * on_row
+            + panel[f"Z{end}"]
+            for end in ("⁻", "")
+        }
+        self.same(f"{what} E_q", panel["Eq"], beside[""])
+        return {**beside, "⁺": panel["Eq⁺"]}
 
     def find_force(self, member, states):
         """Force of the state that brings a member most; 0 of a slack one."""
@@ -521,6 +560,8 @@ class RowAgain:
         snow = "Factor on the characteristic force that the snow"
         self.same(f"{title} gamma_E", one["γE"], self.value(snow))
         for end in ("⁻", "", "⁺"):
+            if action["ends"][end] is None:
+                continue
             force = one["γE"] * action["ends"][end]
             self.same(f"{title} E_d{end}", one[f"Ed{end}"], force)
         if one["Rd"] is None:

@@ -149,12 +149,14 @@ def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
         (left, top + k * step, wide, step + 0.1, shade(SHADES - 1 - k, 0, SHADES - 1))
         for k in range(SHADES)
     )
+    places = []
     for value in list_ticks(low, high):
         y = top + high_pt * (
             1.0 - ((value - low) / (high - low) if high > low else 0.5)
         )
-        chart.line([(left + wide, y), (left + wide + 2.5, y)], stroke=GREY, width=0.5)
+        places.append((left + wide, y))
         chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
+    chart.ticks(places)
 
 
 def _paint_line(
@@ -169,8 +171,7 @@ def _paint_line(
         )
 
     force, allowed = trace(one.force_kN), trace(one.bound_kN)
-    chart.area([*force, *allowed[::-1]], PALE)
-    chart.line(allowed, stroke=GREY, width=0.6, dash="3 2")
+    chart.area([*force, *allowed[::-1]], PALE, GREY)
     chart.line(force, stroke=INK)
     across = frame.y(bound.upper_bound_kN)
     chart.line(

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.view.panel_tables import ROPE_NAMES
+from netdesign.report.view.panel_tables import name_rope
 from netdesign.report.words import ENGLISH, Words, show_with_unit
 from netdesign.study.records import PanelDrawing, PanelRecord
 
@@ -41,7 +41,7 @@ class _View:
 def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     """SVG of the drawn case's panel at a row's end; "" without one."""
     drawn = panel.drawing
-    if drawn is None:
+    if drawn is None or not _is_whole(drawn):
         return ""
     spacing = 2.0 * drawn.places_m[-1]
     scale = _SPAN / spacing
@@ -55,6 +55,19 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
         bottom = end + _GAP
     height = _draw_tensions(sketch, panel, drawn, bottom, words)
     return sketch.write(height, words("panel_view.drawing"))
+
+
+def _is_whole(drawn: PanelDrawing) -> bool:
+    """Each place has its points and tensions, and the panel a width."""
+    places, ropes = drawn.places_m, drawn.rope_places_m
+    points = (drawn.lower_m, drawn.upper_m)
+    tensions = (drawn.lower_tensions_kN, drawn.upper_tensions_kN)
+    return (
+        bool(places and ropes)
+        and all(len(one) == len(places) for one in points)
+        and all(len(one) == len(ropes) for one in tensions)
+        and places[-1] > 0.0
+    )
 
 
 def _place_view(
@@ -153,9 +166,9 @@ def _draw_tensions(
         points = [(frame.x(z), frame.y(value)) for z, value in whole]
         sketch.line(points, stroke=INK, width=1.1, dash=dash)
         at = (points[-1][0] + 6.0, points[-1][1] + TEXT_PT / 3)
-        rope = next(one for one in panel.ropes if one.rope == name)
-        text = f"{words(ROPE_NAMES[name])} {rope.type}".strip()
-        sketch.words(at, text)
+        for rope in panel.ropes:
+            if rope.rope == name:
+                sketch.words(at, f"{name_rope(rope, words)} {rope.type}".strip())
     sketch.words(
         (_LEFT + _SPAN / 2.0, top + _CHART + 26.0),
         words("panel_view.axis_along"),

@@ -13,7 +13,7 @@ from html import escape
 from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
-_STRAIGHT = 0.05  # least bend that shows [pt]
+_STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _TICK = 2.5  # length of a tick [pt]
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
 
@@ -96,10 +96,20 @@ class Chart:
             f'stroke-width="{width}"{dashes}/>'
         )
 
-    def area(self, points: Iterable[tuple[float, float]], fill: str) -> None:
-        """Filled polygon [pt]."""
+    def area(
+        self, points: Iterable[tuple[float, float]], fill: str, edge: str = ""
+    ) -> None:
+        """Filled polygon [pt]; ``edge`` is the colour of a dashed line around it."""
         path = _list_points(points)
-        self.shapes.append(f'<polygon points="{path}" fill="{fill}"/>')
+        line = f' stroke="{edge}" stroke-width="0.6" stroke-dasharray="3 2"'
+        self.shapes.append(
+            f'<polygon points="{path}" fill="{fill}"{line if edge else ""}/>'
+        )
+
+    def ticks(self, places: Iterable[tuple[float, float]]) -> None:
+        """Short lines to the right of some places, in one path [pt]."""
+        path = "".join(f"M{show_place(x)} {show_place(y)}h{_TICK}" for x, y in places)
+        self.shapes.append(f'<path d="{path}" stroke="{GREY}" stroke-width="0.5"/>')
 
     def ring(self, x: float, y: float, stroke: str) -> None:
         """Mark of a point [pt]."""
@@ -165,7 +175,7 @@ def _list_points(points: Iterable[tuple[float, float]]) -> str:
 
 
 def drop_straight(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Points without those that a straight line meets to a twentieth of a point.
+    """Points without those that a straight line meets to a twentieth of a millimetre.
 
     Examples
     --------

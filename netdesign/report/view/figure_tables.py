@@ -26,6 +26,7 @@ from netdesign.report.words import (
     show_member,
     show_text,
 )
+from netdesign.structure.members import CARRYING_MEMBERS
 from netdesign.study.records import (
     ActionRecord,
     CheckRecord,
@@ -139,7 +140,7 @@ def build_statics(row: RowStudy, words: Words) -> Table:
     return _list_states(
         "caption.statics",
         [one for one in row.statics if one.load is None],
-        (*_PULLS, *_ERRORS, *_POINTS, *_FORCES),
+        (*_PULLS, *_ERRORS, *_POINTS, *_FORCES, ("mid_foot_kN", "F_mid [kN]")),
         words,
     )
 
@@ -212,18 +213,22 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
 
 def build_widths(row: RowStudy, words: Words) -> Table:
     """Loaded width of each support, with what it follows from."""
-    found = {
-        check.action.position: check.action for check in row.checks if check.action
-    }
+    found: dict[str, ActionRecord] = {}
+    for check in row.checks:
+        if check.action is not None:
+            support = words(f"position.{check.action.position}")
+            is_own = check.member not in CARRYING_MEMBERS  # by a rope, with its factor
+            named = show_member(words, check.member) if is_own else support
+            found.setdefault(named, check.action)
     return Table(
         caption=words("caption.widths"),
         columns=(text_column(words("heading.support")), *_name_numbers(_WIDTHS)),
         rows=tuple(
             (
-                text_cell(words(f"position.{position}")),
+                text_cell(named),
                 *(_number(getattr(action, key)) for key, _ in _WIDTHS),
             )
-            for position, action in found.items()
+            for named, action in found.items()
         ),
         empty=words("heading.no_case_converged"),
     )
@@ -247,6 +252,49 @@ def build_actions(row: RowStudy, words: Words) -> Table:
     )
 
 
+_BY_PANEL = (
+    ("panel_low_kN", "E_p⁻ [kN]"),
+    ("panel_kN", "E_p [kN]"),
+    ("along_low_kN", "Z⁻ [kN]"),
+    ("along_kN", "Z [kN]"),
+    ("along_high_kN", "Z⁺ [kN]"),
+)
+
+
+def build_panel_actions(row: RowStudy, words: Words) -> Table:
+    """Way from the force by the panel between posts to that on the support."""
+    further = ("E_q [kN]", "E_q⁺ [kN]")
+    return Table(
+        caption=words("caption.panel_actions"),
+        columns=(
+            text_column(words("heading.member")),
+            text_column(words("heading.support")),
+            *_name_numbers(_BY_PANEL),
+            *name_columns(further, numbers=further),
+        ),
+        rows=tuple(
+            (
+                text_cell(_name_acted(check, words)),
+                text_cell(words(f"position.{action.position}")),
+                *(_short(getattr(action, key)) for key, _ in _BY_PANEL),
+                _short(compute_by_panel(action)),
+                _short(action.panel_support_kN),
+            )
+            for check, action in _list_actions(row)
+            if action.panel_kN is not None
+        ),
+        empty=words("heading.no_panel"),
+    )
+
+
+def compute_by_panel(action: ActionRecord) -> float | None:
+    """Force on the support by the panel between posts [kN]; None without one."""
+    if action.panel_kN is None:
+        return None
+    on_row = action.loaded_width_m / action.post_spacing_m * action.lateral_factor
+    return (action.share * action.panel_kN + action.added_kN) * on_row + action.along_kN
+
+
 def _list_actions(row: RowStudy) -> list[tuple[CheckRecord, ActionRecord]]:
     """One check for each member and support; a base slides by a force of its own."""
     found: dict[tuple[str, str, bool], tuple[CheckRecord, ActionRecord]] = {}
@@ -260,13 +308,8 @@ def _list_actions(row: RowStudy) -> list[tuple[CheckRecord, ActionRecord]]:
 def _list_action(
     check: CheckRecord, action: ActionRecord, words: Words
 ) -> tuple[Cell, ...]:
-    member = show_member(words, check.member)
-    if check.mode == "sliding":
-        member = words(
-            "check.title", member=member, mode=words.show(name_mode("sliding"))
-        )
     return (
-        text_cell(member),
+        text_cell(_name_acted(check, words)),
         text_cell(words(f"position.{action.position}")),
         *(_short(getattr(action, key)) for key, _ in _ACTIONS),
         _short(compute_coupled(action)),
@@ -275,6 +318,15 @@ def _list_action(
         _short(action.guideline_kN),
         _short(check.action_kN),
     )
+
+
+def _name_acted(check: CheckRecord, words: Words) -> str:
+    """Member that a force acts on; a base that slides says so."""
+    member = show_member(words, check.member)
+    if check.mode != "sliding":
+        return member
+    mode = words.show(name_mode("sliding"))
+    return words("check.title", member=member, mode=mode)
 
 
 def compute_coupled(action: ActionRecord) -> float:
@@ -477,7 +529,8 @@ FORMULAS = (
     ),
     ("coupled", "E_c = (g E_s + A) k_q b_e / b"),
     ("guideline", "E_g = (g E_g0 + A) k_q b_e / b"),
-    ("action", "E_k = max(E_c; E_g)"),
+    ("panel", "E_q = (g E_p + A) k_q b_e / b + Z"),
+    ("action", "E_k = max(E_c; E_q; E_g)"),
     ("design", "E_d = γ_E E_k, R_d = R_k / γ_R, μ = E_d / R_d"),
     ("pressure", "S'_N = ρ g H² K N / 2, K = (k_0 + k_1 ρ + k_2 ρ² + k_3 ρ³) sin 2ψ"),
     (
@@ -522,8 +575,8 @@ FORMULAS = (
 
 
 _HOLDING = (
-    *("statics", "floor_statics", "held_sideways", "actions", "check_figures"),
-    "turns",
+    *("statics", "floor_statics", "held_sideways", "actions", "panel_actions"),
+    *("check_figures", "turns"),
 )
 
 

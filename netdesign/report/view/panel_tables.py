@@ -24,7 +24,7 @@ from netdesign.study.records import (
     RowStudy,
 )
 
-ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
+_ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,7 +119,7 @@ def _list_rope(rope: RopeRecord, words: Words) -> tuple[Cell, ...]:
     if rope.tension_kN is not None and rope.breaking_kN:
         share = rope.tension_kN / rope.breaking_kN
     return (
-        text_cell(words(ROPE_NAMES[rope.rope])),
+        text_cell(name_rope(rope, words)),
         text_cell(rope.type),
         given_cell(rope.stiffness_kN),
         given_cell(rope.sag),
@@ -128,6 +128,12 @@ def _list_rope(rope: RopeRecord, words: Words) -> tuple[Cell, ...]:
         number_cell("breaking_kN", rope.breaking_kN),
         share_cell(share),
     )
+
+
+def name_rope(rope: RopeRecord, words: Words) -> str:
+    """Name of a rope; what it is called in the record where that is no rope of ours."""
+    key = _ROPE_NAMES.get(rope.rope)
+    return words(key) if key else rope.rope
 
 
 def _tell_guy(panel: PanelRecord, words: Words) -> list[str]:

@@ -61,6 +61,7 @@ class Figures:
     sideways: Table
     widths: Table
     actions: Table
+    panel_actions: Table
     checks: Table
     resistances: Table
     tests: Table
@@ -255,6 +256,7 @@ def _view_figures(row: RowStudy, words: Words) -> Figures:
         sideways=figure_tables.build_sideways(row, words),
         widths=figure_tables.build_widths(row, words),
         actions=figure_tables.build_actions(row, words),
+        panel_actions=figure_tables.build_panel_actions(row, words),
         checks=figure_tables.build_check_figures(row, words),
         resistances=figure_tables.build_resistances(row, words),
         tests=figure_tables.build_tests(row, words),

@@ -172,7 +172,7 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
 def _add_figures(book: Book, view: ReportView) -> None:
     """Sheets of what the figures of the checks follow from, all rows together."""
     for name, tables_of_sheet in (
-        ("actions", ("actions", "widths")),
+        ("actions", ("actions", "panel_actions", "widths")),
         ("statics", ("statics", "sideways")),
         ("floor_statics", ("floor_statics",)),
         ("resistances", ("resistances", "tests")),

@@ -105,11 +105,10 @@ def test_darker_is_larger():
 
 
 def test_the_bound_is_drawn_above_the_force():
-    lines = shapes(draw_lines(RECORD), "polyline")
-    bound, force = (
-        [float(pair.split(",")[1]) for pair in line.attrib["points"].split()]
-        for line in lines[:2]
-    )
+    between = shapes(draw_lines(RECORD), "polygon")[0].attrib["points"].split()
+    heights = [float(pair.split(",")[1]) for pair in between]
+    half = len(heights) // 2
+    force, bound = heights[:half], heights[: -half - 1 : -1]
     assert all(above < below for above, below in zip(bound, force, strict=True))
 
 

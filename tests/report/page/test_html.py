@@ -86,6 +86,9 @@ def test_empty_parts_say_none():
         drawing=None,
         anchors=[],
         head=[],
+        pulls=[],
+        statics=[],
+        held_sideways=None,
         guideline=None,
         verdict=Verdict.NOT_PROVEN,
     )
@@ -99,6 +102,7 @@ def test_empty_parts_say_none():
     )
     page = html.render_html(study)
     assert page.count('<p class="none">none') == 19
+    assert page.count(": none: ") >= 8  # tables of figures, by their numbers
     assert "NOT PROVEN" in page
 
 

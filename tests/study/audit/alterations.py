@@ -24,6 +24,8 @@ def as_given(text):
 
 
 SOLVED = ("solved_kN", "solved_low_kN", "solved_high_kN")
+BY_PANEL = ("panel_kN", "panel_low_kN", "panel_support_kN")
+ALONG = ("along_kN", "along_low_kN", "along_high_kN")
 
 
 def forces(study):
@@ -35,15 +37,18 @@ def scale_demand(check, factor):
     """Scale the coupled part; the guideline's load stays below the demand."""
     action, safety = check["action"], check["action_factor"]
     parts = ("added_kN", "added_low_kN", "added_high_kN")
-    scale_all(action, (*SOLVED, "coupled_kN", *parts), factor)
+    keys = (*SOLVED, "coupled_kN", *parts, *BY_PANEL, *ALONG)
+    scale_all(action, keys, factor)
     if action["sideways"]:
         scale_all(action["sideways"], ("pull_kN", "least_tension_kN"), factor)
     on_row = action["loaded_width_m"] / action["post_spacing_m"]
     on_row *= action["lateral_factor"]
-    solved, least = (
+    solved, least, by_panel = (
         (action["share"] * (action[key] or 0.0) + action["added_kN"]) * on_row
-        for key in ("solved_kN", "floor_kN")
+        for key in ("solved_kN", "floor_kN", "panel_kN")
     )
+    if action["panel_kN"] is not None:
+        solved = max(solved, by_panel + action["along_kN"])
     if action["floor_kN"] is not None:
         action["guideline_kN"] = least
     else:
@@ -52,7 +57,8 @@ def scale_demand(check, factor):
     check["demand_kN"] = check["action_kN"] * safety
     low = check["demand_low_kN"] * factor
     check["demand_low_kN"] = max(low, least * safety)
-    check["demand_high_kN"] = max(action["coupled_kN"], least) * safety
+    coupled = max(action["coupled_kN"], action["panel_support_kN"] or 0.0)
+    check["demand_high_kN"] = max(coupled, least) * safety
     settle_friction(check)
     settle_spreads(check, factor)
 
@@ -90,7 +96,11 @@ def scale_ratio(check, factor):
 
 
 def scale_extremes(row, factor):
-    for extreme in (*row["extremes"], *row["envelope"]["bounds"]):
+    panel = row["panel"] or {"extremes": [], "ropes": []}
+    for rope in panel["ropes"]:
+        scale_all(rope, ("along_kN", "tension_kN"), factor)
+    bounds = row["envelope"]["bounds"]
+    for extreme in (*row["extremes"], *bounds, *panel["extremes"]):
         for key in ("max_kN", "low_kN", "high_kN", "upper_bound_kN"):
             if key in extreme:
                 extreme[key] *= factor

@@ -1,0 +1,62 @@
+"""What the catalogue refuses and how it tells it; where its numbers come from."""
+
+import pytest
+
+from netdesign.errors import ModelError
+from netdesign.resistance.catalogue import (
+    find_bond_stress,
+    find_imperfection,
+    find_rope_factor,
+    find_termination,
+    pick,
+)
+from netdesign.words.message import say
+
+
+@pytest.mark.parametrize(
+    ("find", "given", "told"),
+    [
+        (find_bond_stress, ("gravle", "A"), "ground = 'gravle': must be one of "),
+        (find_bond_stress, ("gravel", "F"), "grouting in gravel = 'F': must be "),
+        (find_rope_factor, ("6x91", "K"), "rope construction = '6x91': must be "),
+        (find_rope_factor, ("6x19-FC", "Q"), "rope factor = 'Q': must be one of "),
+        (find_termination, ("sockets",), "termination = 'sockets': must be one of "),
+        (find_imperfection, ("x",), "buckling curve = 'x': must be one of "),
+    ],
+)
+def test_an_unknown_name_is_refused_by_what_it_names(find, given, told):
+    with pytest.raises(ModelError) as refused:
+        find(*given)
+    assert str(refused.value).startswith(told)
+
+
+def test_a_ground_is_called_by_its_name_where_it_has_one():
+    with pytest.raises(ModelError, match="grouting in loose gravel = 'F'"):
+        find_bond_stress("gravel", "F", ground_name="loose gravel")
+
+
+def test_a_refusal_names_the_two_nearest_or_none():
+    known = {"alpha1": 1, "alpha2": 2, "alpha3": 3}
+    with pytest.raises(ModelError) as refused:
+        pick(say("catalogue.ground"), "alpha4", known)
+    message = refused.value.message
+    nearest = message.arguments["nearest"]
+    assert nearest.arguments["near"] == ("alpha3", "alpha2")
+    assert message.arguments["accepted"] == tuple(known)
+    with pytest.raises(ModelError) as refused:
+        pick(say("catalogue.ground"), "zzz", known)
+    assert refused.value.message.arguments["nearest"] == ""
+
+
+@pytest.mark.parametrize(
+    ("found", "source"),
+    [
+        (find_bond_stress("gravel", "A"), "bond"),
+        (find_rope_factor("6x19-FC", "K"), "rope"),
+        (find_termination("socket"), "termination"),
+        (find_imperfection("b"), "buckling"),
+    ],
+)
+def test_every_number_has_its_source(found, source):
+    assert found.source == say(f"resistance_source.{source}")
+    assert found.status in ("secondary", "assumed")
