@@ -74,8 +74,8 @@ def draw_layered_site(seed, *, is_denser_below):
     """A practical scene of 2 to 4 layers on ground that glides.
 
     The source paper has phi (design range) and ES; the guideline N and the nets'
-    heights of 1.5 to 4.5 m. Chosen here, within what is usual: psi to 50 degrees, L / d,
-    theta (design range 25 to 35 degrees), slack to 0.08, densities of layers.
+    heights of 1.5 to 4.5 m. Chosen here, within what is usual: psi to 50 degrees,
+    L / d, theta (design range 25 to 35 degrees), slack to 0.08, densities of layers.
     """
     rng = np.random.default_rng([17, seed])
     thickness = float(rng.uniform(1.5, 4.5))
