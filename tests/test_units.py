@@ -69,3 +69,12 @@ def test_angles_come_back_as_they_were_given(decimals):
     radians = [units.radian_from_degree(angle) for angle in given]
     assert [units.given_degree_from_radian(angle) for angle in radians] == given
     assert [units.degree_from_radian(angle) for angle in radians] != given
+
+
+def test_forces_are_told_as_they_were_given():
+    """kN/m to the last digit of what was typed; the number itself is N/m."""
+    draw = random.Random(91)
+    given = [round(draw.uniform(0.3, 98765.0), 3) for _ in range(300)]
+    told = [units.given_kilonewton_from_newton(1e3 * force) for force in given]
+    assert told == given
+    assert units.given_kilonewton_from_newton(1234.5678901234) == 1.23456789

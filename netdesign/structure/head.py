@@ -233,7 +233,7 @@ def _resolve(
 ) -> _Pair[Number]:
     sine = _cross(post, guy)
     is_along = abs(sine) < math.sin(MIN_GUY_ANGLE)
-    divisor = choose(is_along, 1.0 + 0.0 * sine, sine)
+    divisor = sine + is_along  # never 0; the forces are of no use where it is along
     compression = _cross(pull, guy) / divisor
     tension = _cross(pull, post) / divisor
     # A pull along the guy's own line leaves a post force of rounding size.
@@ -281,8 +281,8 @@ def find_direction(start: Vector[Number], end: Vector[Number]) -> Vector[Number]
     """Unit vector from ``start`` to ``end``; (0, 0) where they coincide."""
     x, y = end[0] - start[0], end[1] - start[1]
     length = measure_length(x, y)
-    length = choose(length > 0.0, length, 1.0 + 0.0 * length)
-    return x / length, y / length
+    divisor = length + (length == 0.0)
+    return x / divisor, y / divisor
 
 
 def _is_finite(pull: Point, points: SupportPoints) -> bool:

@@ -106,3 +106,12 @@ def test_moment_of_snow_on_a_hinged_post():
 def test_friction_of_a_base_out_of_range_is_refused(friction):
     with pytest.raises(ModelError, match="friction"):
         compute_sliding_resistance(1e5, friction)
+
+
+def test_a_bent_bar_tells_what_it_follows_from():
+    section = RoundSection(outer=0.0317, strength=5e8)
+    found = compute_bent_bar_resistance(section, angle=0.31, lever=0.043)
+    used = math.cos(0.31) / section.axial_resistance
+    used += 0.043 * math.sin(0.31) / section.moment_resistance
+    assert (found.angle, found.lever) == (0.31, 0.043)
+    assert found.without_shear == pytest.approx(1.0 / used, rel=1e-12)

@@ -49,14 +49,15 @@ def test_a_refusal_names_the_two_nearest_or_none():
 
 
 @pytest.mark.parametrize(
-    ("found", "source"),
+    ("find", "given", "source"),
     [
-        (find_bond_stress("gravel", "A"), "bond"),
-        (find_rope_factor("6x19-FC", "K"), "rope"),
-        (find_termination("socket"), "termination"),
-        (find_imperfection("b"), "buckling"),
+        (find_bond_stress, ("gravel", "A"), "bond"),
+        (find_rope_factor, ("6x19-FC", "K"), "rope"),
+        (find_termination, ("socket",), "termination"),
+        (find_imperfection, ("b",), "buckling"),
     ],
 )
-def test_every_number_has_its_source(found, source):
+def test_every_number_has_its_source(find, given, source):
+    found = find(*given)
     assert found.source == say(f"resistance_source.{source}")
     assert found.status in ("secondary", "assumed")
