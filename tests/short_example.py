@@ -6,7 +6,7 @@ from netdesign.site.template import workbook as template
 
 
 def write_short_example(path, rows, *, is_grid=True, leans=True):
-    """Write these net rows; as a grid at both ends of density and friction alone.
+    """Write these net rows; as a grid of three densities and friction angles.
 
     A net that does not lean over a range keeps to its least inclination.
     """
@@ -15,7 +15,7 @@ def write_short_example(path, rows, *, is_grid=True, leans=True):
     lines["Ends"] = [line for line in lines["Ends"] if line["row"] in rows]
     lines["Declared"] = [line for line in lines["Declared"] if line["row"] in rows]
     if is_grid:
-        for line, samples in zip(lines["Ranges"], (2, 2, 1), strict=True):
+        for line, samples in zip(lines["Ranges"], (3, 3, 1), strict=True):
             line["samples"] = samples
             if samples == 1:
                 line["high"] = line["low"]

@@ -58,7 +58,7 @@ SHEETS = {
     ],
     "Ranges": [
         ["quantity", "low", "high", "samples"],
-        ["density [kg/m3]", 270, 400, 2],
+        ["density [kg/m3]", 270, 400, 3],
         ["friction angle [deg]", 30, 30, 1],
         ["net inclination [deg]", 30, 30, 1],
     ],

@@ -136,13 +136,13 @@ def test_the_sound_site_passes(ranges):
     assert judge(build_site(ranges)).verdict is Verdict.PASS
 
 
-@pytest.mark.parametrize("hit", range(4))
+@pytest.mark.parametrize("hit", range(9))
 def test_a_fault_in_any_case_of_a_grid_is_no_pass(spoil, fault, hit):
     calls = spoil(fault, lambda call: call == hit)
     row = judge(build_site()).rows[0]
-    assert len(calls) == 4
+    assert len(calls) == 9
     assert row.verdict is Verdict.NOT_PROVEN
-    assert "1 of 4 cases failed" in str(row.reasons[0])
+    assert "1 of 9 cases failed" in str(row.reasons[0])
 
 
 @pytest.mark.parametrize("hit", [0, 7, -1])
@@ -243,7 +243,7 @@ def test_a_store_of_another_solver_decides_nothing(stored, monkeypatch):
     monkeypatch.undo()
     study, counts = stored(weak)
     assert study.verdict is Verdict.FAIL
-    assert (counts.reused, counts.solved) == (0, 4)
+    assert (counts.reused, counts.solved) == (0, 9)
 
 
 def test_entries_exchanged_in_a_store_decide_nothing(stored, tmp_path):
@@ -259,7 +259,7 @@ def test_entries_exchanged_in_a_store_decide_nothing(stored, tmp_path):
             )
         base.commit()
     study, counts = stored(site)
-    assert (counts.reused, counts.solved) == (0, 4)
+    assert (counts.reused, counts.solved) == (0, 9)
     assert study == sound
 
 

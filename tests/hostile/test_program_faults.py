@@ -13,7 +13,7 @@ import pytest
 
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.envelope import run as run_module
+from netdesign.envelope import support_bands
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE
 from netdesign.site.model import MonitoringSeries
@@ -148,7 +148,7 @@ def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeyp
     """What follows from a solve in this process spares the other rows, too."""
     spoil()
     _, sound, _ = check()
-    calls, solve = [], run_module.compute_anchor_forces
+    calls, solve = [], support_bands.compute_anchor_forces
 
     def fail_in_one(*args, **values):
         calls.append(args)
@@ -156,7 +156,7 @@ def test_a_fault_in_the_statics_of_a_support_is_told_alike(spoil, check, monkeyp
             raise TypeError("spoilt 3 times")
         return solve(*args, **values)
 
-    monkeypatch.setattr(run_module, "compute_anchor_forces", fail_in_one)
+    monkeypatch.setattr(support_bands, "compute_anchor_forces", fail_in_one)
     code, rows, told = check()
     assert code == 5
     assert require_told(rows, sound, told, TypeError) == {"R1"}
@@ -167,7 +167,7 @@ def test_every_fault_of_a_run_is_told(spoil, check):
     code, rows, told = check()
     assert code == 5
     assert {row["verdict"] for row in rows.values()} == {"not_proven"}
-    assert len(read_told(told, ValueError)) == 8  # as many cases as two rows have
+    assert len(read_told(told, ValueError)) == 18  # as many cases as two rows have
 
 
 def test_all_outputs_are_written_in_plain_words(spoil, call, site, tmp_path):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Literal
 
 from netdesign.edge.given_files import make_printable
@@ -89,8 +88,6 @@ def render_html(
 
     words = Words(language)
     environment = build_environment(language)
-    environment.filters["subscripts"] = write_subscripts
-    environment.filters["unbroken"] = _keep_units
     view = view or build_view(study, language)
     is_full = detail == "full"
     page = environment.get_template("report.html").render(
@@ -141,19 +138,6 @@ def _draw_row(
     measured = bool(drawn["monitoring"])
     note = escape(describe_monitoring(row.monitoring, words) if measured else "")
     return {**figures, "monitoring_note": note}
-
-
-def write_subscripts(symbols: str) -> Markup:
-    """``E_d`` with a lowered d; everything else is escaped."""
-    from markupsafe import Markup, escape
-
-    lowered = re.sub(r"_(\w+)", r"<sub>\1</sub>", str(escape(symbols)))
-    return Markup(lowered)
-
-
-def _keep_units(case: str) -> str:
-    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
-    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
 
 
 def _quote_css(text: str) -> str:

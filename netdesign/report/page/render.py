@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -35,7 +36,22 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.globals["t"] = Words(language)
+    environment.filters["subscripts"] = write_subscripts
+    environment.filters["unbroken"] = _keep_units
     return environment
+
+
+def write_subscripts(symbols: str) -> Markup:
+    """``E_d`` with a lowered d; everything else is escaped."""
+    from markupsafe import Markup, escape
+
+    lowered = re.sub(r"_(\w+)", r"<sub>\1</sub>", str(escape(symbols)))
+    return Markup(lowered)
+
+
+def _keep_units(case: str) -> str:
+    """``400 kg/m³, φ 15°`` that breaks at its commas only."""
+    return case.replace(" ", "\u00a0").replace(",\u00a0", ", ")
 
 
 def load_style(*names: str) -> Markup:

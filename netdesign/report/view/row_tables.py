@@ -20,6 +20,7 @@ from netdesign.report.words import (
     Words,
     add_unit,
     name_case,
+    name_choice,
     show_band,
     show_check,
     show_member,
@@ -113,7 +114,8 @@ def build_pulls(row: RowStudy, words: Words) -> Table:
 def _name_kind(pull: PullRecord, words: Words) -> str:
     if not pull.kind:
         return MISSING
-    return words(f"choice.kind.{pull.kind.replace(' ', '')}")
+    choice = name_choice("kind", pull.kind)
+    return words.show(choice) if choice else show_text(pull.kind)
 
 
 def build_head(row: RowStudy, words: Words) -> Table:

@@ -5,6 +5,7 @@ import pytest
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Verdict
 from netdesign.report.page import html
+from netdesign.report.page.render import write_subscripts
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.document import compute_digest, read_document, write_document
@@ -51,7 +52,7 @@ def test_title_cannot_leave_the_style_sheet():
     ],
 )
 def test_the_whole_index_of_a_symbol_is_lowered(symbols, lowered):
-    assert html.write_subscripts(symbols) == lowered
+    assert write_subscripts(symbols) == lowered
 
 
 def test_ids_are_unique(page):
