@@ -59,6 +59,7 @@ def build_row(name, **changes):
         "net_height": 2.5,
         "net_stiffness_per_m": 8e6,
         "slack": 0.05,
+        "altitude": 1417.0,
         "layout": SupportLayout(
             post_spacing=3.5, uphill_anchor_distance=3.0, downhill_anchor_distance=3.0
         ),

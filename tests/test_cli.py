@@ -306,7 +306,7 @@ def test_outputs_are_in_their_folder_and_nothing_else_is(home, checked):
 
 
 def test_progress_and_messages_go_to_stderr(checked):
-    assert "cases of the grid: 1 solved, about 81 to go" in checked.stderr
+    assert "cases of the grid: 1 solved, about 82 to go" in checked.stderr
     assert "to go" not in checked.stdout
     assert "wrote" not in checked.stdout
 
@@ -326,7 +326,7 @@ def test_json_prints_one_document_and_nothing_else(home, study, tmp_path):
     assert result.returncode == 0, result.stderr
     document = json.loads(result.stdout)
     assert listing(tmp_path) == {"site.xlsx"}
-    assert "cases of the grid: 1 solved, about 81 to go" in result.stderr
+    assert "cases of the grid: 1 solved, about 82 to go" in result.stderr
     for part in ("verdict", "rows", "profile", "range_inputs", "notes"):
         assert document[part] == study[part]
 
@@ -353,7 +353,7 @@ def test_two_processes_and_no_reports_give_the_same_study(study, tmp_path):
 def test_dry_run_counts_and_writes_nothing(home, checked, tmp_path):
     result = run("check", home / "site.xlsx", "--dry-run", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
-    assert "1 net rows, 2 cases" in result.stdout
+    assert "1 net rows, 3 cases" in result.stdout
     assert "nothing was written" in result.stdout
     assert listing(tmp_path) == set()
 

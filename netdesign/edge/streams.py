@@ -16,6 +16,7 @@ from dataclasses import dataclass
 _PLAIN = "netdesign.plain"  # the handler of signs that a code page lacks
 _SPELLED = {
     **{"α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "η": "eta"},
+    **{"λ": "lambda", "⁻": "-"},
     **{"θ": "theta", "μ": "mu", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau"},
     **{"φ": "phi", "ψ": "psi", "Δ": "Delta", "Σ": "Sigma"},
     **{"·": "*", "×": "x", "−": "-", "–": "-", "—": "-", "→": "->", "›": ">"},

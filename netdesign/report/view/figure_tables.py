@@ -34,6 +34,7 @@ from netdesign.study.records import (
     RowStudy,
     StaticsRecord,
 )
+from netdesign.words.catalogue import load_texts
 from netdesign.words.names import name, name_mode
 
 _PULLS = (
@@ -211,12 +212,17 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
     )
 
 
+def _name_position(position: str, words: Words) -> str:
+    key = f"position.{position}"
+    return words(key) if key in load_texts(words.language) else show_text(position)
+
+
 def build_widths(row: RowStudy, words: Words) -> Table:
     """Loaded width of each support, with what it follows from."""
     found: dict[str, ActionRecord] = {}
     for check in row.checks:
         if check.action is not None:
-            support = words(f"position.{check.action.position}")
+            support = _name_position(check.action.position, words)
             is_own = check.member not in CARRYING_MEMBERS  # by a rope, with its factor
             named = show_member(words, check.member) if is_own else support
             found.setdefault(named, check.action)
@@ -275,7 +281,7 @@ def build_panel_actions(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(_name_acted(check, words)),
-                text_cell(words(f"position.{action.position}")),
+                text_cell(_name_position(action.position, words)),
                 *(_short(getattr(action, key)) for key, _ in _BY_PANEL),
                 _short(compute_by_panel(action)),
                 _short(action.panel_support_kN),
@@ -310,7 +316,7 @@ def _list_action(
 ) -> tuple[Cell, ...]:
     return (
         text_cell(_name_acted(check, words)),
-        text_cell(words(f"position.{action.position}")),
+        text_cell(_name_position(action.position, words)),
         *(_short(getattr(action, key)) for key, _ in _ACTIONS),
         _short(compute_coupled(action)),
         _short(action.coupled_kN),
@@ -472,7 +478,7 @@ def build_turns(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_member(words, pull.anchor)),
-                text_cell(words(f"position.{pull.position}")),
+                text_cell(_name_position(pull.position, words)),
                 *(_number(getattr(pull, key)) for key, _ in _PULL_RANGE),
                 _number(_measure_turn(pull)),
                 _number(pull.angle_deg),
