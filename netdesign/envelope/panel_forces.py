@@ -89,7 +89,7 @@ def resolve_panel(
     tests/envelope/test_panel_forces.py
     """
     if state.method != "steady":
-        reason = say("panel.steady_only", method=state.method)
+        reason = say("panel.steady_only")
         return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
     solved = solve_strips(
         build_strip(net, state.net_curve, state.net_forces, state.foot), panel

@@ -81,7 +81,7 @@ def take_strip(solution: Solution) -> Strip:
     """
     net = solution.scene.net
     if solution.method != "steady" or not isinstance(net, Net):
-        raise ModelError(say("panel.steady_only", method=solution.method))
+        raise ModelError(say("panel.steady_only"))
     return build_strip(net, solution.net_curve, solution.net_forces, solution.foot)
 
 

@@ -255,7 +255,9 @@ def _build_net_row(
         axes=tuple(read_axes(row).items()),
         anchors=_find_anchors(row, type_sheets),
         panel=panel,
-        row_end=_build_row_end(end, type_sheets) if panel and has_end else None,
+        row_end=_build_row_end(end, type_sheets)
+        if has_end and (panel or _names_row_end(end))
+        else None,
         panel_lack=panel_lack,
     )
 
@@ -376,6 +378,11 @@ def _build_layout(row: Row) -> SupportLayout:
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
         post_base_distance=base.si if base.state == "given" else None,
     )
+
+
+def _names_row_end(end: Row | None) -> bool:
+    """Some member that holds the row along itself is given."""
+    return end is not None and any(end[member].word for member, _ in END_MODES)
 
 
 def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from netdesign.checks import check_member
 from netdesign.envelope.extremes import Extreme
-from netdesign.site.model import Resistance
+from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
@@ -67,14 +67,20 @@ def check_row(
     return [
         *checks,
         *_check_end(task, loads),
-        *_check_directions(task, loads, find_open(judged)),
+        *_check_directions(task, loads, find_open(task.row, judged)),
         *record_geometry(task.site, task.row, task.standard),
     ]
 
 
-def find_open(judged: Sequence[MemberCheck]) -> Message | None:
-    """Gap of the forces, else a doubt about any of them; None if all is well."""
-    points = (one.gap or one.doubt for one in judged)
+def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
+    """Gap of the forces, else a doubt about any of them; None if all is well.
+
+    What is not known of the row's end alone leaves no other check open.
+    """
+    points = (
+        (one.gap if one.gap != find_lack(row, one.given) else None) or one.doubt
+        for one in judged
+    )
     return next((one for one in points if one is not None), None)
 
 

@@ -112,7 +112,10 @@ def compute_end_factor(width: LoadedWidth, spacing: float) -> float:
 
 def find_lack(row: NetRow, given: Resistance) -> Message | None:
     """Lack of the workbook that leaves an end member, or the end post, open."""
-    is_held = row.row_end is None or row.row_end.guy_angle is not None
-    if is_held or given.member == EndMember.LATERAL_ANCHOR:
+    if row.row_end is None:
+        return None
+    if row.panel is None:
+        return say("row_end.no_pull")
+    if row.row_end.guy_angle is not None or given.member == EndMember.LATERAL_ANCHOR:
         return None
     return say("row_end.no_angle")

@@ -94,7 +94,7 @@ def test_pulls_keep_their_sum_between_moved_ropes(solved):
 
 def test_only_a_net_at_rest_has_strips(solved):
     history = replace(solved(inclination_deg=30.0), method="transient")
-    with pytest.raises(ModelError, match="steady state of a net, not on method trans"):
+    with pytest.raises(ModelError, match="steady state of a net, not on a history"):
         take_strip(history)
 
 

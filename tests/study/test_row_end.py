@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from netdesign.checks import load_standard
 from netdesign.outcome import Verdict
-from netdesign.site.model import BaseFriction
+from netdesign.site.model import END_MODES, BaseFriction
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit import audit_study
 from netdesign.study.effects import find_effects
@@ -57,6 +57,28 @@ def test_end_members_take_the_ropes_pull_with_the_end_effect(judged):
     assert post.along_kN == pytest.approx(pushed, rel=1e-12)
     assert checks["post.compression"].action.along_kN == 0.0
     assert post.governs == "panel"
+
+
+def test_members_of_an_end_without_a_panel_are_not_proven_and_no_check_is_lost():
+    """One emptied cell of the panel must not turn a row with an end guy into a pass."""
+    row = replace(with_panel(a_panel(), end=an_end(angle=37.0)), panel=None)
+    site, study = judge(row)
+    checks = checks_of(study)
+    _, plain = judge(replace(row, row_end=None))
+    assert plain.rows[0].verdict is Verdict.PASS
+    open_checks = {
+        name for name, one in checks.items() if one.verdict is Verdict.NOT_PROVEN
+    }
+    assert open_checks == {
+        *(f"{member}.{mode}.end" for member, mode in END_MODES),
+        *(name for name in checks if name.startswith("post") and name[-4:] == ".end"),
+    }
+    for name in open_checks:
+        assert "what pulls it along the row is not known" in str(checks[name].reason)
+    for name, one in checks_of(plain).items():
+        if name not in open_checks:
+            assert checks[name].verdict is one.verdict
+    assert audit_study(study, PROFILE, site) == []
 
 
 def test_what_the_end_guy_presses_holds_the_base_too():

@@ -48,6 +48,7 @@ from netdesign.study.pulls import (
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
+from netdesign.study.row_end import find_lack as find_end_lack
 from netdesign.study.settle import (
     judge_forces,
     list_checked,
@@ -376,6 +377,8 @@ def _judge_again(
         action = Band(low=low, value=middle, high=high)
     is_whole = is_complete(row) and not is_held_back(check)
     gap = None if is_whole else _UNKNOWN_GAP
+    if isinstance(given.member, EndMember):
+        gap = gap or find_end_lack(basis.row, given)
     doubt = _find_doubt(check, row, basis) if action else None
     result = judge_forces(action, given, basis.standard, gap=gap, doubt=doubt)
     place = position or width.position
