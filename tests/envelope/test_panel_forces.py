@@ -190,7 +190,7 @@ def test_a_history_has_no_panel(found):
     case = draw_case(np.random.default_rng(8))
     history = solve(case, settings=TransientSettings(accuracy=0.1, horizon=3600.0))
     assert isinstance(history.panel, FailedPanel)
-    assert "not on method transient" in str(history.lack)
+    assert history.lack.key == "panel.steady_only"
 
 
 @pytest.mark.parametrize("share", [0.5, 1.5])
