@@ -35,7 +35,7 @@ from netdesign.coupling.scene import (  # noqa: E402
     SolverSettings,
 )
 from netdesign.coupling.solution import Solution  # noqa: E402
-from netdesign.coupling.steady.rounds import solve_steady  # noqa: E402
+from netdesign.coupling.steady.solve import solve_steady  # noqa: E402
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
 from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
 from netdesign.snow.kernel import PlacedMesh, build_placed_mesh  # noqa: E402

@@ -13,7 +13,7 @@ from netdesign.coupling.scene import (
     SolverSettings,
 )
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import compute_shear_factor
 from netdesign.snow.fluidity import compute_fluidity

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel, Rope

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome
 from netdesign.snow import flow, kernel
 from netdesign.snow.contact import free_unknowns, start_contact
