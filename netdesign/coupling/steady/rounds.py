@@ -14,9 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from netdesign.coupling.interface import (
-    share_net_forces,
-)
+from netdesign.coupling.interface import share_net_forces
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.correction import (
     Correction,

@@ -40,11 +40,7 @@ from netdesign.coupling.solution import (
     list_skipped,
     triangle_density,
 )
-from netdesign.coupling.steady.hanging import (
-    Hanging,
-    SteadyProblem,
-    hang_again,
-)
+from netdesign.coupling.steady.hanging import Hanging, SteadyProblem, hang_again
 from netdesign.coupling.steady.rounds import Coupled, couple
 from netdesign.errors import ModelError, SolveError
 from netdesign.numerics.arrays import Floats
