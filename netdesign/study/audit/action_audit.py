@@ -31,33 +31,12 @@ class _Sources:
     floor: FloorForceRecord | None  # by the guideline
 
     @property
-    def on_row(self) -> float:
-        """Force on the support over that inside the row, for a metre the same [-]."""
-        record = self.record
-        return record.loaded_width_m / record.post_spacing_m * record.lateral_factor
-
-    @property
-    def solved(self) -> float:
-        """Force on the support by the section [kN]."""
-        record = self.record
-        return (record.share * record.solved_kN + record.added_kN) * self.on_row
-
-    @property
     def by_floor(self) -> float | None:
         """The same by the guideline's load [kN]."""
         if self.floor is None:
             return None
         inside = self.record.share * self.floor.force_kN + self.record.added_kN
-        return inside * self.on_row
-
-    @property
-    def by_panel(self) -> float:
-        """The same by the panel between posts; 0 without one [kN]."""
-        record = self.record
-        if record.panel_kN is None:
-            return 0.0
-        inside = record.share * record.panel_kN + record.added_kN
-        return inside * self.on_row + record.along_kN
+        return inside * self.record.on_row
 
     @property
     def least(self) -> float:
@@ -66,8 +45,8 @@ class _Sources:
         low = record.share * (record.solved_low_kN or 0.0) + record.added_low_kN
         if self.panel is not None:
             inside = record.share * self.panel.low_kN + record.added_low_kN
-            by_panel = inside * self.on_row + record.along_low_kN
-        return max(low * self.on_row, self.by_floor or 0.0, by_panel)
+            by_panel = inside * self.record.on_row + record.along_low_kN
+        return max(low * self.record.on_row, self.by_floor or 0.0, by_panel)
 
     @property
     def most(self) -> float:
@@ -112,7 +91,9 @@ def _list_pairs(check: CheckRecord, sources: _Sources) -> list[Pair]:
     """Floor, action and ends of the demand, as stored and as they follow."""
     record, least = sources.record, sources.floor
     inclination = least.inclination_deg if least else None
-    largest = max(sources.solved, sources.by_panel, sources.by_floor or 0.0)
+    largest = max(
+        record.section_force, record.panel_force or 0.0, sources.by_floor or 0.0
+    )
     pairs: list[Pair] = [
         ("floor_kN", record.floor_kN, least.force_kN if least else None),
         ("guideline_kN", record.guideline_kN, sources.by_floor),
@@ -133,7 +114,7 @@ def _audit_largest(
     """High end and case of a member whose largest force is reported."""
     record, panel = sources.record, sources.panel
     high = record.coupled_kN
-    yield from _audit_high_end(place, record, sources.section, sources.on_row, high)
+    yield from _audit_high_end(place, record, sources.section, record.on_row, high)
     larger = panel if panel and record.is_by_panel else sources.section
     if not same_point(check.case, larger.case):
         yield say("audit.other_case", place=place)
@@ -144,9 +125,11 @@ def _audit_base(place: Message, sources: _Sources) -> Iterator[Message]:
     record = sources.record
     if record.solved_kN > sources.section.max_kN * (1.0 + SAME):
         yield say("audit.more_on_base", place=place)
-    elif record.coupled_kN < sources.solved * (1.0 - SAME):
+    elif record.coupled_kN < record.section_force * (1.0 - SAME):
         told = show_value(record.coupled_kN)
-        yield say("audit.too_low_end", place=place, high=told, least=sources.solved)
+        yield say(
+            "audit.too_low_end", place=place, high=told, least=record.section_force
+        )
 
 
 def _find_panel(check: CheckRecord, row: RowStudy) -> ExtremeRecord | None:
@@ -168,7 +151,7 @@ def _audit_panel(place: Message, sources: _Sources) -> Iterator[Message]:
     )
     if panel is not None:
         high = (record.panel_support_kN or 0.0) - record.along_high_kN
-        yield from _audit_high_end(place, record, panel, sources.on_row, high)
+        yield from _audit_high_end(place, record, panel, record.on_row, high)
 
 
 def _find_floor(check: CheckRecord, row: RowStudy) -> FloorForceRecord | None:
