@@ -15,7 +15,7 @@ from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow import flow
-from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.placed_mesh import PlacedMesh
 
 COARSE = SolverSettings(
     accuracy=0.1,
