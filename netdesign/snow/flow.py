@@ -48,7 +48,8 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
+from netdesign.snow.linear import SingularError, solve_blocks
+from netdesign.snow.ordering import Blocks, build_ordering
 from netdesign.snow.placed_mesh import PlacedMesh
 
 # Error that a Newton step leaves, (N16): a share of the step where contacts still

@@ -15,7 +15,7 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
-from netdesign.snow.linear import Blocks
+from netdesign.snow.ordering import Blocks
 from netdesign.snow.placed_mesh import PlacedMesh, edge_triples
 
 if TYPE_CHECKING:

@@ -35,7 +35,8 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
+from netdesign.snow.linear import SingularError, solve_blocks
+from netdesign.snow.ordering import Blocks, build_ordering
 from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
