@@ -42,11 +42,16 @@ def open_console() -> Console:
     return console
 
 
-def print_summary(study: Study, console: Console, language: Language = "en") -> None:
+def print_summary(
+    study: Study,
+    console: Console,
+    language: Language = "en",
+    view: ReportView | None = None,
+) -> None:
     """Print one line per net row, then reasons and assumed values.
 
     Colour, width and destination are those of ``console``; texts of the site
-    are never read as markup.
+    are never read as markup. ``view`` is that of the study, if it is known.
 
     Raises
     ------
@@ -56,7 +61,7 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
     from rich.table import Table
     from rich.text import Text
 
-    words, view = Words(language), build_view(study, language)
+    words, view = Words(language), view or build_view(study, language)
     is_narrow = console.width < _NARROW
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
