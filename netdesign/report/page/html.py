@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from netdesign.edge.given_files import make_printable
 from netdesign.report.drawing.envelope_figure import draw_envelope
@@ -20,6 +20,7 @@ from netdesign.report.drawing.monitoring_figure import (
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.page.render import build_environment, load_style
+from netdesign.report.view.check_view import find_shown_member
 from netdesign.report.view.gate import require_sections
 from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
@@ -116,18 +117,20 @@ def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
 
 def _draw_row(
     row: RowStudy, anchor: str, words: Words, *, is_full: bool
-) -> dict[str, Markup]:
-    """Drawings of a net row by name; "" where there is nothing to draw."""
+) -> dict[str, Any]:
+    """Drawings of a net row by name; "" where there is nothing to draw.
+
+    ``searched`` has those of each member, the one that governs first.
+    """
     from markupsafe import Markup, escape
 
     record = row.envelope if is_full else None
     members = split_members(record) if record else []
+    first = find_shown_member(row)
+    members.sort(key=lambda one: one.bounds[0].quantity != first)
     drawn = {
         "section": draw_section(row.drawing, anchor, words) if row.drawing else "",
         "envelope": draw_envelope(row, words) if is_full and not record else "",
-        "maps": "".join(draw_maps(one, words) for one in members),
-        "lines": "".join(draw_lines(one, words) for one in members),
-        "drivers": "".join(draw_drivers(one, words) for one in members),
         "head": draw_head(row.head, words) if is_full and len(row.head) > 1 else "",
         "panel": draw_panel(row.panel, words) if row.panel and is_full else "",
         "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r", words)
@@ -135,9 +138,17 @@ def _draw_row(
         else "",
     }
     figures = {name: Markup(svg) for name, svg in drawn.items()}
+    searched = [
+        {
+            "maps": Markup(draw_maps(one, words)),
+            "lines": Markup(draw_lines(one, words)),
+            "drivers": Markup(draw_drivers(one, words)),
+        }
+        for one in members
+    ]
     measured = bool(drawn["monitoring"])
     note = escape(describe_monitoring(row.monitoring, words) if measured else "")
-    return {**figures, "monitoring_note": note}
+    return {**figures, "searched": searched, "monitoring_note": note}
 
 
 def _quote_css(text: str) -> str:

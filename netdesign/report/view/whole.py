@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import asdict, dataclass
 
 from netdesign.checks.result import tell_proof
@@ -22,12 +22,18 @@ from netdesign.report.view import (
     row_tables,
     tables,
 )
+from netdesign.report.view.check_lines import (
+    CheckLine,
+    list_lines,
+    list_requirements,
+)
 from netdesign.report.view.check_view import (
     SEVERITY,
     CheckView,
     Worked,
     find_governing,
     find_highest,
+    find_shown,
     rank_check,
     view_check,
     work_out,
@@ -38,6 +44,7 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     name_case,
+    name_heading,
     show_check,
     show_member,
     show_quantity,
@@ -80,6 +87,8 @@ class RowView:
     highest: CheckView | None  # largest utilisation, where that does not govern
     reasons: tuple[str, ...]
     checks: tuple[CheckView, ...]
+    lines: tuple[CheckLine, ...]  # those of forces, inside and end beside each other
+    requirements: tuple[CheckView, ...]  # those without a force
     worked: Worked | None
     drawn_case: str
     unloaded: str  # members left out of the envelope figure, or ""
@@ -132,10 +141,12 @@ class ReportView:
     profile_title: str
     profile: Table
     notes: tuple[str, ...]
+    shared_notes: tuple[str, ...]  # of several rows, each with the rows it is about
     formulas: Table
     figure_tables: Table  # what each of a row's tables of figures holds
     quality: Table
     outcomes: Table
+    legend: str  # of the numbers of a case
     provenance: Table
 
 
@@ -150,8 +161,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
     require_consistent(study)
     words, project = Words(language), study.project
     assumed = tables.build_profile(study, words, tables.ASSUMED)
+    shared = _share_notes(study, words)
     rows = tuple(
-        _view_row(row, number, words) for number, row in enumerate(study.rows, 1)
+        _view_row(row, number, words, shared)
+        for number, row in enumerate(study.rows, 1)
     )
     return ReportView(
         identification=_identify(study, words),
@@ -185,10 +198,15 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
         ),
+        shared_notes=tuple(
+            words("show.label", label=", ".join(ids), text=note)
+            for note, ids in shared.items()
+        ),
         formulas=figure_tables.build_formulas(words),
         figure_tables=figure_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
+        legend=describe_cases(study, words),
         provenance=tables.build_provenance(study, words),
     )
 
@@ -206,9 +224,21 @@ def _find_governing_row(study: Study, views: Sequence[RowView]) -> RowView | Non
     return None if best is None else views[best]
 
 
-def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
+def _share_notes(study: Study, words: Words) -> dict[str, list[str]]:
+    """Notes that several rows have, word by word, with the rows: told once."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        for note in dict.fromkeys(words.show(note) for note in row.notes):
+            rows.setdefault(note, []).append(show_text(row.id))
+    return {note: ids for note, ids in rows.items() if len(ids) > 1}
+
+
+def _view_row(
+    row: RowStudy, number: int, words: Words, told: Container[str]
+) -> RowView:
+    """One row in words, but for the notes that are ``told`` elsewhere."""
     governing, highest = find_governing(row.checks), find_highest(row.checks)
-    shown = governing if governing and governing.utilisation is not None else highest
+    shown = find_shown(row)
     return RowView(
         anchor=f"row-{number}",
         id=show_text(row.id),
@@ -220,6 +250,8 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         else None,
         reasons=tuple(words.show(reason) for reason in row.reasons),
         checks=tuple(view_check(check, words) for check in row.checks),
+        lines=list_lines(row.checks, words),
+        requirements=list_requirements(row.checks, words),
         worked=work_out(shown, words) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row, words),
@@ -245,7 +277,9 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         floor=row_tables.build_floor(row, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
-        notes=tuple(words.show(note) for note in row.notes),
+        notes=tuple(
+            note for one in row.notes if (note := words.show(one)) not in told
+        ),
     )
 
 
@@ -262,6 +296,18 @@ def _view_figures(row: RowStudy, words: Words) -> Figures:
         tests=figure_tables.build_tests(row, words),
         turns=figure_tables.build_turns(row, words),
     )
+
+
+def describe_cases(study: Study, words: Words) -> str:
+    """Legend of the numbers of a case, in their order."""
+    points = [case.case for row in study.rows for case in row.cases[:1]]
+    names = (
+        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
+    )
+    legend = words("show.legend")
+    if not names:
+        return legend
+    return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
 def _name_unloaded(row: RowStudy, words: Words) -> str:
