@@ -11,7 +11,6 @@ from netdesign.report.words import (
     MISSING,
     VerdictWords,
     Words,
-    name_heading,
     show_check,
     show_text,
 )

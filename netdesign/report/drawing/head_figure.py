@@ -13,7 +13,7 @@ from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
 from netdesign.structure.members import Member
 from netdesign.study.support_records import HeadForce
 
-_TALLEST, _WIDEST, _EDGE = 100.0, 90.0, 14.0  # of the polygon on paper [pt]
+_TALLEST, _WIDEST, _EDGE = 72.0, 90.0, 12.0  # of the polygon on paper [pt]
 _WIDTH = WIDTH / 2  # half a page: a table stands beside it
 _GAP = 6.0  # from a force to its name [pt]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from netdesign.outcome import Verdict
 from netdesign.report.view.check_view import SEVERITY, CheckView, view_check
 from netdesign.report.words import VerdictWords, Words, show_verdict
 from netdesign.study.records import CheckRecord
@@ -12,6 +13,7 @@ from netdesign.words.message import Message
 from netdesign.words.names import name_check
 from netdesign.words.text_field import Text
 
+_MOST_USED = 3  # lines of a row that its summary shows
 _PLAIN = "check.passes"  # what the table's numbers and its caption say already
 
 
@@ -29,6 +31,8 @@ class CheckLine:
     inside: CheckView | None
     end: CheckView | None
     verdict: VerdictWords  # the worse of both
+    is_met: bool
+    most_used: float  # larger utilisation of both; 0 where none is known
     remarks: tuple[str, ...]
 
 
@@ -43,6 +47,13 @@ def list_lines(checks: Sequence[CheckRecord], words: Words) -> tuple[CheckLine, 
         for together in places.values()
         for group in _split(together)
     )
+
+
+def choose_lines(lines: Sequence[CheckLine]) -> tuple[CheckLine, ...]:
+    """Those that do not pass, and the most used of the others, in their order."""
+    used = sorted((line.most_used for line in lines), reverse=True)
+    least = used[min(_MOST_USED, len(used)) - 1] if used else 0.0
+    return tuple(line for line in lines if not line.is_met or line.most_used >= least)
 
 
 def list_requirements(
@@ -81,6 +92,8 @@ def _build_line(group: list[CheckRecord], words: Words) -> CheckLine:
         inside=shown.get(False),
         end=shown.get(True),
         verdict=show_verdict(worst, words),
+        is_met=worst is Verdict.PASS,
+        most_used=max(one.utilisation or 0.0 for one in group),
         remarks=tuple(_list_remarks(group, words)),
     )
 
@@ -92,7 +105,7 @@ def _list_remarks(group: list[CheckRecord], words: Words) -> list[str]:
         for one in group
         if not _is_plain(one.reason)
     }
-    if len(told) < len(group) and len(group) > 1 or len(set(told.values())) > 1:
+    if (len(told) < len(group) and len(group) > 1) or len(set(told.values())) > 1:
         places = {False: words("heading.inside"), True: words("heading.at_end")}
         return [
             words("show.label", label=places[is_end], text=text)

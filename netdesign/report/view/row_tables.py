@@ -521,16 +521,16 @@ def show_loads(check: CheckRecord) -> str:
     if action is None:
         return ""
     values = {
-        "coupled": f"E_c ≤ {show_number('coupled_kN', action.coupled_kN)}",
-        "panel": f"E_p ≤ {show_number('panel_support_kN', action.panel_support_kN)}",
-        "guideline": f"E_g = {show_number('guideline_kN', action.guideline_kN)}",
+        "coupled": f"E_c {show_number('coupled_kN', action.coupled_kN)}",
+        "panel": f"E_p {show_number('panel_support_kN', action.panel_support_kN)}",
+        "guideline": f"E_g {show_number('guideline_kN', action.guideline_kN)}",
     }
     if action.panel_support_kN is None:
         del values["panel"]
     if action.guideline_kN is None:
         del values["guideline"]
     first = values.pop(action.governs or "coupled")
-    return ", ".join([first, *values.values()]) + " kN"
+    return ", ".join([first, *values.values()])
 
 
 def _find_loaded(check: CheckRecord) -> ActionRecord | None:

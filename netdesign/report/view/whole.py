@@ -10,6 +10,7 @@ import shlex
 from collections import Counter
 from collections.abc import Container, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Literal
 
 from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
@@ -20,10 +21,12 @@ from netdesign.report.view import (
     hold_tables,
     panel_tables,
     row_tables,
+    site_tables,
     tables,
 )
 from netdesign.report.view.check_lines import (
     CheckLine,
+    choose_lines,
     list_lines,
     list_requirements,
 )
@@ -57,6 +60,10 @@ from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"
+_FACTORS = ("action", "resistance")  # subjects whose values stand on the first page
+_FEW = 3  # values of another subject that still do
+# Of the page: the least, all, and all with every figure of the checks unfolded.
+Detail = Literal["summary", "full", "figures"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +95,7 @@ class RowView:
     reasons: tuple[str, ...]
     checks: tuple[CheckView, ...]
     lines: tuple[CheckLine, ...]  # those of forces, inside and end beside each other
+    main_lines: tuple[CheckLine, ...]  # those that do not pass, and the most used
     requirements: tuple[CheckView, ...]  # those without a force
     worked: Worked | None
     drawn_case: str
@@ -107,9 +115,11 @@ class RowView:
     held: tuple[str, ...]  # the same for the governing check, in short
     flips: tuple[str, ...]  # the same for the governing check, in short
     independent: Table
+    laws_met: str  # how many of those are met, where all of them are; else ""
     guideline: Table
     guideline_sentence: str
     floor: Table
+    floor_governs: bool  # in a check at least
     figures: Figures
     panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
@@ -136,10 +146,14 @@ class ReportView:
     scope: tuple[str, ...]
     assumptions: Table
     checklist: Table
+    matrix: Table  # rows by members
+    site_inputs: tuple[Table, ...]  # of all rows, some beside each other
     rows: tuple[RowView, ...]
     ranges: Table
     profile_title: str
     profile: Table
+    numbered_profile: Table  # the same, with numbers for sources that recur
+    sources: tuple[str, ...]  # those sources, each with its number
     notes: tuple[str, ...]
     shared_notes: tuple[str, ...]  # of several rows, each with the rows it is about
     formulas: Table
@@ -161,6 +175,8 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
     require_consistent(study)
     words, project = Words(language), study.project
     assumed = tables.build_profile(study, words, tables.ASSUMED)
+    profile = tables.build_profile(study, words)
+    numbered, sources = tables.number_sources(profile)
     shared = _share_notes(study, words)
     rows = tuple(
         _view_row(row, number, words, shared)
@@ -188,12 +204,16 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         scope=basis_tables.list_scope(words),
         assumptions=basis_tables.build_assumptions(study, words),
         checklist=basis_tables.build_checklist(study, words),
+        matrix=site_tables.build_matrix(study, words),
+        site_inputs=site_tables.build_site_inputs(study, words),
         rows=rows,
         ranges=tables.build_inputs(
             study.range_inputs, words("heading.ranges_of_envelope"), words
         ),
         profile_title=tables.name_profile(study, words),
-        profile=tables.build_profile(study, words),
+        profile=profile,
+        numbered_profile=numbered,
+        sources=sources,
         notes=(
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
@@ -238,7 +258,7 @@ def _view_row(
 ) -> RowView:
     """One row in words, but for the notes that are ``told`` elsewhere."""
     governing, highest = find_governing(row.checks), find_highest(row.checks)
-    shown = find_shown(row)
+    shown, lines = find_shown(row), list_lines(row.checks, words)
     return RowView(
         anchor=f"row-{number}",
         id=show_text(row.id),
@@ -250,7 +270,8 @@ def _view_row(
         else None,
         reasons=tuple(words.show(reason) for reason in row.reasons),
         checks=tuple(view_check(check, words) for check in row.checks),
-        lines=list_lines(row.checks, words),
+        lines=lines,
+        main_lines=choose_lines(lines),
         requirements=list_requirements(row.checks, words),
         worked=work_out(shown, words) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
@@ -272,14 +293,17 @@ def _view_row(
         held=hold_tables.list_limits(governing, words),
         flips=row_tables.list_flips(governing, words),
         independent=row_tables.build_independent(row, words),
+        laws_met=_count_laws(row, words),
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        floor_governs=any(
+            one.action is not None and one.action.governs == "guideline"
+            for one in row.checks
+        ),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
-        notes=tuple(
-            note for one in row.notes if (note := words.show(one)) not in told
-        ),
+        notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
     )
 
 
@@ -308,6 +332,14 @@ def describe_cases(study: Study, words: Words) -> str:
     if not names:
         return legend
     return words("show.legend_further", legend=legend, names=" / ".join(names))
+
+
+def _count_laws(row: RowStudy, words: Words) -> str:
+    """How many independent laws the drawn case obeys, if it is all of them."""
+    count = len(row.independent)
+    if not count or not all(one.is_met for one in row.independent):
+        return ""
+    return words("show.laws_counted", met=count, count=count)
 
 
 def _name_unloaded(row: RowStudy, words: Words) -> str:
@@ -415,10 +447,23 @@ def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
     )
 
 
+def _fold_keys(values: Sequence[tuple[str, str]]) -> list[str]:
+    """``key = value`` of factors; of other subjects with many values their count."""
+    counts = Counter(key.partition(".")[0] for key, _ in values)
+    told = []
+    for key, value in values:
+        subject = key.partition(".")[0]
+        is_many = counts[subject] > _FEW and subject not in _FACTORS
+        told.append(
+            f"{subject}.* ({counts[subject]})" if is_many else f"{key} = {value}"
+        )
+    return list(dict.fromkeys(told))
+
+
 def _list_assumed(study: Study, words: Words) -> str:
     """Values of the profile and axes of anchors that nobody has confirmed."""
     assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
-    names = [f"{v.id} = {show_quantity(v.value, v.unit)}" for v in assumed]
+    names = _fold_keys([(v.id, show_quantity(v.value, v.unit)) for v in assumed])
     axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
     kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
     for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):
