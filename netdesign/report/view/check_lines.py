@@ -116,7 +116,7 @@ def _list_remarks(group: list[CheckRecord], words: Words) -> list[str]:
 
 def _is_plain(reason: Text) -> bool:
     """True of a pass about which its numbers say everything."""
-    if isinstance(reason, str):
-        return False
-    told = reason.arguments["reason"] if reason.key == "load.reason" else reason
+    told: object = reason
+    if isinstance(told, Message) and told.key == "load.reason":
+        told = told.arguments["reason"]
     return isinstance(told, Message) and told.key == _PLAIN
