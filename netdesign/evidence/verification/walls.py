@@ -87,7 +87,7 @@ def list_depth_averaged() -> list[VerificationCase]:
             VerificationCase(
                 id=f"haefeli-{ratio:g}-{aspect:g}-{wall}",
                 kind="limit",
-                reference="slab of plane sections, haefeli/THEORY.md (H6); slip, L in d",
+                reference="slab of plane sections, haefeli/THEORY.md, H6; slip, L in d",
                 expected=force.total / 1e3,
                 got=got / 1e3,
                 tolerance=tolerance,
