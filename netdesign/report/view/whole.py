@@ -18,6 +18,7 @@ from netdesign.report.view import (
     envelope_tables,
     figure_tables,
     hold_tables,
+    opinion_tables,
     panel_tables,
     row_tables,
     tables,
@@ -101,6 +102,9 @@ class RowView:
     guideline: Table
     guideline_sentence: str
     floor: Table
+    slab: Table
+    model_form: Table
+    model_form_line: str  # "" where nothing governs
     figures: Figures
     panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
@@ -243,6 +247,9 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        slab=opinion_tables.build_slab(row, words),
+        model_form=opinion_tables.build_model_form(row, words),
+        model_form_line=opinion_tables.tell_model_form(row.model_form, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
         notes=tuple(words.show(note) for note in row.notes),

@@ -47,6 +47,7 @@ from netdesign.study.pulls import (
 )
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
+from netdesign.study.record_slab import compare_slab
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_end import find_lack as find_end_lack
 from netdesign.study.settle import (
@@ -218,6 +219,7 @@ def _audit_judgement(
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
     yield from _audit_guideline(row, given)
+    yield from _audit_slab(row, given, basis.law)
 
 
 def _expect_end(row: RowStudy, effects: RowEffects, basis: _Basis) -> list[CheckRecord]:
@@ -452,6 +454,23 @@ def _read_load(stored: ActionRecord) -> MemberLoad:
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
     return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
+
+
+def _audit_slab(row: RowStudy, given: NetRow, law: CreepLaw) -> Iterator[Message]:
+    """The closed form, again from the forces that it stands beside."""
+    stored = row.slab
+    if stored is None:
+        return
+    again = compare_slab(
+        given,
+        read_point(stored.case),
+        law,
+        load=newton_from_kilonewton(stored.solved_load_kN_per_m),
+        foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
+    )
+    place = say("audit.row", row=row.id)
+    for found in compare_values(stored, again)[:_MOST]:
+        yield say("audit.other_slab", place=place, value=found.message)
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
