@@ -27,6 +27,7 @@ ROWS = (
     {"numerics"},
     {"resistance", "search"},
     {"snow", "cable", "structure", "checks"},
+    {"haefeli"},
     {"coupling", "guideline", "planview"},
     {"coupling.steady", "panel"},
     {"coupling.history"},

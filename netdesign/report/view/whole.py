@@ -20,6 +20,7 @@ from netdesign.report.view import (
     figure_tables,
     formula_tables,
     hold_tables,
+    opinion_tables,
     panel_tables,
     row_tables,
     site_tables,
@@ -122,6 +123,9 @@ class RowView:
     guideline_sentence: str
     floor: Table
     floor_governs: bool  # in a check at least
+    slab: Table
+    model_form: Table
+    model_form_line: str  # "" where nothing governs
     figures: Figures
     panel: panel_tables.PanelView | None
     notes: tuple[str, ...]
@@ -303,6 +307,9 @@ def _view_row(
             one.action is not None and one.action.governs == "guideline"
             for one in row.checks
         ),
+        slab=opinion_tables.build_slab(row, words),
+        model_form=opinion_tables.build_model_form(row, words),
+        model_form_line=opinion_tables.tell_model_form(row.model_form, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
         notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
