@@ -46,7 +46,7 @@ from netdesign.report.words import (
     show_text,
     show_with_unit,
 )
-from netdesign.study.records import PanelRecord
+from netdesign.study.support_records import PanelRecord
 from netdesign.words.catalogue import Language
 
 Solved = Solution | WallSolution | FailedSolution
