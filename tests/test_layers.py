@@ -83,7 +83,10 @@ THIRD_PARTY = {
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
-    "pydantic": ("checks.schema", "files.scene", "study.document", "edge.json_text"),
+    "pydantic": (
+        *("checks.schema", "files.scene", "files.support_tables", "study.document"),
+        "edge.json_text",
+    ),
     "pydantic_core": ("checks.schema", "edge.json_text", "words.text_field"),
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
