@@ -16,7 +16,8 @@ from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
 from netdesign.site.model import InputEcho
-from netdesign.study.records import CasePoint, CheckRecord
+from netdesign.study.case_records import CasePoint
+from netdesign.study.records import CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member

@@ -26,8 +26,8 @@ from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import Member
 from netdesign.structure.row_position import Position
 from netdesign.structure.splay import Guys
-from netdesign.study.records import PullRecord
 from netdesign.study.sideways import place_row
+from netdesign.study.support_records import PullRecord
 from netdesign.units import degree_from_radian, radian_from_degree
 from netdesign.words.message import Message, say
 

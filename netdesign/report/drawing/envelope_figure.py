@@ -16,7 +16,8 @@ from netdesign.report.words import (
     show_given,
     show_number,
 )
-from netdesign.study.records import CaseRecord, ExtremeRecord, RowStudy
+from netdesign.study.case_records import CaseRecord, ExtremeRecord
+from netdesign.study.records import RowStudy
 
 _MOST_PANELS, _MOST_LINES = 4, 5  # across; more are thinned out
 _LEFT, _RIGHT, _GAP = 34.0, 10.0, 14.0  # beside and between panels [pt]

@@ -20,7 +20,8 @@ from netdesign.report.words import (
     show_verdict,
     show_with_unit,
 )
-from netdesign.study.records import CasePoint, CheckRecord
+from netdesign.study.case_records import CasePoint
+from netdesign.study.records import CheckRecord
 from netdesign.words.names import name
 
 # Worst first.

@@ -27,13 +27,8 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.structure.members import CARRYING_MEMBERS
-from netdesign.study.records import (
-    ActionRecord,
-    CheckRecord,
-    PullRecord,
-    RowStudy,
-    StaticsRecord,
-)
+from netdesign.study.records import ActionRecord, CheckRecord, RowStudy
+from netdesign.study.support_records import PullRecord, StaticsRecord
 from netdesign.words.catalogue import load_texts
 from netdesign.words.names import name, name_mode
 

@@ -31,16 +31,15 @@ from netdesign.report.words import (
 )
 from netdesign.structure.members import ROPE_OF
 from netdesign.study.flips import CLOSE
+from netdesign.study.guideline_records import GuidelineCase
 from netdesign.study.records import (
     ActionRecord,
-    AnchorRecord,
     ChangeRecord,
     CheckRecord,
-    GuidelineCase,
-    PullRecord,
     RowStudy,
     SpreadRecord,
 )
+from netdesign.study.support_records import AnchorRecord, PullRecord
 from netdesign.words.names import name
 
 _FORCES = ("force_x_kN", "force_y_kN", "lateral_kN", "size_kN", "direction_deg")

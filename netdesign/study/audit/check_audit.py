@@ -36,15 +36,10 @@ from netdesign.study.audit.envelope_audit import (
     name_members,
     same_point,
 )
+from netdesign.study.case_records import ExtremeRecord
 from netdesign.study.demand import leave_out_governing, tell_governing
-from netdesign.study.records import (
-    ActionRecord,
-    CheckRecord,
-    ExtremeRecord,
-    FloorForceRecord,
-    ProfileRecord,
-    RowStudy,
-)
+from netdesign.study.guideline_records import FloorForceRecord
+from netdesign.study.records import ActionRecord, CheckRecord, ProfileRecord, RowStudy
 from netdesign.study.values import show_value
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_check
