@@ -22,10 +22,10 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.net_columns import ENDS, NETS
-from netdesign.site.columns.range_quantities import RANGES
+from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
-from netdesign.site.items import match_item
+from netdesign.site.items import match_item, refuse_unused_answers
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
@@ -74,8 +74,9 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     """
     workbook = read_cells(path, text_format)
     findings = list(workbook.remarks)
-    ranged = _read_ranges(find_table(workbook, RANGES, []), []).ends
-    plans = [free_columns(plan, ranged) if plan is NETS else plan for plan in SHEETS]
+    ranged = _read_ranges(find_table(workbook, RANGES_AS_TYPED, []), []).ends
+    as_typed = {NETS.name: free_columns(NETS, ranged), RANGES.name: RANGES_AS_TYPED}
+    plans = [as_typed.get(plan.name, plan) for plan in SHEETS]
     tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     type_sheets = {
@@ -158,7 +159,9 @@ def _read_project(
         return Project(), cells
     for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
-        field = match_item(item, table, "item", findings) if item.word else None
+        if not item.word:
+            continue
+        field = match_item(item, table, "item", findings).field
         if field is None or value.state != "given":
             continue
         if field.key in values:
@@ -170,6 +173,7 @@ def _read_project(
             )
         else:
             values[field.key], cells[field.key] = value.word, value.place
+    refuse_unused_answers(table, "item", findings)
     return Project(**values), cells
 
 
