@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
@@ -35,6 +35,7 @@ _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 # How alike a heading must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
+_LIKELY = 0.55
 _EXAMPLES = 3  # cells that show how a column is written
 _LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
@@ -151,14 +152,23 @@ def find_headings(
     )
 
 
+def count_known(sheet: Sheet, plan: SheetPlan) -> int:
+    """Most headings of a plan that one row of a sheet holds, whatever its name."""
+    return max(_count_known(sheet, Lexicon.of(plan.fields, plan)).values(), default=0)
+
+
 def _find_row(sheet: Sheet, lexicon: Lexicon) -> int | None:
     """Row with the most known headings; one alone may be a title by chance."""
-    counts = {
+    counts = _count_known(sheet, lexicon)
+    best = max(counts, key=lambda row: counts[row], default=0)
+    return best if best and counts[best] >= 2 else None
+
+
+def _count_known(sheet: Sheet, lexicon: Lexicon) -> dict[int, int]:
+    return {
         row: sum(_is_known(title, lexicon, sheet) for title in list_titles(sheet, row))
         for row in range(1, _last_row(sheet) + 1)
     }
-    best = max(counts, key=lambda row: counts[row], default=0)
-    return best if best and counts[best] >= 2 else None
 
 
 def _is_known(title: Title, lexicon: Lexicon, sheet: Sheet) -> bool:
@@ -257,8 +267,10 @@ def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
             columns[field.key] = Column(number=cell.column, unit=unit)
     plan = found.plan
     missing = [field for field in plan.fields if field.key not in columns]
-    findings.extend(_judge_all_unknown(unknown, missing))
-    _report_missing(found.sheet, plan, {*columns, *claimed}, findings)
+    judged = _judge_all_unknown(unknown, missing)
+    findings.extend(finding for finding, _ in judged)
+    claimed |= {field.key for _, field in judged if field}
+    _report_missing(found, unknown, {*columns, *claimed}, findings)
     findings.extend(_refuse_unused_answers(found))
     return columns
 
@@ -290,35 +302,33 @@ def _refuse_unused_answers(found: _Found) -> Iterator[Finding]:
             yield found.sheet.finding(Refusal(rule, quote(key)))
 
 
-def _judge_all_unknown(unknown: list[Title], missing: list[Field]) -> Iterator[Finding]:
-    """Judge columns that are not read; the headings of the sheet are told once."""
-    is_listed = False
-    for title in unknown:
-        finding, is_list = _judge_unknown(title.cell, missing, is_first=not is_listed)
-        is_listed = is_listed or is_list
-        yield finding
+def _judge_all_unknown(
+    unknown: list[Title], missing: list[Field]
+) -> list[tuple[Finding, Field | None]]:
+    """Judge columns that are not read, each with the missing field it may be.
 
-
-def _judge_unknown(
-    cell: Cell, missing: list[Field], *, is_first: bool
-) -> tuple[Finding, bool]:
-    """Note a column that is not read; refuse one that seems a missing one, misspelt.
-
-    Also whether the finding lists the headings that the sheet may have.
+    The headings that the sheet may have are told once.
     """
+    judged = [_judge_unknown(title.cell, missing) for title in unknown]
+    first = next((n for n, (one, _) in enumerate(judged) if one.severity == "note"), -1)
+    if first >= 0 and missing:
+        names = tuple(quote_title(field) for field in missing)
+        known = say("heading.known", headings=names)
+        judged[first] = replace(judged[first][0], accepted=known), None
+    return judged
+
+
+def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | None]:
+    """Note a column that is not read; refuse one that seems a missing one, misspelt."""
     if stored := refuse_stored(cell):
-        return cell.finding(stored), False
+        return cell.finding(stored), None
     near = find_near(str(cell.value), missing)
     if near:
         rule = say("heading.close_to_missing", meant=quote_title(near[0]))
         accepted = say("heading.or_unlike", meant=quote_title(near[0]))
-        return cell.finding(Refusal(rule, accepted)), False
-    rule = say("heading.unknown")
-    names = tuple(quote_title(field) for field in missing)
-    if not is_first or not names:
-        return cell.finding(Refusal(rule), severity="note"), False
-    refusal = Refusal(rule, say("heading.known", headings=names))
-    return cell.finding(refusal, severity="note"), True
+        return cell.finding(Refusal(rule, accepted)), near[0]
+    refusal = Refusal(say("heading.unknown"))
+    return cell.finding(refusal, severity="note"), None
 
 
 def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
@@ -421,18 +431,40 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
 
 
 def _report_missing(
-    sheet: Sheet, plan: SheetPlan, found: set[str], findings: list[Finding]
+    found: _Found, unknown: list[Title], known: set[str], findings: list[Finding]
 ) -> None:
-    missing = [
-        say("heading.lacks", heading=field.title)
-        for field in plan.fields
-        if field.required and field.key not in found and not _has_instead(field, found)
-    ]
-    if plan.one_of and found.isdisjoint(plan.one_of):
+    plan = found.plan
+    for field in plan.fields:
+        is_given = field.key in known or _has_instead(field, known)
+        if field.required and not is_given:
+            rule = say("heading.lacks", heading=field.title)
+            accepted = _name_likely(unknown, field)
+            findings.append(found.sheet.finding(Refusal(rule, accepted)))
+    if plan.one_of and known.isdisjoint(plan.one_of):
         fields = [field for field in plan.fields if field.key in plan.one_of]
-        headings = tuple(map(quote_title, fields))
-        missing.append(say("heading.lacks_one_of", headings=headings))
-    findings.extend(sheet.finding(Refusal(rule)) for rule in missing)
+        rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
+        likely = (_name_likely(unknown, field) for field in fields)
+        accepted = next((one for one in likely if one), "")
+        findings.append(found.sheet.finding(Refusal(rule, accepted)))
+
+
+def _name_likely(unknown: list[Title], field: Field) -> Message | str:
+    """The column that may hold a missing field under another name, if one may."""
+    ranked = sorted(unknown, key=lambda title: -compute_likeness(title.text, field))
+    if not ranked or compute_likeness(ranked[0].text, field) < _LIKELY:
+        return ""
+    cell = ranked[0].cell
+    return say("heading.perhaps", cell=cell.address, text=quote(cell.text))
+
+
+def compute_likeness(text: str, field: Field) -> float:
+    """Share of letters that a text has in common with a field's likest heading."""
+    own = fold(text)
+    ratios = (
+        difflib.SequenceMatcher(None, own, fold(name)).ratio()
+        for name in field.raw_names
+    )
+    return max(ratios, default=0.0)
 
 
 def _has_instead(field: Field, found: set[str]) -> bool:

@@ -17,6 +17,7 @@ from netdesign.site.columns.fields import (
     normalise,
 )
 from netdesign.site.headings import Column, Headings, find_cover, find_headings
+from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -118,7 +119,11 @@ def _read_field(
 def _find_sheet(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> Sheet | None:
-    sheets = [sheet for sheet in workbook.sheets if plan.matches(sheet.name)]
+    sheets = [
+        sheet
+        for sheet in workbook.sheets
+        if is_meant(sheet.name, plan, workbook.answers)
+    ]
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
     for double in sheets[1:]:
@@ -141,14 +146,18 @@ def is_near(name: str, plan: SheetPlan) -> bool:
 
 def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
     """A workbook has no sheet of the plan's name, nor of a name near to it."""
-    return not any(plan.matches(sheet.name) for sheet in workbook.sheets) and not any(
-        is_near(name, plan) for name in workbook.unread
+    answers = workbook.answers
+    return not any(
+        is_meant(sheet.name, plan, answers) for sheet in workbook.sheets
+    ) and not any(
+        is_near(name, plan) for name in workbook.unread if name not in answers.sheets
     )
 
 
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
-    near = [name for name in workbook.unread if is_near(name, plan)]
+    unread = (name for name in workbook.unread if name not in workbook.answers.sheets)
+    near = [name for name in unread if is_near(name, plan)]
     wanted = say("finding.in_quotes", text=plan.title)
     if near:
         rule = say("table.close_to_missing", wanted=wanted)
