@@ -85,7 +85,7 @@ THIRD_PARTY = {
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
     "skfem": (
-        *("snow.mesh", "snow.kernel", "snow.forms"),
+        *("snow.mesh", "snow.element", "snow.forms"),
         "evidence.benchmark.reference_path",
         "evidence.verification.snow_in_space",
     ),

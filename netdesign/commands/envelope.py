@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from netdesign.envelope.rows import RowTask
     from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
-    from netdesign.study.records import EnvelopeRecord
+    from netdesign.study.envelope_records import EnvelopeRecord
 
 _OPTIONS = (
     ("--density", "density", "Snow density [kg/m3]."),

@@ -16,7 +16,8 @@ from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
 from netdesign.site.model import InputEcho
-from netdesign.study.records import CasePoint, CheckRecord
+from netdesign.study.case_records import CasePoint
+from netdesign.study.records import CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
@@ -217,6 +218,12 @@ def name_case_short(case: CasePoint | None) -> str:
 def show_member(words: Words, member: str) -> str:
     """``foot_anchor`` as ``Foot anchor``."""
     return words.show(name_member(member))
+
+
+def show_position(words: Words, position: str) -> str:
+    """Place of a support in its row."""
+    key = f"position.{position}"
+    return words(key) if key in load_texts(words.language) else show_text(position)
 
 
 def show_check(words: Words, check: CheckRecord) -> str:

@@ -10,13 +10,13 @@ from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
 from netdesign.site.cells.findings import Finding, Refusal, quote
-from netdesign.site.columns.all_tables import (
+from netdesign.site.columns.fields import Field, split_heading
+from netdesign.site.columns.range_quantities import (
     DEFAULT_INCLINATION_DEG,
     FURTHER_QUANTITIES,
     SEARCHED,
     USUAL_QUANTITIES,
 )
-from netdesign.site.columns.fields import Field, split_heading
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.headings import name_units, quote_title
 from netdesign.site.items import match_item

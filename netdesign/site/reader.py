@@ -12,18 +12,17 @@ from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
     DECLARED,
-    ENDS,
     MONITORING,
-    NETS,
     POSTS,
     PROJECT,
     QUIET_SHEETS,
-    RANGES,
     ROPES,
     SHEETS,
     SNOW,
 )
 from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.net_columns import ENDS, NETS
+from netdesign.site.columns.range_quantities import RANGES
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item

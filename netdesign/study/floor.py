@@ -16,7 +16,7 @@ from netdesign.study.effects import (
     list_assumed,
     load_guideline,
 )
-from netdesign.study.records import FloorForceRecord, FloorRecord
+from netdesign.study.guideline_records import FloorForceRecord, FloorRecord
 from netdesign.units import given_degree_from_radian, kilonewton_from_newton
 
 

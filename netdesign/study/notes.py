@@ -13,9 +13,10 @@ from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.study.case_records import CaseRecord
 from netdesign.study.effects import RowEffects, list_assumed
 from netdesign.study.pulls import AnchorPull
-from netdesign.study.records import CaseRecord, CheckRecord, IndependentRecord
+from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 from netdesign.words.catalogue import load_texts
 from netdesign.words.message import Message, say

@@ -21,8 +21,7 @@ from netdesign.search.sensitivity import (
     measure_sensitivity,
     measure_unexplained,
 )
-from netdesign.study.record_cases import show_case, show_coincident, show_parameter
-from netdesign.study.records import (
+from netdesign.study.envelope_records import (
     AdditionRecord,
     AxisRecord,
     BoundRecord,
@@ -33,6 +32,7 @@ from netdesign.study.records import (
     LineRecord,
     MapRecord,
 )
+from netdesign.study.record_cases import show_case, show_coincident, show_parameter
 from netdesign.units import kilonewton_from_newton
 
 _LINE_POINTS = 25

@@ -7,18 +7,15 @@ from collections.abc import Sequence
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.comparison import (
-    GuidelineResult,
-    compare_with_guideline,
-)
+from netdesign.guideline.comparison import GuidelineResult, compare_with_guideline
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import GRAVITY
 from netdesign.structure.members import Member
 from netdesign.study.effects import find_row_glide_factor, load_guideline
 from netdesign.study.floor import build_geometry
+from netdesign.study.guideline_records import GuidelineCase, GuidelineRecord
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import GuidelineCase, GuidelineRecord
 from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 from netdesign.words.message import Message, say
 from netdesign.words.names import name

@@ -16,7 +16,8 @@ from netdesign.cable.tension import (
 from netdesign.checks.laws import DIRECTION, DIRECTION_ERRORS, LIMITS, is_law_met
 from netdesign.envelope.run import CaseResult
 from netdesign.solving.state import SolvedState
-from netdesign.study.records import HeadForce, IndependentRecord
+from netdesign.study.records import IndependentRecord
+from netdesign.study.support_records import HeadForce
 
 
 def record_independent(

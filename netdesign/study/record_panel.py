@@ -18,7 +18,7 @@ from netdesign.site.model import BorderRope, NetRow
 from netdesign.structure.layout import Point
 from netdesign.structure.members import RopeForce
 from netdesign.study.record_cases import record_extreme, record_point
-from netdesign.study.records import PanelDrawing, PanelRecord, RopeRecord
+from netdesign.study.support_records import PanelDrawing, PanelRecord, RopeRecord
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,

@@ -17,13 +17,9 @@ from netdesign.structure.axis import measure_pull
 from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member, RopeForce
 from netdesign.structure.splay import SplayWeights, weigh_splay
+from netdesign.study.case_records import CasePoint
+from netdesign.study.guideline_records import GuidelineLoadRecord
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import (
-    CasePoint,
-    GuidelineLoadRecord,
-    HeldSidewaysRecord,
-    StaticsRecord,
-)
 from netdesign.study.sideways import (
     GUYS,
     GUYS_BY_PANEL,
@@ -31,6 +27,7 @@ from netdesign.study.sideways import (
     find_hidden,
     place_row,
 )
+from netdesign.study.support_records import HeldSidewaysRecord, StaticsRecord
 from netdesign.units import (
     degree_from_radian,
     given_degree_from_radian,

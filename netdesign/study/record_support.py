@@ -9,7 +9,7 @@ from netdesign.structure.layout import SupportPoints, place_support
 from netdesign.structure.members import Member
 from netdesign.study.effects import RowEffects
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import AnchorRecord, Arrow, Drawing, HeadForce
+from netdesign.study.support_records import AnchorRecord, Arrow, Drawing, HeadForce
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre

@@ -7,17 +7,12 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.stations import build_stations
-from netdesign.panel.strips import (
-    cut_lengths,
-    draw_strips,
-    pull_strips,
-    take_strip,
-)
+from netdesign.panel.strips import cut_lengths, draw_strips, pull_strips, take_strip
 from netdesign.snow.snowpack import Layer, Snowpack
 
 QUICK = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])

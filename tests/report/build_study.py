@@ -9,34 +9,36 @@ from itertools import pairwise, product
 
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
-from netdesign.study.records import (
-    SCHEMA,
-    ActionRecord,
-    AnchorRecord,
-    Arrow,
-    CasePoint,
-    CaseRecord,
-    ChangeRecord,
-    CheckRecord,
-    Drawing,
-    ExtremeRecord,
+from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
+from netdesign.study.guideline_records import (
     FloorForceRecord,
     FloorRecord,
     GuidelineCase,
     GuidelineLoadRecord,
     GuidelineRecord,
-    HeadForce,
-    HeldSidewaysRecord,
+)
+from netdesign.study.records import (
+    SCHEMA,
+    ActionRecord,
+    ChangeRecord,
+    CheckRecord,
     HoldRecord,
     IndependentRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
-    PullRecord,
     RowStudy,
     SpreadRecord,
-    StaticsRecord,
     Study,
+)
+from netdesign.study.support_records import (
+    AnchorRecord,
+    Arrow,
+    Drawing,
+    HeadForce,
+    HeldSidewaysRecord,
+    PullRecord,
+    StaticsRecord,
 )
 from netdesign.words.message import Message, say
 

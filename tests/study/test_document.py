@@ -7,20 +7,17 @@ import pytest
 from netdesign.errors import StudyError
 from netdesign.outcome import Outcome, Verdict
 from netdesign.site.model import InputEcho, Project
+from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.document import compute_digest, read_document, write_document
 from netdesign.study.records import (
-    Arrow,
-    CasePoint,
-    CaseRecord,
     CheckRecord,
-    Drawing,
-    ExtremeRecord,
     ProfileRecord,
     ProfileValue,
     Provenance,
     RowStudy,
     Study,
 )
+from netdesign.study.support_records import Arrow, Drawing
 from netdesign.words.message import say
 
 POINT = CasePoint(density_kg_m3=366.8, friction_deg=15.0, inclination_deg=0.1 + 0.2)

@@ -15,7 +15,7 @@ import pytest
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.verification.net_in_space import solve_net_in_space
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.ropes import estimate_force_along, solve_force_along

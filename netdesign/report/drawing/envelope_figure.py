@@ -9,14 +9,9 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.tables import list_loaded
-from netdesign.report.words import (
-    ENGLISH,
-    Words,
-    name_heading,
-    show_given,
-    show_number,
-)
-from netdesign.study.records import CaseRecord, ExtremeRecord, RowStudy
+from netdesign.report.words import ENGLISH, Words, name_heading, show_given, show_number
+from netdesign.study.case_records import CaseRecord, ExtremeRecord
+from netdesign.study.records import RowStudy
 
 _MOST_PANELS, _MOST_LINES = 4, 5  # across; more are thinned out
 _LEFT, _RIGHT, _GAP = 34.0, 10.0, 14.0  # beside and between panels [pt]

@@ -18,7 +18,12 @@ from netdesign.report.drawing.plain_svg import (
     shade,
 )
 from netdesign.report.words import ENGLISH, Words, name_heading, show_given
-from netdesign.study.records import BoundRecord, EnvelopeRecord, LineRecord, MapRecord
+from netdesign.study.envelope_records import (
+    BoundRecord,
+    EnvelopeRecord,
+    LineRecord,
+    MapRecord,
+)
 from netdesign.words.names import name
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]

@@ -11,7 +11,7 @@ from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
 from netdesign.structure.members import Member
-from netdesign.study.records import HeadForce
+from netdesign.study.support_records import HeadForce
 
 _TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
 _GAP = 6.0  # from a force to its name [pt]

@@ -15,7 +15,7 @@ from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.panel_tables import name_rope
 from netdesign.report.words import ENGLISH, Words, show_with_unit
-from netdesign.study.records import PanelDrawing, PanelRecord
+from netdesign.study.support_records import PanelDrawing, PanelRecord
 
 _LEFT, _SPAN = 120.0, 255.0  # of the panel on paper [pt]
 _LONGEST = 78.0  # arrow [pt]

@@ -27,7 +27,7 @@ from netdesign.report.drawing.section_labels import (
 )
 from netdesign.report.drawing.sketch import Sketch
 from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
-from netdesign.study.records import Arrow, Drawing
+from netdesign.study.support_records import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
 _SLACK = 1e-3  # of the largest force; below it there is no arrow

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.report.drawing.plain_svg import WIDTH
-from netdesign.study.records import Drawing
+from netdesign.study.support_records import Drawing
 
 Point = tuple[float, float]
 

@@ -6,7 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.outcome import Verdict
-from netdesign.report.view.row_tables import describe_load, describe_widths, show_loads
+from netdesign.report.view.demand_steps import (
+    describe_load,
+    describe_widths,
+    show_loads,
+)
 from netdesign.report.words import (
     MISSING,
     VerdictWords,
@@ -20,7 +24,8 @@ from netdesign.report.words import (
     show_verdict,
     show_with_unit,
 )
-from netdesign.study.records import CasePoint, CheckRecord
+from netdesign.study.case_records import CasePoint
+from netdesign.study.records import CheckRecord
 from netdesign.words.names import name
 
 # Worst first.

@@ -23,7 +23,8 @@ from netdesign.report.words import (
     show_member,
     show_number,
 )
-from netdesign.study.records import BoundRecord, EnvelopeRecord, RowStudy
+from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
+from netdesign.study.records import RowStudy
 from netdesign.words.names import name
 
 

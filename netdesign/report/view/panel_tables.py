@@ -16,13 +16,9 @@ from netdesign.report.view.table import (
 )
 from netdesign.report.words import Words, show_member, show_with_unit
 from netdesign.structure.members import REPORTED_MEMBERS, name_in_panel
-from netdesign.study.records import (
-    CheckRecord,
-    ExtremeRecord,
-    PanelRecord,
-    RopeRecord,
-    RowStudy,
-)
+from netdesign.study.case_records import ExtremeRecord
+from netdesign.study.records import CheckRecord, RowStudy
+from netdesign.study.support_records import PanelRecord, RopeRecord
 
 _ROPE_NAMES = {"lower": "panel_view.lower", "upper": "panel_view.upper"}
 

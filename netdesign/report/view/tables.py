@@ -37,13 +37,8 @@ from netdesign.report.words import (
 )
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
-from netdesign.study.records import (
-    CasePoint,
-    CaseRecord,
-    ProfileRecord,
-    RowStudy,
-    Study,
-)
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.records import ProfileRecord, RowStudy, Study
 from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.

@@ -17,9 +17,11 @@ from netdesign.report.view import (
     basis_tables,
     envelope_tables,
     figure_tables,
+    formula_tables,
     hold_tables,
     panel_tables,
     row_tables,
+    statics_tables,
     tables,
 )
 from netdesign.report.view.check_view import (
@@ -185,8 +187,8 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
         ),
-        formulas=figure_tables.build_formulas(words),
-        figure_tables=figure_tables.build_holding(words),
+        formulas=formula_tables.build_formulas(words),
+        figure_tables=formula_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
         provenance=tables.build_provenance(study, words),
@@ -251,16 +253,16 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
 
 def _view_figures(row: RowStudy, words: Words) -> Figures:
     return Figures(
-        statics=figure_tables.build_statics(row, words),
-        floor_statics=figure_tables.build_floor_statics(row, words),
-        sideways=figure_tables.build_sideways(row, words),
+        statics=statics_tables.build_statics(row, words),
+        floor_statics=statics_tables.build_floor_statics(row, words),
+        sideways=statics_tables.build_sideways(row, words),
         widths=figure_tables.build_widths(row, words),
         actions=figure_tables.build_actions(row, words),
         panel_actions=figure_tables.build_panel_actions(row, words),
         checks=figure_tables.build_check_figures(row, words),
         resistances=figure_tables.build_resistances(row, words),
         tests=figure_tables.build_tests(row, words),
-        turns=figure_tables.build_turns(row, words),
+        turns=statics_tables.build_turns(row, words),
     )
 
 

@@ -15,7 +15,8 @@ from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
 from netdesign.report.workbook.writer import Book, count_lines
-from netdesign.study.records import CasePoint, RowStudy, Study
+from netdesign.study.case_records import CasePoint
+from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
 _WIDTHS = (4, 14, 18, 10, 12, 10, 9, 13, 11, 8, 21, 23, 12, 32)

@@ -1,64 +1,33 @@
 """The site workbook as one table: sheets, headings, units, bounds, defaults.
 
 Names of sheets and columns stand in ``netdesign/words``; other headings and notes in
-English here, in French and German in ``words/*.toml``.
+English beside their columns, in French and German in ``words/*.toml``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from netdesign.site.columns.dimension_columns import (
     ANCHOR_DIMENSIONS,
     POST_DIMENSIONS,
     ROPE_DIMENSIONS,
-    ROW_POSITION,
 )
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
-from netdesign.site.columns.panel_columns import PANEL, ROPE_STIFFNESS, ROW_ENDS
-from netdesign.site.columns.support_columns import (
-    ANCHOR_BENDING,
-    GUYS_AND_AXES,
-    POST_BENDING,
-)
+from netdesign.site.columns.net_columns import ENDS, NETS
+from netdesign.site.columns.panel_columns import ROPE_STIFFNESS
+from netdesign.site.columns.range_quantities import RANGES
+from netdesign.site.columns.support_columns import ANCHOR_BENDING, POST_BENDING
 from netdesign.site.columns.unit_names import (
-    ANGLES,
     DENSITIES,
     FORCES,
-    FORCES_PER_LENGTH,
     LENGTHS,
-    SHARES,
-    SLOPES,
     TEMPERATURES,
     TIMES,
 )
-from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
-from netdesign.structure.layout import DEFAULT_POST_TILT
-from netdesign.units import degree_from_radian
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
-
-# Chosen low: a tauter net pulls harder on its anchors.
-DEFAULT_SLACK = 0.02
-SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
-DEFAULT_INCLINATION_DEG = (25.0, 35.0)
-
-_SNOW_SIZE = ("snow_thickness", "snow_height")
-_ANY_HEIGHT = (*_SNOW_SIZE, "net_height")
-_ANY_ANCHOR = ("foot_anchor", "uphill_anchor", "downhill_anchor")
-_ANY_GUY = ("uphill_guy", "downhill_guy")
-
-
-def _reference(key: str, sheet: str) -> Field:
-    return Field(
-        key=key,
-        kind="id",
-        refers_to=sheet,
-        note=f"id of sheet {sheet}; left empty, the checks of this member are "
-        "not proven",
-    )
 
 
 def _resistance(key: str, *aliases: str) -> Field:
@@ -70,180 +39,6 @@ def _resistance(key: str, *aliases: str) -> Field:
         note="characteristic; left empty, the checks that need it are not proven",
     )
 
-
-# Bounds are a little wider than what is built; they catch slips of unit and comma.
-_UNCLEAR_SNOW = (
-    *("snow depth", "snow", "neige", "Schnee", "hauteur manteau", "Schneetiefe"),
-)
-NETS = word_plan(
-    SheetPlan(
-        name="Nets",
-        required=True,
-        one_of=_SNOW_SIZE,
-        unclear={
-            **dict.fromkeys(_UNCLEAR_SNOW, _SNOW_SIZE),
-            **dict.fromkeys(("height", "hauteur", "Höhe", "H"), _ANY_HEIGHT),
-            **dict.fromkeys(("anchor", "ancrage", "Anker"), _ANY_ANCHOR),
-            **dict.fromkeys(("guy", "hauban", "Abspannseil"), _ANY_GUY),
-            **dict.fromkeys(
-                ("inclination", "inclinaison", "Neigung"), ("slope_angle", "post_tilt")
-            ),
-        },
-        fields=(
-            Field(
-                key="id",
-                aliases=("net row", "row"),
-                kind="id",
-                required=True,
-                note="name of the net row; used once",
-            ),
-            Field(
-                key="slope_angle",
-                aliases=("slope",),
-                units=SLOPES,
-                bounds=(10.0, 75.0),
-                required=True,
-                note="against the horizontal",
-            ),
-            Field(
-                key="snow_thickness",
-                aliases=("snow thickness normal to slope",),
-                units=LENGTHS,
-                bounds=(0.1, 10.0),
-                note="normal to the slope; fill this or the vertical height, not both",
-            ),
-            Field(
-                key="snow_height",
-                aliases=("snow height", "vertical snow height"),
-                units=LENGTHS,
-                bounds=(0.1, 15.0),
-                note="vertical; fill this or the thickness, not both",
-            ),
-            Field(
-                key="upslope_length",
-                units=LENGTHS,
-                bounds=(1.0, 200.0),
-                required=True,
-                note="snowpack that the net carries, along the slope up to the next "
-                "row",
-            ),
-            Field(
-                key="ground_law",
-                aliases=("ground",),
-                kind="word",
-                required=True,
-                words={
-                    "free": ("free glide",),
-                    "no-slip": ("rough",),
-                    "sliding": ("slides",),
-                },
-                note="free: the snow glides freely; no-slip: it does not move on the "
-                "ground; sliding: give a slip length or a glide factor",
-            ),
-            Field(
-                key="slip_length",
-                aliases=("stagnation depth",),
-                units=LENGTHS,
-                bounds=(0.001, 200.0),
-                note="only for sliding ground, instead of a glide factor",
-            ),
-            Field(
-                key="glide_factor",
-                aliases=("glide factor N",),
-                units=("-",),
-                bounds=(1.0, LARGEST_GLIDE_FACTOR),
-                note="N of the guidelines; only for sliding ground, instead of a slip "
-                "length",
-            ),
-            Field(
-                key="net_height",
-                aliases=("net height normal to slope",),
-                units=LENGTHS,
-                bounds=(0.5, 10.0),
-                required=True,
-                note="normal to the slope, from foot to head",
-            ),
-            Field(
-                key="net_stiffness",
-                units=FORCES_PER_LENGTH,
-                bounds=(100.0, 1_000_000.0),
-                required=True,
-                note="force per metre of width at unit strain",
-            ),
-            Field(
-                key="slack",
-                units=SHARES,
-                bounds=(0.0, 0.3),
-                default=DEFAULT_SLACK,
-                note="unstressed length of the net over its chord, minus 1",
-            ),
-            Field(
-                key="post_spacing",
-                units=LENGTHS,
-                bounds=(0.5, 15.0),
-                required=True,
-                note="along the row; the width that loads one anchor",
-            ),
-            Field(
-                key="post_tilt",
-                units=ANGLES,
-                bounds=(-30.0, 45.0),
-                default=degree_from_radian(DEFAULT_POST_TILT),
-                note="from the slope normal, head downslope positive",
-            ),
-            Field(
-                key="uphill_anchor_distance",
-                units=LENGTHS,
-                bounds=(0.0, 50.0),
-                note="upslope of the net's foot, along the slope; left empty, it "
-                "follows from the net height",
-            ),
-            Field(
-                key="downhill_anchor_distance",
-                units=LENGTHS,
-                bounds=(0.0, 50.0),
-                note="downslope of the post's base, along the slope; left empty, it "
-                "follows from the net height",
-            ),
-            _reference("foot_anchor", "Anchors"),
-            _reference("uphill_anchor", "Anchors"),
-            _reference("downhill_anchor", "Anchors"),
-            _reference("uphill_guy", "Ropes"),
-            _reference("downhill_guy", "Ropes"),
-            _reference("post", "Posts"),
-            *ROW_POSITION,
-            *GUYS_AND_AXES,
-            *PANEL,
-        ),
-    )
-)
-
-# Types of the first and last support of a row, where they are not those of the others.
-_END_NOTE = "of the first and last support; left empty, that of sheet Nets"
-ENDS = word_plan(
-    SheetPlan(
-        name="Ends",
-        fields=(
-            Field(
-                key="row",
-                aliases=("row",),
-                kind="id",
-                required=True,
-                refers_to="Nets",
-                note="id of a row of sheet Nets; used once",
-            ),
-            *(
-                replace(_reference(key, sheet), note=_END_NOTE)
-                for key, sheet in (
-                    *((anchor, "Anchors") for anchor in _ANY_ANCHOR),
-                    *((guy, "Ropes") for guy in _ANY_GUY),
-                    ("post", "Posts"),
-                )
-            ),
-            *ROW_ENDS,
-        ),
-    )
-)
 
 # Layers by net row, one a line; a row without lines here is of uniform snow.
 SNOW = word_plan(
@@ -352,118 +147,6 @@ POSTS = word_plan(
     )
 )
 
-_GLIDE_FROM = 1.01  # of a range: below it the ground hardly slips
-
-USUAL_QUANTITIES: tuple[Field, ...] = tuple(
-    word_field(field, "quantities")
-    for field in (
-        Field(
-            key="density",
-            aliases=("snow density",),
-            units=DENSITIES,
-            bounds=(100.0, 900.0),
-            required=True,
-        ),
-        Field(
-            key="friction_angle",
-            aliases=("friction",),
-            units=ANGLES,
-            bounds=(0.0, 45.0),
-            required=True,
-        ),
-        Field(
-            key="inclination",
-            aliases=("inclination",),
-            units=ANGLES,
-            bounds=(0.0, 60.0),
-        ),
-    )
-)
-# What else may range: then no line of sheet Nets gives it. Keys are those of
-# `envelope.parameters.PARAMETERS`.
-FURTHER_QUANTITIES: tuple[Field, ...] = tuple(
-    word_field(field, "quantities")
-    for field in (
-        Field(
-            key="thickness",
-            aliases=("snow thickness normal to slope", "thickness"),
-            units=LENGTHS,
-            bounds=(0.1, 10.0),
-        ),
-        Field(
-            key="snow_height",
-            aliases=("snow height", "vertical snow height"),
-            units=LENGTHS,
-            bounds=(0.1, 15.0),
-        ),
-        Field(key="upslope_length", units=LENGTHS, bounds=(1.0, 200.0)),
-        Field(key="slack", units=SHARES, bounds=(0.0, 0.3)),
-        Field(
-            key="net_stiffness",
-            units=FORCES_PER_LENGTH,
-            bounds=(100.0, 1_000_000.0),
-        ),
-        Field(
-            key="slip_length",
-            aliases=("stagnation depth",),
-            units=LENGTHS,
-            bounds=(0.001, 200.0),
-        ),
-        Field(
-            key="glide_factor",
-            aliases=("glide factor N",),
-            units=("-",),
-            bounds=(_GLIDE_FROM, LARGEST_GLIDE_FACTOR),
-        ),
-    )
-)
-RANGE_QUANTITIES = (*USUAL_QUANTITIES, *FURTHER_QUANTITIES)
-# The cells below low and high are read as the quantity of their line.
-RANGES = word_plan(
-    SheetPlan(
-        name="Ranges",
-        required=True,
-        items=RANGE_QUANTITIES,
-        unclear=dict.fromkeys(_UNCLEAR_SNOW, ("thickness", "snow_height")),
-        fields=(
-            Field(
-                key="quantity",
-                kind="text",
-                required=True,
-                note="density, friction angle or net inclination (default 25 to 35 "
-                "deg); also snow thickness or height, upslope length, slack, net "
-                "stiffness, slip length or glide factor: their column in sheet Nets "
-                "then stays empty",
-            ),
-            Field(
-                key="unit",
-                aliases=("units",),
-                kind="text",
-                note="may stand in brackets behind the quantity instead",
-            ),
-            Field(
-                key="low",
-                aliases=("minimum", "min"),
-                required=True,
-                note="least value, in the unit of the row",
-            ),
-            Field(
-                key="high",
-                aliases=("maximum", "max"),
-                required=True,
-                note="largest value, in the unit of the row",
-            ),
-            Field(
-                key="samples",
-                aliases=("count",),
-                kind="count",
-                bounds=(1.0, 25.0),
-                note="number of values from low to high; left empty: the worst case is "
-                "searched, with a bound",
-            ),
-        ),
-    )
-)
 
 PROJECT_ITEMS: tuple[Field, ...] = tuple(
     word_field(Field(key=key, kind="text"), "items")

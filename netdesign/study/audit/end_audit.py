@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from netdesign.structure.members import ROPE_OF, EndMember
 from netdesign.study.audit.comparing import Pair, tell_unequal
 from netdesign.study.audit.envelope_audit import same_point
-from netdesign.study.records import CheckRecord, ExtremeRecord, RowStudy
+from netdesign.study.case_records import ExtremeRecord
+from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.words.message import Message, say
 
 

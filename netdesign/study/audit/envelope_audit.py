@@ -11,14 +11,9 @@ from netdesign.coupling.solution import RELEASED
 from netdesign.outcome import Outcome
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.audit.comparing import SAME, is_same, tell_unequal
-from netdesign.study.records import (
-    BoundRecord,
-    CasePoint,
-    CaseRecord,
-    EnvelopeRecord,
-    ExtremeRecord,
-    RowStudy,
-)
+from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
+from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
+from netdesign.study.records import RowStudy
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 

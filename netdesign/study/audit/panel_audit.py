@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from netdesign.site.model import NetRow
 from netdesign.study.record_panel import record_panel
-from netdesign.study.records import PanelRecord, RowStudy
+from netdesign.study.records import RowStudy
+from netdesign.study.support_records import PanelRecord
 from netdesign.study.values import compare_values
 from netdesign.words.message import Message, say
 

@@ -9,7 +9,8 @@ from netdesign.structure.anchors import AnchorForces, compute_anchor_forces
 from netdesign.structure.layout import SupportPoints
 from netdesign.structure.members import ROPE_OF, Member, name_in_panel
 from netdesign.study.audit.comparing import Pair, tell_unequal
-from netdesign.study.records import RowStudy, StaticsRecord
+from netdesign.study.records import RowStudy
+from netdesign.study.support_records import StaticsRecord
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 

@@ -19,16 +19,9 @@ from netdesign.study.audit.envelope_audit import (
     read_force,
     same_point,
 )
-from netdesign.study.records import (
-    AnchorRecord,
-    CasePoint,
-    CaseRecord,
-    Drawing,
-    HeadForce,
-    IndependentRecord,
-    ProfileRecord,
-    RowStudy,
-)
+from netdesign.study.case_records import CasePoint, CaseRecord
+from netdesign.study.records import IndependentRecord, ProfileRecord, RowStudy
+from netdesign.study.support_records import AnchorRecord, Drawing, HeadForce
 from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.report.view.envelope_tables import build_drivers
 from netdesign.report.words import Words, show_check
-from netdesign.study.records import (
+from netdesign.study.envelope_records import (
     BoundRecord,
     DriverRecord,
     EnvelopeRecord,

@@ -8,8 +8,8 @@ import pytest
 
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.html import list_sections, render_html
+from netdesign.report.view.demand_steps import describe_load, describe_widths
 from netdesign.report.view.panel_tables import view_panel
-from netdesign.report.view.row_tables import describe_load, describe_widths
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook

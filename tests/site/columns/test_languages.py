@@ -2,9 +2,10 @@ import re
 
 import pytest
 
-from netdesign.site.columns.all_tables import PROJECT_ITEMS, RANGE_QUANTITIES, SHEETS
+from netdesign.site.columns.all_tables import PROJECT_ITEMS, SHEETS
 from netdesign.site.columns.fields import LANGUAGES, split_heading
 from netdesign.site.columns.languages import load_words
+from netdesign.site.columns.range_quantities import RANGE_QUANTITIES
 from netdesign.site.template.notes_sheet import describe_accepted, describe_field
 
 TABLES = {

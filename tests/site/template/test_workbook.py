@@ -7,8 +7,9 @@ import pytest
 
 from netdesign.checks import list_standards
 from netdesign.errors import OutputError, SiteDataError
-from netdesign.site.columns.all_tables import NETS, SHEETS
+from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.columns.fields import LANGUAGES
+from netdesign.site.columns.net_columns import NETS
 from netdesign.site.reader import read_site
 from netdesign.site.template import workbook as template
 from netdesign.site.template.drawing import SYMBOLS, draw_geometry

@@ -1,0 +1,187 @@
+"""Records of forces on a support, of its panel, and of their drawing.
+
+All numbers in engineer's units, as in ``records``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from netdesign.study.case_records import CasePoint, ExtremeRecord
+from netdesign.study.guideline_records import GuidelineLoadRecord
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arrow:
+    """A force drawn at a point of the section; per anchor."""
+
+    member: str
+    x_m: float
+    y_m: float
+    force_x_kN: float  # what the structure does to the ground
+    force_y_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing:
+    """Section of the governing case, in the slope's axes [m]."""
+
+    case: CasePoint
+    slope_deg: float
+    snow_thickness_m: float
+    net_m: list[tuple[float, float]]  # foot to head, under load
+    sticks: list[bool]  # per net point: the snow sticks there
+    mesh_edges_m: list[tuple[float, float, float, float]]
+    head_m: tuple[float, float]
+    post_base_m: tuple[float, float]
+    uphill_anchor_m: tuple[float, float]
+    downhill_anchor_m: tuple[float, float]
+    arrows: list[Arrow]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnchorRecord:
+    """Force of the structure on the ground at one point, in the drawn case."""
+
+    anchor: str  # "foot_anchor", "uphill_anchor", "downhill_anchor", "post_base"
+    member: str  # what brings it: "net", "uphill_guy", "downhill_guy", "post"
+    force_x_kN: float  # downslope
+    force_y_kN: float  # out of the ground
+    lateral_kN: float  # along the row, either way; share of the profile
+    size_kN: float  # in the section
+    direction_deg: float | None  # 0 downslope, 90 out of the ground; None if slack
+
+
+@dataclass(frozen=True, kw_only=True)
+class PullRecord:
+    """Directions of the pulls on one anchor over all solved cases, and its axis.
+
+    Counted from the slope surface, in the direction along the slope in which the anchor
+    is pulled; 90 is straight out of the ground.
+    """
+
+    anchor: str
+    position: str  # "intermediate", or "edge" of types of the row's end alone
+    kind: str  # "bar", "micropile", "rope anchor", or "" where none is given
+    least_deg: float
+    largest_deg: float
+    axis_deg: float
+    is_axis_given: bool  # else the middle of the pulls
+    angle_deg: float  # largest between pull and axis, with the part along the row
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadForce:
+    """One force on the post head; those of a head sum up to zero."""
+
+    member: str
+    x_kN: float
+    y_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticsRecord:
+    """Way from the net's end pulls to the members of a support inside the row.
+
+    (S1) to (S8). X along the slope from the net's foot, Y out of the ground.
+    """
+
+    brings: list[str]  # members that it loads most; "head_pull", "foot_least", ...
+    case: CasePoint | None  # None under the guideline's load
+    load: GuidelineLoadRecord | None
+    foot_x_kN_per_m: float
+    foot_y_kN_per_m: float
+    foot_error_kN_per_m: float
+    head_x_kN_per_m: float
+    head_y_kN_per_m: float
+    head_error_kN_per_m: float
+    head_x_m: float
+    head_y_m: float
+    base_x_m: float
+    uphill_x_m: float
+    downhill_x_m: float
+    foot_anchor_kN: float  # of the net alone
+    uphill_guy_kN: float
+    downhill_guy_kN: float
+    post_kN: float
+    post_base_kN: float  # across the plate
+    is_by_panel: bool = False  # pulls are the means of a bay between two posts
+    mid_foot_kN: float = 0.0  # of an anchor in mid-panel
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldSidewaysRecord:
+    """Numbers of a row that the load along it follows from: (S15) to (S18)."""
+
+    share: float
+    splay_deg: float
+    pull_low_kN: float  # largest pull on a head, over cases and floor
+    pull_kN: float
+    pull_high_kN: float
+    solved_tension_kN: float  # least of the guys at work, low end over the cases
+    hidden_tension_kN: float  # what may hide of it between the cases
+    floor_tension_kN: float | None
+    least_tension_kN: float
+    uphill_part: float  # c of the uphill guy, and the inclination where it is largest
+    uphill_at_deg: float
+    downhill_part: float
+    downhill_at_deg: float
+    post_part: float  # w
+    post_at_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RopeRecord:
+    """A border rope: what it is, and its largest forces, upper ends.
+
+    They are upper figures to a tenth, and information: no check rests on them alone.
+    """
+
+    rope: str  # "lower" or "upper"
+    type: str  # id of sheet Ropes
+    stiffness_kN: float  # EA
+    sag: float  # as built, over the post spacing
+    along_kN: float | None  # along the row; None where no case has a panel
+    tension_kN: float | None
+    breaking_kN: float | None  # None where none is given
+    cell: str  # of the breaking force, else of the id
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelDrawing:
+    """Panel of the drawn case: half of it, from a post to mid-panel.
+
+    Axes of the section: X downslope from the net's foot, Y out of the ground.
+    """
+
+    case: CasePoint
+    places_m: list[float]  # along the row, from beside the post to mid-panel
+    post_head_m: tuple[float, float]
+    lower_m: list[tuple[float, float]]
+    upper_m: list[tuple[float, float]]
+    mid_net_m: list[tuple[float, float]]  # foot to head, in mid-panel
+    rope_places_m: list[float]  # those of the tensions, from the post on
+    lower_tensions_kN: list[float]
+    upper_tensions_kN: list[float]
+    foot_kN: tuple[float, float]  # on the foot anchor beside a post, of a bay
+    mid_foot_kN: tuple[float, float]
+    head_kN: tuple[float, float]  # on a post head
+    section_foot_kN: tuple[float, float]  # the same by the section
+    section_head_kN: tuple[float, float]
+    lower_along_kN: float
+    upper_along_kN: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PanelRecord:
+    """Panel between two posts of a row, inside it."""
+
+    cut: str  # "uniform", "upper" or "fitted"
+    has_mid_anchors: bool
+    ropes: list[RopeRecord]
+    extremes: list[ExtremeRecord]  # quantities "panel_foot_anchor", ...
+    failed: int = 0  # solved cases without forces by the panel
+    effective_height_m: float | None = None  # least in mid-panel, normal to the slope
+    lift_m: float | None = None  # largest of the lower rope in mid-panel
+    end_guy_deg: float | None = None  # angle to the row; None where none is given
+    drawing: PanelDrawing | None = None  # None where the drawn case has no panel
