@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
-    from netdesign.report.view.whole import ReportView
+    from netdesign.report.view.whole import Detail, ReportView
     from netdesign.site.model import Site
     from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
@@ -80,7 +80,7 @@ def check(
     cache: bool,
     out: Path | None,
     language: Language,
-    detail: Literal["summary", "full"],
+    detail: Detail,
     html: bool,
     excel: bool,
     csv: bool,

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from netdesign.study.document import write_document
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
-    from netdesign.report.view.whole import ReportView
+    from netdesign.report.view.whole import Detail, ReportView
 
 STUDY_FILE = "study.json"
 
@@ -22,7 +22,7 @@ class ReportStyle:
     """Language and detail of the reports; the numbers do not depend on them."""
 
     language: Language = "en"
-    detail: Literal["summary", "full"] = "full"
+    detail: Detail = "full"
 
 
 def list_reports(*, html: bool, excel: bool, csv: bool, pdf: bool = False) -> list[str]:

@@ -11,7 +11,6 @@ from netdesign.report.words import (
     MISSING,
     VerdictWords,
     Words,
-    name_heading,
     show_check,
     show_text,
 )
@@ -78,7 +77,7 @@ def print_summary(
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
     if view.rows:
         console.print(table)
-        legend = Text(_explain_cases(study, words))
+        legend = Text(view.legend)
         console.print(legend, style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
@@ -120,18 +119,6 @@ def _describe_change(change: ChangeRecord, words: Words) -> str:
     if change.note is None:
         return text
     return words("show.with_note", text=text, note=words.show(change.note))
-
-
-def _explain_cases(study: Study, words: Words) -> str:
-    """Legend of the numbers of a case, in their order."""
-    points = [case.case for row in study.rows for case in row.cases[:1]]
-    names = (
-        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
-    )
-    legend = words("show.legend")
-    if not names:
-        return legend
-    return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
 def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:

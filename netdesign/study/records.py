@@ -15,6 +15,7 @@ from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
+from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -268,6 +269,8 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    slab: SlabRecord | None = None  # closed form, for comparison
+    model_form: ModelFormRecord | None = None  # None where nothing governs
 
 
 @dataclass(frozen=True, kw_only=True)
