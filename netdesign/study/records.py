@@ -18,6 +18,7 @@ from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
+    EndEffectRecord,
     HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
@@ -268,6 +269,7 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    end_effects: list[EndEffectRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

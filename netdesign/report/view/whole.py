@@ -15,6 +15,7 @@ from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
+    end_tables,
     envelope_tables,
     figure_tables,
     formula_tables,
@@ -105,6 +106,7 @@ class RowView:
     floor: Table
     figures: Figures
     panel: panel_tables.PanelView | None
+    end_effects: Table
     notes: tuple[str, ...]
 
 
@@ -247,6 +249,7 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         floor=row_tables.build_floor(row, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
+        end_effects=end_tables.build_end_effects(row, words),
         notes=tuple(words.show(note) for note in row.notes),
     )
 

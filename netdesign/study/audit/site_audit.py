@@ -30,7 +30,7 @@ from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects, load_guideline
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
@@ -186,6 +186,9 @@ def _audit_judgement(
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
+    ends = record_end_effects(given, basis.site.ranges, basis.law, standard)
+    for found in compare_values(row.end_effects, ends)[:_MOST]:
+        yield say("audit.other_end_effects", place=place, value=found.message)
     for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
     yield from _audit_actions(row, effects, floor, basis)
