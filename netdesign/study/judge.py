@@ -26,6 +26,7 @@ from netdesign.study.member_loads import find_loads
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
+    list_one_anchor_notes,
     list_reasons,
     list_row_notes,
     list_site_notes,
@@ -156,6 +157,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
             *list_test_notes(checks, task.standard),
+            *list_one_anchor_notes(checks),
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],

@@ -106,6 +106,11 @@ class ActionRecord:
         """The force by the panel between posts is larger than that of the section."""
         return (self.panel_support_kN or 0.0) > self.coupled_kN
 
+    @property
+    def larger_force(self) -> float:
+        """Larger one of both inside the row, whose parts are told [kN]."""
+        return (self.panel_kN or 0.0) if self.is_by_panel else self.solved_kN
+
 
 @dataclass(frozen=True, kw_only=True)
 class SpreadRecord:

@@ -34,6 +34,7 @@ from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
+    list_one_anchor_notes,
     list_row_notes,
     list_site_notes,
     list_test_notes,
@@ -224,6 +225,7 @@ def _list_notes(
         *list_row_notes(given, effects, pulls),
         *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, basis.standard),
+        *list_one_anchor_notes(row.checks),
         *list_case_notes(row.cases),
     ]
 
@@ -375,7 +377,8 @@ def _audit_share(
     ]
     if action.foot_part_kN is not None and action.guy_part_kN is not None:
         both = action.foot_part_kN + action.guy_part_kN
-        pairs.append(("solved_kN", action.solved_kN, both))
+        name = "panel_kN" if action.is_by_panel else "solved_kN"
+        pairs.append((name, action.larger_force, both))
     yield from tell_unequal(place, pairs)
 
 
