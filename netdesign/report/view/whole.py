@@ -16,6 +16,7 @@ from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
+    end_tables,
     envelope_tables,
     figure_tables,
     formula_tables,
@@ -129,6 +130,7 @@ class RowView:
     model_form_line: str  # "" where nothing governs
     figures: Figures
     panel: panel_tables.PanelView | None
+    end_effects: Table
     notes: tuple[str, ...]
 
 
@@ -314,6 +316,7 @@ def _view_row(
         model_form_line=opinion_tables.tell_model_form(row.model_form, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
+        end_effects=end_tables.build_end_effects(row, words),
         notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
     )
 
