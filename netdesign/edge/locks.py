@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import errno
-import importlib
 import os
 import time
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 LOCK_FILE = ".netdesign.lock"
 _TAKEN = (errno.EACCES, errno.EDEADLK)  # what Windows says of a lock in other hands
@@ -37,7 +37,9 @@ def lock_folder(folder: Path, held: ExitStack) -> bool:
 
 def _lock_file(path: Path, held: ExitStack) -> bool:
     """Lock a file of a folder in the way of Windows; it is removed afterwards."""
-    windows = importlib.import_module("msvcrt")
+    import msvcrt
+
+    windows: Any = msvcrt  # whose names a checker knows on Windows only
     try:
         handle = os.open(path, os.O_RDWR | os.O_CREAT)
     except OSError:

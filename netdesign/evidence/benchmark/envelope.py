@@ -368,7 +368,7 @@ def _measure_workers(size: BenchSize) -> dict[str, Any]:
 
 def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
     types = [build_random_task(seed) for seed in range(size.types)]
-    points = []
+    points: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cases.sqlite"
         with CaseStore(path, lambda _: None) as store:
