@@ -76,6 +76,11 @@ class Reading:
         return to_si(self.number, self.field.unit)
 
     @property
+    def given_si(self) -> float | None:
+        """The value in SI units where it was typed; else None, default or not."""
+        return self.si if self.state == "given" else None
+
+    @property
     def word(self) -> str:
         """The value of a word, id or text; empty where nothing is given."""
         return self.value if isinstance(self.value, str) else ""

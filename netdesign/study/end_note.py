@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from netdesign.envelope.ranges import Ranges
 from netdesign.errors import ModelError
+from netdesign.haefeli.slab import Slab
 from netdesign.planview.end_effect import EndEffect, compute_end_effect
-from netdesign.planview.scales import Slab
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.row_position import LoadedWidth

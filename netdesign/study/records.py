@@ -15,6 +15,7 @@ from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
+from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -73,6 +74,24 @@ class ActionRecord:
     along_kN: float = 0.0  # of it by the end guy, on the post at the row's end
     along_low_kN: float = 0.0
     along_high_kN: float = 0.0
+
+    @property
+    def on_row(self) -> float:
+        """Force on the support over that of a support inside a plain row [-]."""
+        return self.loaded_width_m / self.post_spacing_m * self.lateral_factor
+
+    @property
+    def section_force(self) -> float:
+        """Force on the support by the section, (V1) of checks/THEORY.md [kN]."""
+        return (self.share * self.solved_kN + self.added_kN) * self.on_row
+
+    @property
+    def panel_force(self) -> float | None:
+        """Force on the support by the panel between posts; None without one [kN]."""
+        if self.panel_kN is None:
+            return None
+        inside = self.share * self.panel_kN + self.added_kN
+        return inside * self.on_row + self.along_kN
 
     @property
     def governing(self) -> str:
@@ -250,6 +269,8 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    slab: SlabRecord | None = None  # closed form, for comparison
+    model_form: ModelFormRecord | None = None  # None where nothing governs
 
 
 @dataclass(frozen=True, kw_only=True)
