@@ -14,7 +14,7 @@ from netdesign.coupling.solution import FailedSolution as FailedSolution
 from netdesign.coupling.solution import Solution as Solution
 from netdesign.coupling.solution import WallSolution as WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady as solve_steady
+from netdesign.coupling.steady.solve import solve_steady as solve_steady
 from netdesign.errors import NetDesignError as NetDesignError
 from netdesign.errors import SolveError as SolveError
 from netdesign.site.reader import read_site as read_site

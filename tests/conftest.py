@@ -29,22 +29,14 @@ import pytest  # noqa: E402
 
 from netdesign import cli  # noqa: E402
 from netdesign.cable.net import Net  # noqa: E402
-from netdesign.coupling.scene import (  # noqa: E402
-    MESH_LEVELS,
-    Scene,
-    SolverSettings,
-)
+from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings  # noqa: E402
 from netdesign.coupling.solution import Solution  # noqa: E402
-from netdesign.coupling.steady.rounds import solve_steady  # noqa: E402
+from netdesign.coupling.steady.solve import solve_steady  # noqa: E402
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw  # noqa: E402
 from netdesign.snow.ground import GroundKind, GroundLaw  # noqa: E402
-from netdesign.snow.kernel import PlacedMesh, build_placed_mesh  # noqa: E402
 from netdesign.snow.law import FlowLayer, FlowProblem  # noqa: E402
-from netdesign.snow.mesh import (  # noqa: E402
-    MeshSize,
-    build_template,
-    place_nodes,
-)
+from netdesign.snow.mesh import MeshSize, build_template, place_nodes  # noqa: E402
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh  # noqa: E402
 from netdesign.snow.snowpack import GravityMode, Snowpack  # noqa: E402
 
 ICE = 917.0  # [kg/m3]

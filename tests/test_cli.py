@@ -646,7 +646,7 @@ def test_init_never_overwrites_unasked(tmp_path):
 
 def test_report_renders_the_same_bytes_without_a_solver(home, checked, tmp_path):
     # judged again it may be, never solved again
-    without = "import netdesign.coupling.steady.rounds as s\ns.solve_steady = None"
+    without = "import netdesign.coupling.steady.solve as s\ns.solve_steady = None"
     result = run(
         *("report", home / "out" / "study.json", "--out", "again"),
         cwd=tmp_path,

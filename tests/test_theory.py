@@ -25,6 +25,7 @@ ROOT = PACKAGE.parent
 NUMERICAL = (
     *("numerics", "snow", "cable", "structure", "coupling"),
     *("resistance", "guideline", "checks", "panel", "planview", "haefeli"),
+    *("snowpack", "winter"),
 )
 ELEMENTS = {"P1", "P2"}  # finite elements, not labels
 

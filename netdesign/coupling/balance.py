@@ -10,8 +10,8 @@ from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import compute_weight
-from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowProblem
+from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say
 
 # Share of suction on a net above which the two-sided contact is no model of it. The

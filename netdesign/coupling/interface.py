@@ -8,20 +8,15 @@ import numpy as np
 
 from netdesign.coupling.refine import Looseness
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.contact import (
-    Contact,
-    free_unknowns,
-    may_lift,
-    net_components,
-)
+from netdesign.snow.contact import Contact, free_unknowns, may_lift, net_components
 from netdesign.snow.flow import (
     FlowState,
     compute_residual,
     compute_weight,
     remove_rounding,
 )
-from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowProblem
+from netdesign.snow.placed_mesh import PlacedMesh
 
 # Forces left on free nodes, over the weight, that are more than rounding elsewhere.
 _ROUNDING = 1e-9

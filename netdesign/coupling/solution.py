@@ -12,8 +12,8 @@ from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
-from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.words.message import Message, say
 
 # What a reader must know of a net that was to hold the snow on both sides.

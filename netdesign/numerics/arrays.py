@@ -1,4 +1,4 @@
-"""Names of the array types, for all rooms that compute with them."""
+"""Array types by name, and sums of values by place, for all rooms that compute."""
 
 from __future__ import annotations
 
@@ -13,3 +13,24 @@ Mask = NDArray[np.bool_]
 Signs = NDArray[np.int8]  # 1, 0 or -1
 # One number, or an array of them: what a formula takes that stands once for both.
 Number = TypeVar("Number", float, Floats)
+
+
+def gather(places: Ints, values: Floats, size: int) -> Floats:
+    """Sums of the values that go to each place.
+
+    Parameters
+    ----------
+    places : ndarray of int, any shape
+        Where each value goes.
+    values : ndarray
+        Of that shape, any unit.
+    size : int
+        Number of places.
+
+    Returns
+    -------
+    ndarray, shape (size,)
+        In that unit.
+    """
+    sums = np.bincount(places.ravel(), values.ravel(), minlength=size)
+    return np.asarray(sums, dtype=np.float64)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from netdesign.cable.alike import AlikeCables, build_alike, draw_curves, find_pulls
+from netdesign.cable.alike import AlikeCables, build_alike, draw_curves
 from netdesign.cable.funicular import tension_offsets
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import EndPull, Solution
@@ -152,43 +152,6 @@ def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     if not lengths.min() > LEAST_NET * strip.chord:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
     return np.asarray((1.0 + strip.slack) * lengths)
-
-
-def pull_strips(
-    strip: Strip, lengths: Floats, displacements: Floats, start: Floats
-) -> Floats:
-    """Pulls of the strips between displaced ropes.
-
-    Parameters
-    ----------
-    strip : Strip
-        Forces and shares of the length.
-    lengths : ndarray, shape (K,)
-        Unstressed [m].
-    displacements : ndarray, shape (2, 2, K)
-        Of the lower and the upper rope, (x, y) at each station [m].
-    start : ndarray, shape (2, K)
-        What each pulled with on the lower rope last [N/m].
-
-    Returns
-    -------
-    ndarray, shape (2, 2, K)
-        On the lower and the upper rope [N/m].
-
-    Raises
-    ------
-    SolveError
-        If one of them finds no equilibrium.
-    """
-    cables = strip.alike
-    ends = strip.head[:, None] + displacements[1] - displacements[0]
-    to_foot = cables.to_foot[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):  # then nothing is found
-        pulls = find_pulls(cables, ends / lengths, start - to_foot)
-    if pulls is None:
-        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.strip_not_found"))
-    foot = pulls + to_foot
-    return np.array([foot, cables.load[:, None] - foot])
 
 
 def draw_strips(

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from netdesign.site.cells.findings import Finding, add_nearest
 from netdesign.site.model import MonitoringSeries
-from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.readings import Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.words.message import say
 
@@ -62,14 +62,10 @@ def _build(
         row_id=key[0],
         member=key[1],
         times=tuple(time - first for time, _ in lines),
-        tensions=tuple(_value(line["tension"]) for _, line in lines),
-        air_temperatures=tuple(_value(line["temperature"]) for _, line in lines),
+        tensions=tuple(line["tension"].given_si for _, line in lines),
+        air_temperatures=tuple(line["temperature"].given_si for _, line in lines),
         source=lines[0][1]["row"].place,
     )
-
-
-def _value(reading: Reading) -> float | None:
-    return reading.si if reading.state == "given" else None
 
 
 def _read_time(line: Row, findings: list[Finding]) -> float | None:

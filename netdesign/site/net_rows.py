@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from types import MappingProxyType
 
 from netdesign.coupling.scene import is_overtopped
 from netdesign.errors import ModelError
-from netdesign.site.cells.findings import Finding, Refusal, add_nearest, quote
+from netdesign.site.cells.findings import Finding, Refusal
 from netdesign.site.end_supports import (
     EndsByRow,
     echo_ends,
-    list_end_types,
     refuse_unknown_ends,
     replace_types,
 )
@@ -27,7 +26,7 @@ from netdesign.site.model import (
     Resistance,
     RowEnd,
 )
-from netdesign.site.panel_inputs import check_panel, list_ropes, read_panel
+from netdesign.site.panel_inputs import check_panel, read_panel
 from netdesign.site.ranged_columns import Ends, fill_in_ranges
 from netdesign.site.readings import Reading, Row, refuse
 from netdesign.site.snow_layers import (
@@ -44,6 +43,12 @@ from netdesign.site.support_types import (
     read_guys,
 )
 from netdesign.site.tables import Table, read_rows
+from netdesign.site.type_references import (
+    TypeSheets,
+    list_references,
+    refuse_missing_sheets,
+    refuse_unknown_types,
+)
 from netdesign.site.type_resistances import find_tests
 from netdesign.snow.ground import (
     DEFAULT_CREEP_LAW,
@@ -60,14 +65,6 @@ from netdesign.structure.layout import (
 )
 from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
-
-Types = Mapping[str, Row]  # the lines of one type sheet, by id
-# By name of the sheet; None without a sheet whose ids can be read.
-TypeSheets = Mapping[str, Types | None]
-
-_MOST_PLACES = 5  # named in one finding
-# Columns that name a type.
-_MEMBERS = tuple(dict.fromkeys(NAMED_BY.get(one, one) for one, _ in MEMBER_MODES))
 
 
 def build_net_rows(
@@ -121,7 +118,7 @@ def build_net_rows(
         )
         for row in rows
     ]
-    _refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
+    refuse_missing_sheets(table, [*rows, *ends.values()], absent, findings)
     return tuple(net_row for net_row in built if net_row is not None)
 
 
@@ -141,58 +138,6 @@ def index_by_id(rows: list[Row], findings: list[Finding]) -> dict[str, Row]:
     return by_id
 
 
-def _list_references(rows: Iterable[Row], sheet: str) -> list[Reading]:
-    """Cells that name an id of a type sheet."""
-    return [
-        reading
-        for row in rows
-        for reading in _list_named(row)
-        if reading.field.refers_to == sheet
-    ]
-
-
-def _list_named(row: Row) -> list[Reading]:
-    """Cells of a line of sheet Nets or Ends that name a type."""
-    further = list_ropes(row) if "panel_system" in row else list_end_types(row)
-    return [*(row[member] for member in _MEMBERS if row[member].word), *further]
-
-
-def _refuse_missing_sheets(
-    table: Table, rows: list[Row], absent: Iterable[str], findings: list[Finding]
-) -> None:
-    """One finding for a type sheet that is not there, not one for each of its ids."""
-    for name in absent:
-        named = _list_references(rows, name)
-        if not named:
-            continue
-        sheet = say("finding.in_quotes", text=say(f"sheet.{name}"))
-        ids = list(dict.fromkeys(one.word for one in named))
-        findings.append(
-            Finding(
-                file=table.sheet.file,
-                rule=_refuse_ids(ids, sheet, table.sheet.name),
-                accepted=_ask_for_sheet([one.place for one in named], sheet),
-            )
-        )
-
-
-def _refuse_ids(ids: list[str], sheet: Message, nets: str) -> Message:
-    shown = tuple(map(quote, ids[:_MOST_PLACES]))
-    if len(ids) == 1:
-        return say("nets.lacks_sheet_one", sheet=sheet, id=shown[0], nets=nets)
-    more = ("...",) if len(ids) > _MOST_PLACES else ()
-    return say(
-        "nets.lacks_sheet", sheet=sheet, count=len(ids), ids=(*shown, *more), nets=nets
-    )
-
-
-def _ask_for_sheet(places: list[str], sheet: Message) -> Message:
-    shown, more = tuple(places[:_MOST_PLACES]), len(places) - _MOST_PLACES
-    if more <= 0:
-        return say("nets.sheet_or_empty", sheet=sheet, places=shown)
-    return say("nets.sheet_or_empty_more", sheet=sheet, places=shown, count=more)
-
-
 def _build_net_row(
     line: Row,
     type_sheets: TypeSheets,
@@ -210,21 +155,52 @@ def _build_net_row(
     ground = _understand_ground(row, thickness, findings)
     named = [row, end] if end else [row]
     for one in named:
-        _check_types(one, type_sheets, findings)
+        refuse_unknown_types(one, type_sheets, findings)
     check_panel(row, findings)
-    readings = [reading for one in named for reading in one.values()]
-    is_faulty = any(reading.state == "faulty" for reading in readings) or any(
-        _list_references(named, name)
-        for name, types in type_sheets.items()
-        if types is None
-    )
-    if is_faulty or thickness is None or ground is None or len(findings) > count_before:
+    if (
+        _is_faulty(named, type_sheets)
+        or thickness is None
+        or ground is None
+        or len(findings) > count_before
+    ):
         return None
     if is_overtopped(row["net_height"].si, thickness):
         rule = say("nets.overtopped", thickness=thickness)
         refuse(row["net_height"], rule, "", findings, severity="note")
-    has_end = row["gap"].state != "given" or row["gap"].si > 0.0
+    echoes = _echo_inputs(line, thickness, ground)
+    return _compose_net_row(
+        row,
+        end,
+        type_sheets,
+        snow=(thickness, layers, ground),
+        inputs=(*echoes, *echo_layers(lines), *echo_ends(end)),
+    )
+
+
+def _is_faulty(named: list[Row], type_sheets: TypeSheets) -> bool:
+    """A cell is faulty, or names a type of a sheet whose ids cannot be read."""
+    readings = (reading for one in named for reading in one.values())
+    return any(reading.state == "faulty" for reading in readings) or any(
+        list_references(named, name)
+        for name, types in type_sheets.items()
+        if types is None
+    )
+
+
+def _compose_net_row(
+    row: Row,
+    end: Row | None,
+    type_sheets: TypeSheets,
+    *,
+    snow: tuple[float, tuple[Layer, ...], GroundLaw],
+    inputs: tuple[InputEcho, ...],
+) -> NetRow:
+    """Net row of a line without a fault; ``snow`` is thickness, layers, ground."""
+    thickness, layers, ground = snow
     panel, panel_lack = read_panel(row, type_sheets["Ropes"] or {})
+    at_end = replace_types(row, end) if end else None
+    gap = row["gap"].given_si
+    has_end = gap is None or gap > 0.0
     return NetRow(
         id=row["id"].word,
         slope_angle=row["slope_angle"].si,
@@ -237,19 +213,11 @@ def _build_net_row(
         slack=row["slack"].si,
         layout=_build_layout(row),
         resistances=_find_resistances(row, type_sheets),
-        end_resistances=_find_resistances(replace_types(row, end), type_sheets)
-        if end
-        else None,
-        end_anchors=_find_anchors(replace_types(row, end), type_sheets)
-        if end
-        else None,
-        inputs=(
-            *_echo_inputs(line, thickness, ground),
-            *echo_layers(lines),
-            *echo_ends(end),
-        ),
-        gap=row["gap"].si if row["gap"].state == "given" else math.inf,
-        altitude=row["altitude"].si if row["altitude"].state == "given" else None,
+        end_resistances=_find_resistances(at_end, type_sheets) if at_end else None,
+        end_anchors=_find_anchors(at_end, type_sheets) if at_end else None,
+        inputs=inputs,
+        gap=math.inf if gap is None else gap,
+        altitude=row["altitude"].given_si,
         glide_factor=_find_glide_factor(row),
         guys=read_guys(row),
         axes=tuple(read_axes(row).items()),
@@ -357,26 +325,13 @@ def _build_sliding_ground(
         return None
 
 
-def _check_types(row: Row, type_sheets: TypeSheets, findings: list[Finding]) -> None:
-    for reading in _list_named(row):
-        sheet = reading.field.refers_to
-        types = type_sheets[sheet]
-        if types is not None and reading.word not in types:
-            title = say(f"sheet.{sheet}")
-            accepted = say("nets.id_or_empty", sheet=title)
-            places = {name: line["id"].place for name, line in types.items()}
-            accepted = add_nearest(accepted, reading.word, types, places)
-            refuse(reading, say("nets.no_id", sheet=title), accepted, findings)
-
-
 def _build_layout(row: Row) -> SupportLayout:
-    base = row["post_base_distance"]
     return SupportLayout(
         post_spacing=row["post_spacing"].si,
         post_tilt=row["post_tilt"].si,
         uphill_anchor_distance=row["uphill_anchor_distance"].si,
         downhill_anchor_distance=row["downhill_anchor_distance"].si,
-        post_base_distance=base.si if base.state == "given" else None,
+        post_base_distance=row["post_base_distance"].given_si,
     )
 
 
@@ -387,9 +342,8 @@ def _names_row_end(end: Row | None) -> bool:
 
 def _build_row_end(end: Row | None, type_sheets: TypeSheets) -> RowEnd:
     """Members that hold a row along itself, all of them, given or not."""
-    angle = end["end_guy_angle"] if end else None
     return RowEnd(
-        guy_angle=angle.si if angle and angle.state == "given" else None,
+        guy_angle=end["end_guy_angle"].given_si if end else None,
         resistances=tuple(
             _find_resistance(end[member], mode, member, type_sheets)
             if end

@@ -93,9 +93,8 @@ def _build_rope(line: Row, sag: Reading) -> Rope:
 
 def _describe_rope(line: Row) -> BorderRope:
     breaking = line["rope"]
-    is_given = breaking.state == "given"
     return BorderRope(
         type_id=line["id"].word,
-        breaking=breaking.si if is_given else None,
-        source=breaking.place if is_given else line["id"].place,
+        breaking=breaking.given_si,
+        source=line["rope" if breaking.state == "given" else "id"].place,
     )

@@ -71,7 +71,7 @@ def build_layers(
         layer = Layer(
             thickness=thickness,
             density=density.si,
-            temperature=temperature.si if temperature.state == "given" else None,
+            temperature=temperature.given_si,
         )
         layers.append(layer)
     if len(layers) < len(lines):

@@ -33,10 +33,10 @@ _BENT_POST = ("post_width", "section_modulus", *_SECTION)
 
 def read_guys(row: Row) -> Guys:
     """Number of guys on each side of a post, and their splay."""
-    count, splay = row["guy_count"], row["guy_splay"]
+    count = row["guy_count"]
     return Guys(
         count=int(count.number) if count.state == "given" else 1,
-        splay=splay.si if splay.state == "given" else None,
+        splay=row["guy_splay"].given_si,
     )
 
 
@@ -52,13 +52,12 @@ def read_anchor_types(row: Row, types: Mapping[str, Row]) -> dict[Member, Anchor
 
 def _read_anchor(line: Row) -> AnchorType:
     outer, strength = line["bar_diameter"], line["bar_strength"]
-    lever = line["lever_arm"]
     return AnchorType(
         kind=line["kind"].word,
         section=_build_section(line)
         if outer.state == strength.state == "given"
         else None,
-        lever=lever.si if lever.state == "given" else None,
+        lever=line["lever_arm"].given_si,
     )
 
 
@@ -76,8 +75,7 @@ def _build_section(line: Row) -> RoundSection | None:
 
 def read_inner(line: Row) -> float:
     """Inner diameter of an anchor's steel [m]; 0 of a solid bar."""
-    inner = line["inner_diameter"]
-    return inner.si if inner.state == "given" else 0.0
+    return line["inner_diameter"].given_si or 0.0
 
 
 def list_dependent(

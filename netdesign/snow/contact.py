@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import PlacedMesh
 
 # A node is released only when its shear exceeds the friction by this share of it.
 _RELEASE_MARGIN = 1e-9

@@ -28,7 +28,6 @@ from netdesign.snow.contact import (
     update_contact,
 )
 from netdesign.snow.kernel import (
-    PlacedMesh,
     assemble_base_force,
     assemble_body_force,
     assemble_end_load,
@@ -49,7 +48,9 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import Blocks, SingularError, build_ordering, solve_blocks
+from netdesign.snow.linear import SingularError, solve_blocks
+from netdesign.snow.ordering import Blocks, build_ordering
+from netdesign.snow.placed_mesh import PlacedMesh
 
 # Error that a Newton step leaves, (N16): a share of the step where contacts still
 # change, else a multiple of its square (measured on random scenes: 95 % stay below).

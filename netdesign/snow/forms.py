@@ -18,7 +18,8 @@ from skfem.element import DiscreteField
 from skfem.helpers import dot, grad
 
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.kernel import QUADRATURE_DEGREE, PlacedMesh
+from netdesign.snow.element import QUADRATURE_DEGREE
+from netdesign.snow.placed_mesh import PlacedMesh
 
 
 @lru_cache(maxsize=2)

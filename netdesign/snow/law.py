@@ -13,8 +13,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
+from netdesign.snow.element import Element, point_heights
 from netdesign.snow.ground import GroundKind
-from netdesign.snow.kernel import Element, point_heights
 from netdesign.snow.mesh import MeshTemplate
 
 # Stress [rho g d] below which snow creeps linearly: keeps the fluidity above zero.

@@ -1,23 +1,21 @@
 """Linear problems of one mesh: element blocks in, unknowns out.
 
-The sparsity of a template never changes, so its unknowns are ordered once for a small
-bandwidth and each problem goes straight into LAPACK's banded storage: Cholesky where
-the matrix is symmetric and positive definite, LU where friction or pressures are in it.
-Wide meshes go to SuperLU. Theory: snow/THEORY.md, section 5.
+Each problem goes straight into LAPACK's banded storage, its unknowns in the order of
+``ordering``: Cholesky where the matrix is symmetric and positive definite, LU where
+friction or pressures are in it. Wide meshes go to SuperLU. Theory: snow/THEORY.md,
+section 5.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import lapack
 
-from netdesign.numerics.arrays import Floats, Ints, Mask
-from netdesign.snow.mesh import MeshTemplate
+from netdesign.numerics.arrays import Floats, Mask, gather
+from netdesign.snow.ordering import Blocks, Ordering
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
@@ -29,8 +27,6 @@ _WIDEST_CHOLESKY, _WIDEST_LU = 220, 120
 # Slipping nodes, over the half bandwidth, whose friction is cheaper beside a Cholesky
 # factor than in an LU one.
 _MOST_SLIPPING = 0.15
-# Sweeps that narrow an order (no more is gained after 25), and how far they move.
-_SWEEPS, _SWEEP = 25, 0.7
 # Right sides that SuperLU solves at once: more leave the processor's cache (measured
 # at 6,000 to 12,000 unknowns: 130 at once take 1.3 to 1.5 times as long).
 _COLUMNS = 32
@@ -38,210 +34,6 @@ _COLUMNS = 32
 
 class SingularError(Exception):
     """The linear problem has no unique solution."""
-
-
-class Blocks(NamedTuple):
-    """Dense blocks of a matrix.
-
-    Attributes
-    ----------
-    dofs : ndarray of int, shape (n, C)
-        Unknowns of each block.
-    values : ndarray, shape (n, C, C)
-        Its entries.
-    n_paired : int
-        So many of the first columns are velocities in pairs, two per node.
-    """
-
-    dofs: Ints
-    values: Floats
-    n_paired: int
-
-    def to_matrix(self, size: int) -> sparse.csr_matrix:
-        """The matrix itself.
-
-        Parameters
-        ----------
-        size : int
-            Number of unknowns.
-
-        Returns
-        -------
-        sparse matrix, shape (size, size)
-            Sum of the blocks.
-        """
-        import scipy.sparse as sparse
-
-        count = self.dofs.shape[1]
-        rows = np.repeat(self.dofs, count, axis=1).ravel()
-        columns = np.tile(self.dofs, (1, count)).ravel()
-        return sparse.csr_matrix(
-            (self.values.ravel(), (rows, columns)), shape=(size, size)
-        )
-
-    def multiply(self, unknowns: Floats) -> Floats:
-        """Product of the matrix with a vector.
-
-        Parameters
-        ----------
-        unknowns : ndarray, shape (n_dofs,)
-            Any unit.
-
-        Returns
-        -------
-        ndarray, shape (n_dofs,)
-            Product.
-        """
-        parts = self.values @ unknowns[self.dofs][..., None]
-        sums = np.bincount(self.dofs.ravel(), parts.ravel(), minlength=unknowns.size)
-        return np.asarray(sums)
-
-
-class Pattern(NamedTuple):
-    """Places of a sparse matrix that may not be 0, column by column.
-
-    Attributes
-    ----------
-    slots : ndarray of int, shape (n,)
-        Place of each entry of the blocks among the stored ones.
-    rows : ndarray of int, shape (n_stored,)
-        Row of each stored entry.
-    starts : ndarray of int, shape (n_dofs + 1,)
-        First stored entry of each column, and the end.
-    diagonal : ndarray of int, shape (n_dofs,)
-        Stored entries on the diagonal.
-    """
-
-    slots: Ints
-    rows: Ints
-    starts: Ints
-    diagonal: Ints
-
-
-def _build_pattern(groups: Sequence[Ints], size: int) -> Pattern:
-    """Pattern of blocks of these unknowns."""
-    keys = np.concatenate(
-        [(dofs[:, None] * size + dofs[..., None]).ravel() for dofs in groups]
-    )
-    stored, slots = np.unique(keys, return_inverse=True)
-    each = np.arange(size + 1)
-    return Pattern(
-        slots=slots,
-        rows=(stored % size).astype(np.int32),
-        starts=np.searchsorted(stored, each * size).astype(np.int32),
-        diagonal=np.searchsorted(stored, each[:-1] * (size + 1)),
-    )
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Ordering:
-    """Order of the unknowns of a template.
-
-    Attributes
-    ----------
-    place : ndarray of int, shape (n_dofs,)
-        Row of each unknown.
-    band : int
-        Half bandwidth.
-    is_layered : bool
-        Of a template with layers.
-    known : dict
-        Places found before, shape (n,), by the arrays of unknowns they are of.
-    patterns : dict
-        Sparse patterns found before, of shape (n,), in the same way.
-    """
-
-    place: Ints
-    band: int
-    is_layered: bool
-    known: dict[tuple[int | bool, ...], tuple[list[Ints], Ints]] = field(
-        default_factory=dict
-    )
-
-    patterns: dict[tuple[int, ...], tuple[list[Ints], Pattern]] = field(
-        default_factory=dict
-    )
-
-    def find_pattern(self, parts: Sequence[Blocks]) -> Pattern:
-        """Pattern of the sum of the parts.
-
-        Parameters
-        ----------
-        parts : sequence of Blocks
-            Of the matrix.
-        """
-        groups = [part.dofs for part in parts]
-        key = tuple(id(dofs) for dofs in groups)  # as in _find
-        if key in self.patterns:
-            return self.patterns[key][1]
-        pattern = _build_pattern(groups, self.place.size)
-        if not any(dofs.flags.writeable for dofs in groups):
-            self.patterns[key] = groups, pattern
-        return pattern
-
-    def fill(self, parts: Sequence[Blocks], *, lower: bool) -> Floats:
-        """Sum of the parts in LAPACK's banded storage.
-
-        All parts go in one sum: the storage is larger than what they hold, and each
-        pass over it costs.
-
-        Parameters
-        ----------
-        parts : sequence of Blocks
-            Of the matrix.
-        lower : bool
-            The lower half band alone; else the whole, with room for pivots.
-
-        Returns
-        -------
-        ndarray, shape (n_dofs, height)
-            Height is band + 1 or 3 band + 1.
-        """
-        height = self.band + 1 if lower else 3 * self.band + 1
-        size = self.place.size * height
-        places = self._find([part.dofs for part in parts], lower=lower)
-        values = np.concatenate([part.values.ravel() for part in parts])
-        # what lies above the diagonal has gone to one place behind the end
-        sums = np.bincount(places, values, minlength=size + 1)[:size]
-        return np.asarray(sums.reshape(-1, height))
-
-    def _find(self, groups: list[Ints], *, lower: bool) -> Ints:
-        # the same arrays come again with each solve: they are their own key while
-        # they live
-        key = (lower, *(id(dofs) for dofs in groups))
-        if key in self.known:
-            return self.known[key][1]
-        find = self._find_below if lower else self._find_all
-        places = np.concatenate([find(self.place[dofs]).ravel() for dofs in groups])
-        if not any(dofs.flags.writeable for dofs in groups):
-            self.known[key] = groups, places
-        return places
-
-    def _find_below(self, row: Ints) -> Ints:
-        height = self.band + 1
-        below = row[:, :, None] - row[:, None, :]
-        end = self.place.size * height
-        return np.where(below >= 0, row[:, None, :] * height + below, end)
-
-    def _find_all(self, row: Ints) -> Ints:
-        return row[:, None, :] * 3 * self.band + 2 * self.band + row[:, :, None]
-
-
-def build_ordering(
-    template: MeshTemplate, *, has_pressures: bool, couples_net: bool
-) -> Ordering:
-    """Order of small bandwidth, (N23).
-
-    Parameters
-    ----------
-    template : MeshTemplate
-        Reference mesh.
-    has_pressures : bool
-        Every vertex has a pressure, too.
-    couples_net : bool
-        All net vertices are neighbours.
-    """
-    return _build_ordering(template, has_pressures, couples_net)
 
 
 def solve_blocks(
@@ -300,92 +92,6 @@ def solve_blocks(
     if ordering.band <= _WIDEST_LU:
         return _solve_lu(ordering, masked, load, held)
     return _solve_sparse(ordering, masked, load, held)
-
-
-@lru_cache(maxsize=256)
-def _build_ordering(
-    template: MeshTemplate, has_pressures: bool, couples_net: bool
-) -> Ordering:
-    import scipy.sparse as sparse
-
-    n_nodes = template.nodes.shape[1]
-    groups = [template.triangles.T]
-    if couples_net:
-        groups.append(template.net[None, ::2])
-    rows = np.concatenate([np.repeat(g, g.shape[1], axis=1).ravel() for g in groups])
-    columns = np.concatenate([np.tile(g, (1, g.shape[1])).ravel() for g in groups])
-    graph = sparse.csr_matrix((np.ones(rows.size), (rows, columns)), (n_nodes, n_nodes))
-    size = np.full(n_nodes, 2)
-    if has_pressures:
-        size[: template.n_vertices] = 3
-    graph.sum_duplicates()
-    rows = np.repeat(np.arange(n_nodes), np.diff(graph.indptr))
-    columns = graph.indices.astype(np.int64)
-    orders = _list_orders(graph, template)
-    narrowest = min(orders, key=lambda order: _find_bandwidth(order, rows, columns))
-    start = _place_in(_narrow(narrowest, rows, columns), size)
-    bandwidth = int(np.abs(start[rows] - start[columns]).max())
-    place = np.empty(int(size.sum()), dtype=np.int64)
-    place[: 2 * n_nodes : 2] = start
-    place[1 : 2 * n_nodes : 2] = start + 1
-    if has_pressures:
-        place[2 * n_nodes :] = start[: template.n_vertices] + 2
-    return Ordering(
-        place=place,
-        band=bandwidth + int(size.max()) - 1,
-        is_layered=bool(template.interfaces),
-    )
-
-
-def _list_orders(graph: sparse.csr_matrix, template: MeshTemplate) -> list[Ints]:
-    """Orders of the nodes that may give a small bandwidth.
-
-    Fronts that start at an end of the net, where the triangles are smallest, are
-    narrower than those of Cuthill and McKee on most templates.
-    """
-    from scipy.sparse.csgraph import breadth_first_order, reverse_cuthill_mckee
-
-    fronts = [
-        breadth_first_order(graph, end, directed=False, return_predecessors=False)
-        for end in template.net[[0, -1]]
-    ]
-    narrow = reverse_cuthill_mckee(graph, symmetric_mode=True)
-    return [order.astype(np.int64) for order in (narrow, *fronts)]
-
-
-def _narrow(order: Ints, rows: Ints, columns: Ints) -> Ints:
-    """The narrowest of the orders found by moving nodes between their neighbours.
-
-    In each sweep every node goes most of the way to the middle between its first and
-    its last neighbour. That takes a quarter of the bandwidth away, half of the work.
-    ``rows`` and ``columns`` are the entries of the graph, sorted by row.
-    """
-    begins = np.searchsorted(rows, np.arange(order.size))
-    best, narrowest = order, order.size
-    for _ in range(_SWEEPS + 1):
-        place = np.empty(order.size)
-        place[order] = np.arange(order.size)
-        bandwidth = _find_bandwidth(order, rows, columns)
-        if bandwidth < narrowest:
-            best, narrowest = order, bandwidth
-        first = np.minimum.reduceat(place[columns], begins)
-        last = np.maximum.reduceat(place[columns], begins)
-        moved = (1.0 - _SWEEP) * place + _SWEEP * (first + last) / 2.0
-        order = np.argsort(moved, kind="stable")
-    return best
-
-
-def _find_bandwidth(order: Ints, rows: Ints, columns: Ints) -> int:
-    """Largest distance of neighbours in an order."""
-    place = np.argsort(order)
-    return int(np.abs(place[rows] - place[columns]).max())
-
-
-def _place_in(order: Ints, size: Ints) -> Ints:
-    """First unknown of each node if the nodes come in this order."""
-    start = np.empty(order.size, dtype=np.int64)
-    start[order] = np.cumsum(size[order]) - size[order]
-    return start
 
 
 def _add_friction(part: Blocks, friction: Floats) -> Blocks:
@@ -467,7 +173,7 @@ def _collect_friction(
         share = friction[slipping[row]] * free[dofs]
         at = row * friction.size + ordering.place[dofs]
         normal = share * part.values[block, 2 * pair]
-        sums += np.bincount(at.ravel(), normal.ravel(), minlength=sums.size)
+        sums += gather(at, normal, sums.size)
     return np.asarray(sums.reshape(slipping.size, friction.size))
 
 
@@ -523,7 +229,7 @@ def _sum_by_pattern(
 
     pattern = ordering.find_pattern(parts)
     values = np.concatenate([part.values.ravel() for part in parts])
-    stored = np.bincount(pattern.slots, values, minlength=pattern.rows.size)
+    stored = gather(pattern.slots, values, pattern.rows.size)
     stored[pattern.diagonal[held]] = _scale_of(values)
     matrix = sparse.csc_matrix(
         (stored, pattern.rows, pattern.starts), shape=(held.size, held.size)

@@ -10,18 +10,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from netdesign.numerics.arrays import Floats, Ints
-from netdesign.snow.kernel import (
+from netdesign.numerics.arrays import Floats, Ints, gather
+from netdesign.snow.element import (
     Element,
-    PlacedMesh,
     add_pressure_rows,
     build_strain_operator,
-    gather,
     list_velocity_dofs,
     map_gradients,
     reference_element,
 )
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import PlacedMesh
 
 # Places in a triangle of each midpoint and of the two vertices beside it.
 _MIDPOINTS = ((3, 0, 1), (4, 1, 2), (5, 0, 2))

@@ -8,9 +8,10 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Ints
 from netdesign.snow.contact import Contact
+from netdesign.snow.element import interpolate_reference
 from netdesign.snow.flow import FlowState
-from netdesign.snow.kernel import PlacedMesh, interpolate_reference
 from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.placed_mesh import PlacedMesh
 
 # Added between layers, more than any distance in one [thickness].
 _FAR_APART = 1e4

@@ -10,7 +10,7 @@ from netdesign.coupling.history.transient import TransientSettings, solve_transi
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.wall import Wall
 
 Settings = SolverSettings | TransientSettings | StaggeredSettings

@@ -175,7 +175,7 @@ def compute_many_forces(
             downhill=(downhill, downhill),
             post=held.post_compression,
             out_of_ground=held.post_compression * post[1],
-            is_foot_shared=layout.uphill_anchor_distance == 0.0,
+            is_foot_shared=layout.is_foot_shared,
         ),
         head_pull=measure_length(*pull),
         foot_turn=measure_pull(*foot, Member.FOOT_ANCHOR),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from netdesign.guards import require_positive, require_within
 from netdesign.numerics.arrays import Number
+from netdesign.structure.members import Member
 
 # Defaults of this program, chosen for a sensible geometry; from no standard.
 DEFAULT_POST_TILT = math.radians(15.0)
@@ -40,6 +41,18 @@ class SupportLayout:
     uphill_anchor_distance: float
     downhill_anchor_distance: float
     post_base_distance: float | None = None
+
+    @property
+    def is_foot_shared(self) -> bool:
+        """The uphill guy ends at the net's foot: one anchor carries both."""
+        return self.uphill_anchor_distance == 0.0
+
+    @property
+    def anchors_at_foot(self) -> tuple[Member, ...]:
+        """Anchors of the net's foot, on which the load along the row acts as well."""
+        if self.is_foot_shared:
+            return Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR
+        return (Member.FOOT_ANCHOR,)
 
     def __post_init__(self) -> None:
         """Refuse impossible geometry."""

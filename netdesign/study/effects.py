@@ -44,17 +44,17 @@ class RowEffects:
         One inside the row, and where the row has an end its first or last one.
     lateral_share : float
         Share of the load along the row [-].
-    is_foot_shared : bool
-        The uphill guy ends at the net's foot.
     missing : tuple of Message
         What the profile does not say.
+    at_foot : tuple of Member
+        Anchors that the load along the row acts on at the net's foot.
     """
 
     post_spacing: float
     supports: tuple[LoadedWidth, ...]
     lateral_share: float
     missing: tuple[Message, ...]
-    is_foot_shared: bool = False
+    at_foot: tuple[Member, ...]
 
     def factor(self, member: str, width: LoadedWidth) -> float:
         """Force on a support of that width over the solved one [-]."""
@@ -63,8 +63,7 @@ class RowEffects:
 
     def lateral_factor(self, member: str) -> float:
         """Part of the factor that the load along the row brings [-]."""
-        is_foot = member == Member.FOOT_ANCHOR
-        if not (is_foot or (self.is_foot_shared and member == Member.UPHILL_ANCHOR)):
+        if member not in self.at_foot:
             return 1.0  # what the load does at the head: study/sideways.py
         return compute_lateral_factor(self.lateral_share)
 
@@ -150,7 +149,7 @@ def find_effects(row: NetRow, standard: Standard, ranges: Ranges) -> RowEffects:
         supports=list_supports(spacing, edge),
         lateral_share=share.value if share else 0.0,
         missing=tuple(lacks),
-        is_foot_shared=row.layout.uphill_anchor_distance == 0.0,
+        at_foot=row.layout.anchors_at_foot,
     )
 
 

@@ -15,14 +15,11 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
-from netdesign.structure.members import (
-    REPORTED_MEMBERS,
-    ROPE_OF,
-    Member,
-    name_in_panel,
-)
+from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
+from netdesign.study.case_records import ExtremeRecord
 from netdesign.study.cases import CheckRun
 from netdesign.study.end_note import list_end_notes
+from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import find_loads
@@ -147,11 +144,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         id=row.id,
         verdict=merge_verdicts(list_verdicts(checks, independent)),
         checks=checks,
-        extremes=[
-            record_extreme(extremes[member])
-            for member in REPORTED_MEMBERS
-            if member in extremes
-        ],
+        extremes=_record_extremes(extremes),
         cases=cases,
         inputs=list(row.inputs),
         drawing=record_drawing(row, governing),
@@ -176,12 +169,25 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         held_sideways=record_held_sideways(
             row, solved.results, extremes, loads.sideways, floor
         ),
-        envelope=(
-            record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
-            if isinstance(solved, RowEnvelope)
-            else None
-        ),
+        envelope=_record_search(solved, checks),
     )
+
+
+def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:
+    return [
+        record_extreme(extremes[member])
+        for member in REPORTED_MEMBERS
+        if member in extremes
+    ]
+
+
+def _record_search(
+    solved: RowGrid | RowEnvelope, checks: Sequence[CheckRecord]
+) -> EnvelopeRecord | None:
+    """The search with what turns each check; None for a grid of cases."""
+    if not isinstance(solved, RowEnvelope):
+        return None
+    return record_envelope(solved, REPORTED_MEMBERS, _list_levels(checks))
 
 
 def _list_levels(checks: Sequence[CheckRecord]) -> dict[str, list[tuple[str, float]]]:

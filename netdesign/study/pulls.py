@@ -97,7 +97,7 @@ def list_pulls(
     ]
     if floor is not None and feet:
         directions[Member.FOOT_ANCHOR] += [floor.foot_least, floor.foot_largest]
-    if row.layout.uphill_anchor_distance == 0.0:  # one anchor, pulled both ways
+    if row.layout.is_foot_shared:  # one anchor, pulled both ways
         both = [*directions[Member.FOOT_ANCHOR], *directions[Member.UPHILL_ANCHOR]]
         directions[Member.FOOT_ANCHOR] = directions[Member.UPHILL_ANCHOR] = both
     ranges = {anchor: find_pull_range(found) for anchor, found in directions.items()}
@@ -215,11 +215,8 @@ def build_pull(
     """
     given, kind = row.find_axis(anchor), row.find_anchor_type(anchor, position)
     axis = pulls.mean if given is None else given
-    is_shared = row.layout.uphill_anchor_distance == 0.0
-    is_foot = anchor == Member.FOOT_ANCHOR or (
-        is_shared and anchor == Member.UPHILL_ANCHOR
-    )
-    turned = turn_sideways(pulls.find_largest_angle(axis), share if is_foot else 0.0)
+    along_row = share if anchor in row.layout.anchors_at_foot else 0.0
+    turned = turn_sideways(pulls.find_largest_angle(axis), along_row)
     return AnchorPull(
         anchor=anchor,
         position=position,

@@ -13,10 +13,7 @@ from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.calibration import is_calibrated
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
-from netdesign.units import (
-    kilonewton_from_newton,
-    kilonewton_if_known,
-)
+from netdesign.units import kilonewton_from_newton, kilonewton_if_known
 
 
 def show_parameter(name: str, value: float) -> float:

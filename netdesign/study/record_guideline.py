@@ -7,10 +7,7 @@ from collections.abc import Sequence
 
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult
-from netdesign.guideline.comparison import (
-    GuidelineResult,
-    compare_with_guideline,
-)
+from netdesign.guideline.comparison import GuidelineResult, compare_with_guideline
 from netdesign.guideline.load_model import read_load_model
 from netdesign.site.model import NetRow
 from netdesign.snow.snowpack import GRAVITY

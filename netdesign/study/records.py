@@ -76,6 +76,24 @@ class ActionRecord:
     along_high_kN: float = 0.0
 
     @property
+    def on_row(self) -> float:
+        """Force on the support over that of a support inside a plain row [-]."""
+        return self.loaded_width_m / self.post_spacing_m * self.lateral_factor
+
+    @property
+    def section_force(self) -> float:
+        """Force on the support by the section, (V1) of checks/THEORY.md [kN]."""
+        return (self.share * self.solved_kN + self.added_kN) * self.on_row
+
+    @property
+    def panel_force(self) -> float | None:
+        """Force on the support by the panel between posts; None without one [kN]."""
+        if self.panel_kN is None:
+            return None
+        inside = self.share * self.panel_kN + self.added_kN
+        return inside * self.on_row + self.along_kN
+
+    @property
     def governing(self) -> str:
         """Largest one of the three by their numbers, as ``governs`` has it."""
         largest = max(self.coupled_kN, self.panel_support_kN or 0.0)

@@ -305,6 +305,6 @@ def find_lack(row: NetRow) -> Message | None:
         return say("sideways.one_guy")
     if row.guys.splay is None:
         return say("sideways.no_splay")
-    if row.layout.uphill_anchor_distance == 0.0:
+    if row.layout.is_foot_shared:
         return say("sideways.at_foot")
     return None

@@ -12,9 +12,9 @@ import pytest
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import correction
-from netdesign.coupling.steady import rounds as steady
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady import correction, rounds
+from netdesign.coupling.steady import solve as steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene as draw_any_scene
 from netdesign.evidence.benchmark.scenes import build_tables
@@ -74,14 +74,14 @@ def draw_scene(seed, number, *, is_denser_below):
 def work(monkeypatch):
     """Linear solves times triangles, of all flows, those that fail too."""
     spent = []
-    solve_flow = steady.solve_flow
+    solve_flow = rounds.solve_flow
 
     def count(law, mesh, *given, **named):
         flow = solve_flow(law, mesh, *given, **named)
         spent.append(flow.linear_solves * mesh.template.triangles.shape[1])
         return flow
 
-    monkeypatch.setattr(steady, "solve_flow", count)
+    monkeypatch.setattr(rounds, "solve_flow", count)
     return spent
 
 
@@ -243,14 +243,14 @@ def test_near_the_limit_errors_reach_to_the_net_that_holds_on(friction_deg):
 
 
 def test_the_refusal_stands_where_letting_go_leads_nowhere(monkeypatch):
-    couple = steady._couple
+    couple = steady.couple
 
     def couple_two_sided(problem, *given, **named):
         if problem.snow.net_contact == "one-sided":
             raise SolveError(Outcome.NO_EQUILIBRIUM, "nowhere")
         return couple(problem, *given, **named)
 
-    monkeypatch.setattr(steady, "_couple", couple_two_sided)
+    monkeypatch.setattr(steady, "couple", couple_two_sided)
     refused = solve_steady(stiff_over_soft())
     assert refused.outcome is Outcome.OUT_OF_VALIDITY
     assert "would pull on the net" in str(refused.reason)
@@ -261,7 +261,7 @@ def fail_after(monkeypatch):
     """Fails on the mesh after so many; gives the problems that were solved before."""
 
     def prepare(meshes, failure):
-        couple, solved = steady._couple, []
+        couple, solved = steady.couple, []
 
         def couple_some(problem, *given, **named):
             if len(solved) == meshes:
@@ -269,7 +269,7 @@ def fail_after(monkeypatch):
             solved.append(problem)
             return couple(problem, *given, **named)
 
-        monkeypatch.setattr(steady, "_couple", couple_some)
+        monkeypatch.setattr(steady, "couple", couple_some)
         return solved
 
     return prepare

@@ -18,7 +18,7 @@ from netdesign.coupling.history.transient import (
 )
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.snow.mesh import MeshSize
 

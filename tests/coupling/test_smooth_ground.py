@@ -12,7 +12,7 @@ import pytest
 from netdesign.coupling.history.transient import TransientSettings, solve_transient
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from tests.coupling.drawn_scenes import draw_smooth_site
 

@@ -9,7 +9,7 @@ from netdesign.coupling.history.transient import TransientSettings, solve_transi
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import find_end_pulls, solve_steady
+from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize

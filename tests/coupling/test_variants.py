@@ -13,13 +13,13 @@ from netdesign.coupling.scene import (
     SolverSettings,
 )
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import compute_shear_factor
 from netdesign.snow.fluidity import compute_fluidity
-from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.law import linearise_sliding
 from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 from netdesign.snow.wall import Wall
 from netdesign.solving.solve import solve_scene

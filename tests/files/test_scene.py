@@ -8,13 +8,9 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SceneFileError
-from netdesign.files.scene import (
-    SceneFile,
-    build_scene,
-    read_scene,
-)
+from netdesign.files.scene import SceneFile, build_scene, read_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
 from netdesign.snow.fluidity import compute_fluidity

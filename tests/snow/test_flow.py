@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome
 from netdesign.snow import flow, kernel
 from netdesign.snow.contact import free_unknowns, start_contact
 from netdesign.snow.flow import compute_residual, remove_rounding, solve_flow
-from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.law import (
     STRESS_FLOOR,
     FlowLayer,
@@ -20,6 +19,7 @@ from netdesign.snow.law import (
     linearise_sliding,
 )
 from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 
 TIGHT = 1e-9
 
@@ -405,7 +405,7 @@ def test_last_correction_gives_the_balance_back(
         ground=ground, slip_ratio=slip_ratio, bulk_ratio=bulk_ratio, friction=0.3
     )
     law = replace(law, element=element)
-    mesh = kernel.build_placed_mesh(inclined.template, inclined.nodes, element)
+    mesh = build_placed_mesh(inclined.template, inclined.nodes, element)
     state = solve(law, mesh)
     noise = np.random.default_rng(7).uniform(-1e-8, 1e-8, state.stress.shape)
     rounded = replace(state, stress=state.stress * (1.0 + noise))

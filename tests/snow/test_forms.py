@@ -6,6 +6,7 @@ import scipy.sparse as sparse
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import forms, kernel
+from netdesign.snow.placed_mesh import build_placed_mesh
 
 # Both sum the same products in another order.
 ROUNDING = 1e-13
@@ -53,7 +54,7 @@ def test_tangent_matrix(mesh):
 
 
 def test_mixed_tangent_matrix(mesh):
-    mixed = kernel.build_placed_mesh(mesh.template, mesh.nodes, "mixed")
+    mixed = build_placed_mesh(mesh.template, mesh.nodes, "mixed")
     rng = np.random.default_rng(4)
     moduli = rng.normal(size=(*mesh.weights.shape, 4, 4))
     moduli = moduli + moduli.swapaxes(-1, -2)  # symmetric, not definite

@@ -7,6 +7,7 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import kernel
+from netdesign.snow.placed_mesh import build_placed_mesh
 
 SHAPES = [(0.0, 0.0), (0.0, 0.1), (30.0, 0.0), (30.0, 0.15)]
 
@@ -184,4 +185,4 @@ def test_folded_mesh_is_not_valid(a_mesh):
     mesh = a_mesh()
     nodes = np.array(mesh.nodes)
     nodes[0, -1] = np.nan
-    assert not kernel.build_placed_mesh(mesh.template, nodes).is_valid
+    assert not build_placed_mesh(mesh.template, nodes).is_valid

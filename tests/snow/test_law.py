@@ -7,7 +7,6 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import Outcome
-from netdesign.snow import kernel
 from netdesign.snow.flow import compute_residual, compute_weight, solve_flow
 from netdesign.snow.law import (
     FlowLayer,
@@ -20,6 +19,7 @@ from netdesign.snow.law import (
     total_stress,
 )
 from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 
 RATIOS = [0.7, 1.8, 60.0]
 UNIT = np.array([1.0, 1.0, 0.0])
@@ -121,7 +121,7 @@ def test_rough_slab_in_both_elements(a_mesh, a_flow_problem, ratio):
     for law in (plain, mixed):
         law = replace(law, ground="no-slip", friction=np.inf)
         coarse = a_mesh(inclination_deg=30.0, size=MESH_LEVELS[2])
-        mesh = kernel.build_placed_mesh(coarse.template, coarse.nodes, law.element)
+        mesh = build_placed_mesh(coarse.template, coarse.nodes, law.element)
         result = solve_flow(law, mesh, tolerance=1e-9)
         assert result.outcome is Outcome.CONVERGED
         forces = -mesh.to_slope_axes(result.state.reaction)
@@ -141,7 +141,7 @@ def layered_mesh(inclination_deg=0.0, element="velocity", size=MESH_LEVELS[1]):
     template = build_template(5.0, size, TOPS)
     heights = template.net_fractions
     curve = np.array([heights * np.tan(np.radians(inclination_deg)), heights])
-    return kernel.build_placed_mesh(template, place_nodes(template, curve), element)
+    return build_placed_mesh(template, place_nodes(template, curve), element)
 
 
 def test_every_point_has_the_properties_of_its_layer(a_flow_problem):

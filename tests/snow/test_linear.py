@@ -8,8 +8,9 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow import linear
 from netdesign.snow.kernel import build_stiffness
-from netdesign.snow.linear import SingularError, build_ordering, solve_blocks
+from netdesign.snow.linear import SingularError, solve_blocks
 from netdesign.snow.mesh import build_template
+from netdesign.snow.ordering import _narrow, build_ordering
 
 MU = 0.6
 
@@ -146,7 +147,7 @@ def test_sweeps_narrow_an_order():
         return np.abs(place[rows] - place[columns]).max()
 
     swapped = names.reshape(-1, 6)[:, ::-1].ravel()  # six by six the wrong way round
-    narrow = linear._narrow(swapped, rows, columns)
+    narrow = _narrow(swapped, rows, columns)
     assert np.array_equal(np.sort(narrow), np.arange(count))
     assert reach(swapped) == 11
     assert reach(narrow) < 6

@@ -5,9 +5,10 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.snow.contact import start_contact
+from netdesign.snow.element import point_heights
 from netdesign.snow.flow import FlowState
-from netdesign.snow.kernel import build_placed_mesh, point_heights
 from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.transfer import transfer_state
 
 TOPS = (0.317, 0.574)

@@ -3,7 +3,7 @@
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseTask
 from netdesign.site.model import MonitoringSeries

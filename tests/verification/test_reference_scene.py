@@ -11,7 +11,7 @@ import pytest
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, build_layered_snowpack
 

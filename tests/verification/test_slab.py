@@ -14,9 +14,9 @@ import pytest
 
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import solve_flow
-from netdesign.snow.kernel import build_placed_mesh
 from netdesign.snow.law import FlowLayer, FlowProblem, Material, linearise_creep
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 
 # FACTS.md, section 3
 A, B_BULK = 206.2605, 129.1875

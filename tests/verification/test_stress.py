@@ -10,8 +10,8 @@ import pytest
 
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady import rounds as steady
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady import solve as steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.snow.mesh import MeshTemplate, build_template
 
@@ -86,7 +86,7 @@ def test_order_of_cases_does_not_matter():
 PROBE = """
 from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 for name in ("paper-30", "slipping-part"):
     solution = solve_steady(build_tables(SCENES[name]), SolverSettings(accuracy=0.002))
     for end in (solution.foot, solution.head):

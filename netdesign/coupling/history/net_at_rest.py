@@ -10,7 +10,7 @@ from netdesign.cable.response import measure_arcs
 from netdesign.coupling.history.state import TransientProblem
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.steady.hanging import locate_nodes
-from netdesign.coupling.steady.rounds import find_hanging
+from netdesign.coupling.steady.solve import find_hanging
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.snow.mesh import MeshSize

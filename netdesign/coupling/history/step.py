@@ -13,19 +13,17 @@ import numpy as np
 
 from netdesign.coupling.history.state import TransientProblem, TransientState
 from netdesign.errors import SolveError
-from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.arrays import Floats, Ints, Mask, gather
 from netdesign.outcome import Outcome
 from netdesign.snow.body import SnowBody
+from netdesign.snow.element import reference_element
 from netdesign.snow.kernel import (
-    PlacedMesh,
     assemble_base_force,
     assemble_stress,
     build_base_stiffness,
     build_stiffness,
     compute_base_velocity,
     compute_strain,
-    gather,
-    reference_element,
 )
 from netdesign.snow.law import (
     Material,
@@ -37,12 +35,9 @@ from netdesign.snow.law import (
     squared_invariant,
     total_stress,
 )
-from netdesign.snow.linear import (
-    Blocks,
-    SingularError,
-    build_ordering,
-    solve_blocks,
-)
+from netdesign.snow.linear import SingularError, solve_blocks
+from netdesign.snow.ordering import Blocks, build_ordering
+from netdesign.snow.placed_mesh import PlacedMesh
 from netdesign.snow.settling import build_material
 from netdesign.snow.straight_mesh import build_straight_mesh, fold_load
 from netdesign.words.message import say

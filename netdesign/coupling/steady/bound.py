@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import EndPull, Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 
 # Shares of a refused net's slack that are tried in turn.
 _SHARES = (0.75, 0.5, 0.25, 0.0)

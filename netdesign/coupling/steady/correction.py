@@ -15,8 +15,8 @@ from netdesign.coupling.steady.hanging import Hanging, SteadyProblem
 from netdesign.coupling.steady.round_tangent import linearise_round
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.flow import FlowResult
-from netdesign.snow.kernel import PlacedMesh
 from netdesign.snow.linear import SingularError
+from netdesign.snow.placed_mesh import PlacedMesh
 
 _MOST_HALVINGS = 3
 _PLAIN_STEP = 0.5  # share of what is missed that is made good without a derivative

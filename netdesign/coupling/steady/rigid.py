@@ -27,9 +27,9 @@ from netdesign.coupling.solution import (
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowState, solve_flow
-from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.words.message import say
 
 

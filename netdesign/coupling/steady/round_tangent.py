@@ -11,8 +11,8 @@ from netdesign.cable.funicular import Funicular, linearise_curve
 from netdesign.numerics.arrays import Floats
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import FlowState, linearise_reaction
-from netdesign.snow.kernel import PlacedMesh, turn_normals
 from netdesign.snow.law import FlowProblem
+from netdesign.snow.placed_mesh import PlacedMesh, turn_normals
 
 
 def linearise_round(

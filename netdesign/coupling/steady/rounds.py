@@ -1,47 +1,21 @@
-"""The steady state: snow that flows along a net at rest, and the net it shapes.
+"""Rounds of flow and net on one mesh, until neither moves the other.
 
-Rounds of snow flow against a given curve and net equilibrium under the forces
-found, accelerated, on meshes refined until the end forces are accurate enough.
-Theory: coupling/THEORY.md. Dimensionless inside: lengths in snow thicknesses d,
-forces per metre of width in rho g d^2.
+Snow flows against a given curve, the net hangs under the forces found; the next curve
+is accelerated. Theory: coupling/THEORY.md. Dimensionless: lengths in snow thicknesses
+d, forces per metre of width in rho g d^2.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
-from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
-from netdesign.coupling.balance import (
-    LARGEST_SUCTION,
-    SuctionError,
-    check_balance,
-    measure_balance,
-    measure_suction,
-)
-from netdesign.coupling.interface import (
-    SupportForces,
-    find_support_forces,
-    measure_looseness,
-    share_net_forces,
-)
-from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
-from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.solution import (
-    Cost,
-    EndPull,
-    FailedSolution,
-    Solution,
-    list_skipped,
-    triangle_density,
-)
+from netdesign.coupling.interface import share_net_forces
+from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.correction import (
     Correction,
     Round,
@@ -56,14 +30,14 @@ from netdesign.coupling.steady.hanging import (
     locate_nodes,
     start_hanging,
 )
-from netdesign.errors import ModelError, SolveError
+from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
 from netdesign.numerics.curve import interpolate_curve
 from netdesign.numerics.fixed_point import mix_anderson
 from netdesign.outcome import Outcome
 from netdesign.snow.flow import FlowResult, FlowState, solve_flow
-from netdesign.snow.kernel import PlacedMesh, build_placed_mesh
-from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.snow.mesh import place_nodes
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 from netdesign.snow.transfer import transfer_state
 from netdesign.words.message import Message, say
 
@@ -95,12 +69,10 @@ _SLOW = 0.2
 # fewer, or so many over its triangles (some 1 s).
 _LEAST_WORK, _LEAST_WORK_LAYERED, _MOST_WORK = 100, 40, 4e4
 _FAILED_FLOW = 20  # of them, for a flow that does not converge
-# Share of suction, over the largest accepted, that no finer mesh takes back.
-_HOPELESS_SUCTION = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Coupled:
+class Coupled:
     """Snow and net at rest with each other on one mesh, dimensionless."""
 
     problem: SteadyProblem
@@ -112,262 +84,69 @@ class _Coupled:
     linear_solves: int
     rounds: int
 
-
-def solve_steady(
-    scene: Scene,
-    settings: SolverSettings | None = None,
-    *,
-    on_failure: Literal["return", "raise"] = "return",
-) -> Solution | FailedSolution:
-    """Steady state of a scene, refined until its end forces are accurate.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    settings : SolverSettings, optional
-        Accuracy and tolerances.
-    on_failure : str
-        ``return`` a FailedSolution, or ``raise`` a SolveError.
-
-    Returns
-    -------
-    Solution or FailedSolution
-        The error of each end pull is estimated from two meshes. If the finest mesh
-        does not reach the accuracy asked for, the error says so.
-
-    Raises
-    ------
-    SolveError
-        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
-
-    Verified by
-    -----------
-    tests/coupling/steady/test_rounds.py, tests/verification/test_reference_scene.py
-    """
-    try:
-        return _solve(scene, settings or SolverSettings())
-    except SolveError as failure:
-        if on_failure == "raise":
-            raise
-        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
-
-
-def find_end_pulls(
-    scene: Scene, size: MeshSize, settings: SolverSettings
-) -> tuple[Floats, Floats]:
-    """Pulls at foot and head on one mesh, of unknown error.
-
-    A benchmark compares them with the truth; a check takes ``solve_steady``.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    size : MeshSize
-        Of the one mesh.
-    settings : SolverSettings
-        Accuracy and tolerances.
-
-    Returns
-    -------
-    ndarray, ndarray, shape (2,)
-        [N/m].
-
-    Raises
-    ------
-    SolveError
-        If the mesh gives no converged solution.
-    """
-    _, hanging = find_hanging(scene, size, settings)
-    cable = hanging.cable
-    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
-
-
-def find_hanging(
-    scene: Scene, size: MeshSize, settings: SolverSettings
-) -> tuple[SteadyProblem, Hanging]:
-    """Net at rest on one mesh, dimensionless: where a history may begin.
-
-    Parameters
-    ----------
-    scene : Scene
-        Snow, ground and net.
-    size : MeshSize
-        Of the one mesh.
-    settings : SolverSettings
-        Accuracy and tolerances.
-
-    Raises
-    ------
-    SolveError
-        If the mesh gives no converged solution.
-    """
-    problem = _build_problem(scene, _require_net(scene), size)
-    end, _ = _finish(_couple(problem, settings, None, is_first=True))
-    return problem, end.hanging
-
-
-def _require_net(scene: Scene) -> Net:
-    if not isinstance(scene.net, Net):
-        raise ModelError(say("steady.needs_net"))
-    return scene.net
-
-
-def _solve(scene: Scene, settings: SolverSettings) -> Solution:
-    """The scene; with a net that lets go if the snow would pull on it too much."""
-    try:
-        return _solve_as_given(scene, settings)
-    except SuctionError as refusal:
-        released = replace(scene, net_contact="one-sided")
-        try:
-            freed = _solve_as_given(released, settings)
-        except SolveError:
-            raise refusal from None
-        return _widen(replace(freed, is_released=True), refusal.held)
-
-
-def _widen(freed: Solution, held: Solution | None) -> Solution:
-    """Errors that reach to the net which holds on: pulls then do not jump by more."""
-    if held is None:
-        return freed
-    foot, head = (
-        replace(own, error=own.error + math.hypot(own.x - other.x, own.y - other.y))
-        for own, other in ((freed.foot, held.foot), (freed.head, held.head))
-    )
-    return replace(freed, foot=foot, head=head)
-
-
-def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
-    if start := _find_start(scene, settings):
-        with suppress(SolveError):  # then it is solved as any other
-            return _refine(scene, settings, start)
-    return _refine(scene, settings, None)
-
-
-def _refine(scene: Scene, settings: SolverSettings, start: _Coupled | None) -> Solution:
-    states, estimates = _solve_levels(scene, settings, start)
-    solution = _build_solution(scene, states, [one.error for one in estimates])
-    try:
-        check_balance(
-            solution.balance,
-            settings.balance_tolerance,
-            friction_tolerance=settings.stress_tolerance,
-        )
-    except SuctionError as refusal:
-        refusal.held = solution
-        raise
-    return solution
-
-
-def _solve_levels(
-    scene: Scene, settings: SolverSettings, start: _Coupled | None
-) -> tuple[list[_Coupled], list[Estimate]]:
-    """Meshes until two agree; those before the one that fails, if they are two."""
-    net = _require_net(scene)
-    solved: dict[MeshSize, _Coupled] = {}
-
-    def solve(size: MeshSize, coarse: _Coupled | None) -> _Coupled:
-        if size not in solved:
-            problem = _build_problem(scene, net, size)
-            solved[size] = _couple(
-                problem, settings, coarse or start, is_first=coarse is None
-            )
-            _require_pressure(solved[size])
-        return solved[size]
-
-    def run(levels: Sequence[MeshSize]) -> tuple[list[_Coupled], list[Estimate]]:
-        return refine(
-            levels,
-            solve,
-            lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
-            settings.accuracy,
-            STEADY_ERROR,
-            lambda end: measure_looseness(end.state.contact),
+    @classmethod
+    def of_round(
+        cls,
+        problem: SteadyProblem,
+        last: Round,
+        tangent: Floats | None,
+        pull_gain: float,
+        linear_solves: int,
+        rounds: int,
+    ) -> Coupled:
+        """What the last round left."""
+        return cls(
+            problem=problem,
+            mesh=last.mesh,
+            state=last.flow.state,
+            hanging=last.hanging,
+            tangent=tangent,
+            pull_gain=pull_gain,
+            linear_solves=linear_solves,
+            rounds=rounds,
         )
 
-    try:
-        return run(settings.levels)
-    except SolveError as failure:
-        # what a finer mesh finds outside of the model, coarser ones do not prove
-        if len(solved) < 2 or failure.outcome is Outcome.OUT_OF_VALIDITY:
-            raise
-        return run(settings.levels[: len(solved)])
 
-
-def _require_pressure(end: _Coupled) -> None:
-    """Leave a net that finer meshes will not press against the snow either.
-
-    Raises
-    ------
-    SuctionError
-        With some margin: the finest mesh decides.
-    """
-    on_net = share_net_forces(end.problem.snow, end.mesh, end.state.reaction)
-    suction = measure_suction(end.mesh, on_net)
-    if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
-        raise SuctionError(suction)
-
-
-def _find_start(scene: Scene, settings: SolverSettings) -> _Coupled | None:
-    """State that the first mesh starts from; None if there is none."""
-    if not settings.shares_start:
-        return None
-    net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
-    return _find_stuck(replace(scene, net=net), settings)
-
-
-@lru_cache(maxsize=1)
-def _find_stuck(scene: Scene, settings: SolverSettings) -> _Coupled | None:
-    """First mesh of a scene whose snow sticks to its net; None without a solution.
-
-    Scenes in turn that differ in friction only have it in common. Each ends the same
-    whether this was known or not.
-    """
-    problem = _build_problem(scene, _require_net(scene), settings.levels[0])
-    try:
-        return _couple(problem, settings, None, is_first=True)
-    except SolveError:
-        return None
-
-
-def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
-    thickness = scene.snowpack.thickness
-    return SteadyProblem(
-        snow=scene.steady_flow_problem,
-        template=build_template(scene.modelled_aspect, size, scene.layer_tops),
-        head=net.head / thickness,
-        length=net.unstressed_length / thickness,
-        slack=net.slack,
-        stiffness=net.stiffness_per_m / scene.force_scale,
-    )
-
-
-def _couple(
+def couple(
     problem: SteadyProblem,
     settings: SolverSettings,
-    guess: _Coupled | None,
+    guess: Coupled | None,
     *,
     is_first: bool = False,
-) -> _Coupled:
-    """Rounds of flow and net until neither moves the other."""
-    hanging = guess.hanging if guess is not None else start_hanging(problem)
-    curve = _start_curve(problem, hanging, guess)
+) -> Coupled:
+    """Rounds of flow and net until neither moves the other.
+
+    Parameters
+    ----------
+    problem : SteadyProblem
+        Snow and net on one mesh.
+    settings : SolverSettings
+        Tolerances, and how many rounds at most.
+    guess : Coupled or None
+        Where to start: the same or a like scene on this or on a coarser mesh.
+    is_first : bool
+        A coarsest mesh, which is only compared with the next.
+
+    Raises
+    ------
+    SolveError
+        If the rounds do not end, or one of them has no solution.
+    """
+    start = guess.hanging if guess is not None else start_hanging(problem)
+    curve = _start_curve(problem, start, guess)
     tolerance, still = _choose_tolerances(settings, is_first=is_first)
     allowed = settings.patience * _allow_solves(problem)
     played: list[Round] = []
     correction: Correction | None = None
-    was_slow = guess is not None and guess.tangent is not None
+    corrects = guess is not None and guess.tangent is not None
     carried = _carry(problem, guess)
-    moved, solves, tried = 1.0 if guess is None else _REFINED, 0, 0
+    solves = tried = 0
     while tried < settings.max_rounds and solves <= allowed:
         tried += 1
+        moved = _measure_movement(played, guess)
         inner = _choose_inner(tolerance, moved, is_corrected=correction is not None)
         try:
-            curve, mesh = _place_between(problem, played, curve)
-            state = _start_state(guess, played, mesh)
-            flow = _flow_along(problem, mesh, state, settings, inner)
-            now = _hang_round(problem, hanging, curve, mesh, flow)
+            now = _play_round(problem, settings, guess, start, played, curve, inner)
         except SolveError:
             if correction is None or not correction.may_halve:
                 raise
@@ -375,34 +154,53 @@ def _couple(
             curve, solves = correction.target, solves + _FAILED_FLOW
             continue
         played.append(now)
-        hanging = now.hanging
-        moved, solves = now.moved, solves + now.flow.linear_solves
-        is_still = moved < still and now.flow.change < tolerance
+        solves += now.flow.linear_solves
+        is_still = now.moved < still and now.flow.change < tolerance
         if is_still and _has_settled(problem, played, guess, _SETTLED * still):
-            return _Coupled(
-                problem=problem,
-                mesh=now.mesh,
-                state=now.flow.state,
-                hanging=now.hanging,
-                tangent=correction.tangent if correction else carried,
-                pull_gain=_measure_gain(problem, played, guess),
-                linear_solves=solves,
-                rounds=tried,
-            )
+            tangent = correction.tangent if correction else carried
+            gain = _measure_gain(problem, played, guess)
+            return Coupled.of_round(problem, now, tangent, gain, solves, tried)
         # a net that is still, whose pulls are not, is worth no derivative
-        is_slow = not is_still and _is_slow(played)
-        if correction or was_slow or is_slow:
+        corrects = corrects or (not is_still and _is_slow(played))
+        if corrects:
             correction = correct_round(problem, now, correction, carried)
             curve, carried = correction.target, None
         else:
-            curve = mix_anderson(
-                [one.curve for one in played], [one.image for one in played]
-            )
-    raise _fail(
-        problem,
-        Outcome.MAX_ITERATIONS,
-        say("steady.still_moves", moved=float(moved), rounds=tried),
-    )
+            curve = _mix(played)
+    left = float(_measure_movement(played, guess))
+    what = say("steady.still_moves", moved=left, rounds=tried)
+    raise _fail(problem, Outcome.MAX_ITERATIONS, what)
+
+
+def _play_round(
+    problem: SteadyProblem,
+    settings: SolverSettings,
+    guess: Coupled | None,
+    start: Hanging,
+    played: Sequence[Round],
+    wanted: Floats,
+    tolerance: float,
+) -> Round:
+    """Flow along the wanted curve or near it, and the net under its forces."""
+    curve, mesh = _place_between(problem, played, wanted)
+    state = _start_state(guess, played, mesh)
+    flow = _flow_along(problem, mesh, state, settings, tolerance)
+    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
+    hanging = hang_again(problem, played[-1].hanging if played else start, on_net)
+    image = find_contact_curve(problem, hanging)
+    return Round(curve=curve, mesh=mesh, flow=flow, hanging=hanging, image=image)
+
+
+def _mix(played: Sequence[Round]) -> Floats:
+    """Next curve by what the rounds before found, shape (2, n_net) [thickness]."""
+    return mix_anderson([one.curve for one in played], [one.image for one in played])
+
+
+def _measure_movement(played: Sequence[Round], guess: Coupled | None) -> float:
+    """How far the last round moved the net; before the first, how far it may."""
+    if played:
+        return played[-1].moved
+    return 1.0 if guess is None else _REFINED
 
 
 def _allow_solves(problem: SteadyProblem) -> float:
@@ -414,7 +212,7 @@ def _allow_solves(problem: SteadyProblem) -> float:
 def _has_settled(
     problem: SteadyProblem,
     played: Sequence[Round],
-    guess: _Coupled | None,
+    guess: Coupled | None,
     allowed: float,
 ) -> bool:
     """Pulls of layered snow on the net change by a small share in a round.
@@ -440,11 +238,11 @@ def _change_pulls(before: Round, now: Round) -> float:
 
 
 def _measure_gain(
-    problem: SteadyProblem, played: Sequence[Round], guess: _Coupled | None
+    problem: SteadyProblem, played: Sequence[Round], guess: Coupled | None
 ) -> float:
     """Largest relative change of pulls over that of the net, on the meshes so far."""
     if not problem.is_layered:
-        return math.inf  # is not asked for
+        return math.inf  # not calm: no derivative goes on to a finer mesh
     gains = [
         _change_pulls(before, now) / float(np.abs(now.curve - before.curve).max())
         for before, now in pairwise(played)
@@ -452,7 +250,7 @@ def _measure_gain(
     return max([guess.pull_gain if guess else 0.0, *gains])
 
 
-def _carry(problem: SteadyProblem, guess: _Coupled | None) -> Floats | None:
+def _carry(problem: SteadyProblem, guess: Coupled | None) -> Floats | None:
     """Derivative of a round as the coarser mesh knew it; None if it will not do."""
     if guess is None or guess.tangent is None or guess.pull_gain > _CALM:
         return None
@@ -462,7 +260,7 @@ def _carry(problem: SteadyProblem, guess: _Coupled | None) -> Floats | None:
 
 
 def _start_state(
-    guess: _Coupled | None, played: Sequence[Round], mesh: PlacedMesh
+    guess: Coupled | None, played: Sequence[Round], mesh: PlacedMesh
 ) -> FlowState | None:
     """State that the flow of a round starts from; None if there is none."""
     if played:
@@ -470,20 +268,6 @@ def _start_state(
     if guess is not None:
         return transfer_state(guess.state, guess.mesh, mesh)
     return None
-
-
-def _hang_round(
-    problem: SteadyProblem,
-    hanging: Hanging,
-    curve: Floats,
-    mesh: PlacedMesh,
-    flow: FlowResult,
-) -> Round:
-    """The net under the forces of a flow."""
-    on_net = share_net_forces(problem.snow, mesh, flow.state.reaction)
-    found = hang_again(problem, hanging, on_net)
-    image = find_contact_curve(problem, found)
-    return Round(curve=curve, mesh=mesh, flow=flow, hanging=found, image=image)
 
 
 def _choose_inner(tolerance: float, moved: float, *, is_corrected: bool) -> float:
@@ -583,8 +367,9 @@ def _place(problem: SteadyProblem, curve: Floats) -> PlacedMesh:
 
 
 def _start_curve(
-    problem: SteadyProblem, hanging: Hanging, guess: _Coupled | None
+    problem: SteadyProblem, hanging: Hanging, guess: Coupled | None
 ) -> Floats:
+    """Curve of the first round, shape (2, n_net) [thickness]."""
     if guess is None:
         return find_contact_curve(problem, hanging)
     curve = find_contact_curve(guess.problem, hanging)
@@ -592,52 +377,3 @@ def _start_curve(
     wanted = locate_nodes(problem.template, hanging)
     # between its nodes as smooth as the net is, which a polygon is not
     return interpolate_curve(known, curve, wanted)
-
-
-def _finish(end: _Coupled) -> tuple[_Coupled, SupportForces]:
-    """Forces from the stresses alone, and the net that hangs under these."""
-    state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
-    hanging = hang_again(end.problem, end.hanging, forces.on_net)
-    return replace(end, state=state, hanging=hanging), forces
-
-
-def _build_solution(
-    scene: Scene, states: Sequence[_Coupled], errors: Sequence[float]
-) -> Solution:
-    """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
-    end, forces = _finish(states[-1])
-    thickness, scale = scene.snowpack.thickness, scene.force_scale
-    cable, mesh, snow = end.hanging.cable, end.mesh, end.problem.snow
-    foot, head = (
-        EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
-        for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
-    )
-    along = end.problem.head / np.hypot(*end.problem.head)
-    offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
-    tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
-    held = cable.foot_pull + cable.head_pull
-    return Solution(
-        scene=scene,
-        method="steady",
-        foot=foot,
-        head=head,
-        tension_min=min(tensions),
-        tension_max=max(tensions),
-        sag=float(offsets.max()) * thickness,
-        net_curve=cable.curve * thickness,
-        net_forces=forces.on_net * scale,
-        net_slides=np.append(False, end.state.contact.sign != 0),
-        mesh_nodes=mesh.nodes * thickness,
-        mesh_edges=mesh.template.edges,
-        mesh_triangles=mesh.template.triangles[:3],
-        mesh_density=triangle_density(scene, mesh.template),
-        largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
-        balance=measure_balance(snow, mesh, forces, held, cable.tension, scale),
-        cost=Cost(
-            linear_solves=sum(state.linear_solves for state in states),
-            rounds=sum(state.rounds for state in states),
-            elements=mesh.template.triangles.shape[1],
-            degrees_of_freedom=mesh.n_dofs,
-            skipped=list_skipped(scene, mesh),
-        ),
-    )

@@ -17,7 +17,7 @@ from typing import Any
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rounds import find_end_pulls, solve_steady
+from netdesign.coupling.steady.solve import find_end_pulls, solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables

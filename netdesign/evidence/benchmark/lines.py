@@ -20,7 +20,7 @@ import numpy as np
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.evidence.benchmark.random_scenes import (
     DENSITY_KG_M3,

@@ -27,7 +27,7 @@ from netdesign.coupling.history.transient import (
 )
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import reference_path
 from netdesign.evidence.benchmark.rows import Method, Path, Row

@@ -25,7 +25,7 @@ from netdesign.snow.forms import (
     assemble_tangent_form,
     build_basis,
 )
-from netdesign.snow.kernel import PlacedMesh, assemble_end_load
+from netdesign.snow.kernel import assemble_end_load
 from netdesign.snow.law import (
     FlowProblem,
     Material,
@@ -34,6 +34,7 @@ from netdesign.snow.law import (
     linearise_creep,
     linearise_sliding,
 )
+from netdesign.snow.placed_mesh import PlacedMesh
 
 _BASE_DEGREE = 7  # four Gauss points an edge, as the kernel
 

@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import Tables, draw_scene
 from netdesign.evidence.benchmark.spread import spread

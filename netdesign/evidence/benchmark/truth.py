@@ -11,7 +11,7 @@ from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import EndPull, FailedSolution, Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshSize, build_template

@@ -18,7 +18,7 @@ from netdesign.coupling.history.transient import (
 from netdesign.coupling.moments import History
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.paper.cases import PaperCase, PaperSettings, horizon_of
 from netdesign.numerics.arrays import Floats, Ints

@@ -18,9 +18,10 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
     compute_strain_rate,
 )
-from netdesign.snow.kernel import build_placed_mesh, interpolate
+from netdesign.snow.kernel import interpolate
 from netdesign.snow.law import FlowLayer, FlowProblem
 from netdesign.snow.mesh import place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.units import SECONDS_PER_YEAR, fluidity_from_mpa_year
 
 _ROUNDING = 1e-12

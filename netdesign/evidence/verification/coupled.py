@@ -12,7 +12,7 @@ from netdesign.coupling.interface import compute_support_forces
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution, WallSolution
 from netdesign.coupling.steady.rigid import solve_rigid
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import (
     Kind,
@@ -22,9 +22,10 @@ from netdesign.evidence.verification.case import (
 )
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.ground import GroundKind, GroundLaw
-from netdesign.snow.kernel import assemble_stress, build_placed_mesh
+from netdesign.snow.kernel import assemble_stress
 from netdesign.snow.law import FlowProblem
 from netdesign.snow.mesh import MeshSize, build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
 from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
 from netdesign.snow.wall import Wall
 

@@ -16,7 +16,7 @@ from netdesign.coupling.history.transient import (
 from netdesign.coupling.moments import HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.coupled import build_scene
 from netdesign.numerics.arrays import Floats

@@ -15,9 +15,11 @@ import numpy as np
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.prescribed import PrescribedFlow, solve_prescribed
 from netdesign.numerics.arrays import Floats
-from netdesign.snow.kernel import Element, PlacedMesh, build_placed_mesh, interpolate
+from netdesign.snow.element import Element
+from netdesign.snow.kernel import interpolate
 from netdesign.snow.law import FlowLayer, FlowProblem
 from netdesign.snow.mesh import MeshTemplate, place_nodes, triangulate
+from netdesign.snow.placed_mesh import PlacedMesh, build_placed_mesh
 
 Vector = tuple[Any, Any, Any]  # (xx, yy, xy)
 

@@ -10,7 +10,7 @@ import numpy as np
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.net_in_space import solve_net_in_space

@@ -46,52 +46,55 @@ def list_plan_view() -> list[VerificationCase]:
 
 
 def _list_limits() -> list[VerificationCase]:
-    wide = solve_free_gap(_WIDE)
     near = np.array([0.3])
     mast = math.pi / (math.log(4.0 / _SMALL) - np.euler_gamma)
-    limits = {
-        "gap-narrow": (
-            _SMALL * (1.0 - math.pi * _SMALL / 4.0),
-            solve_free_gap(_SMALL).excess,
-            "endless wall: half the gap less half an ellipse of velocity",
-            1e-5,
-        ),
-        "gap-wide-load": (
-            float(find_isolated_load(near)[0]),
-            float(find_load(wide, near)[0]),
-            "Wiener and Hopf: load beside the end of a half plane",
-            1e-5,
-        ),
-        "gap-wide-pulled": (
-            0.25 + math.sqrt(0.5),
-            solve_pulled_gap(_WIDE).excess,
-            "wedge of four right angles, Kontorovich and Lebedev",
-            2e-5,
-        ),
-        "row-mast": (
-            mast,
-            solve_row(_SMALL).total,
-            "mast: flat strip much narrower than l_z",
-            1e-5,
-        ),
-        "row-long": (
-            2.0 * _WIDE + 1.0,
-            solve_row(_WIDE).total,
-            "Wiener and Hopf: endless wall and two ends",
-            1e-6,
-        ),
-    }
     return [
-        VerificationCase(
-            id=f"plan-{name}",
-            kind="limit",
-            reference=reference,
-            expected=expected,
-            got=got,
-            tolerance=tolerance,
-        )
-        for name, (expected, got, reference, tolerance) in limits.items()
+        _compare_limit(
+            "endless wall: half the gap less half an ellipse of velocity",
+            name="gap-narrow",
+            expected=_SMALL * (1.0 - math.pi * _SMALL / 4.0),
+            got=solve_free_gap(_SMALL).excess,
+        ),
+        _compare_limit(
+            "Wiener and Hopf: load beside the end of a half plane",
+            name="gap-wide-load",
+            expected=float(find_isolated_load(near)[0]),
+            got=float(find_load(solve_free_gap(_WIDE), near)[0]),
+        ),
+        _compare_limit(
+            "wedge of four right angles, Kontorovich and Lebedev",
+            name="gap-wide-pulled",
+            expected=0.25 + math.sqrt(0.5),
+            got=solve_pulled_gap(_WIDE).excess,
+            tolerance=2e-5,
+        ),
+        _compare_limit(
+            "mast: flat strip much narrower than l_z",
+            name="row-mast",
+            expected=mast,
+            got=solve_row(_SMALL).total,
+        ),
+        _compare_limit(
+            "Wiener and Hopf: endless wall and two ends",
+            name="row-long",
+            expected=2.0 * _WIDE + 1.0,
+            got=solve_row(_WIDE).total,
+            tolerance=1e-6,
+        ),
     ]
+
+
+def _compare_limit(
+    reference: str, *, name: str, expected: float, got: float, tolerance: float = 1e-5
+) -> VerificationCase:
+    return VerificationCase(
+        id=f"plan-{name}",
+        kind="limit",
+        reference=reference,
+        expected=expected,
+        got=got,
+        tolerance=tolerance,
+    )
 
 
 def build_block(slip: float, gap: float, *, is_rough: bool) -> Block:

@@ -11,7 +11,6 @@ from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.kernel import (
-    PlacedMesh,
     assemble_body_force,
     assemble_stiffness,
     assemble_stress,
@@ -24,6 +23,7 @@ from netdesign.snow.law import (
     sample_material,
     squared_invariant,
 )
+from netdesign.snow.placed_mesh import PlacedMesh
 
 _LARGEST_ITERATIONS = 60
 _TOLERANCE = 1e-9

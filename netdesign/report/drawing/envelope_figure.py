@@ -9,13 +9,7 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.tables import list_loaded
-from netdesign.report.words import (
-    ENGLISH,
-    Words,
-    name_heading,
-    show_given,
-    show_number,
-)
+from netdesign.report.words import ENGLISH, Words, name_heading, show_given, show_number
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.records import RowStudy
 

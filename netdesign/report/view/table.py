@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from netdesign.report.words import (
     MISSING,
     Words,
     name_heading,
+    show_digits,
     show_given,
     show_number,
     show_share,
@@ -65,6 +66,12 @@ def name_columns(
     return tuple(Column(heading=h, is_number=h in numbers) for h in headings)
 
 
+def symbol_columns(fields: Iterable[tuple[str, str]]) -> tuple[Column, ...]:
+    """Columns of numbers from pairs of key and heading, which is a symbol."""
+    headings = [heading for _, heading in fields]
+    return name_columns(headings, numbers=headings)
+
+
 def text_cell(text: str) -> Cell:
     """Text on one line, never empty."""
     return Cell(text=show_text(text))
@@ -85,3 +92,13 @@ def given_cell(value: float | str) -> Cell:
     if isinstance(value, str):
         return text_cell(value)
     return Cell(text=show_given(value), number=value)
+
+
+def digits_cell(value: float | None) -> Cell:
+    """Number to six digits; "-" for none."""
+    return text_cell(MISSING) if value is None else given_cell(value)
+
+
+def short_cell(value: float | None) -> Cell:
+    """Number to five digits, in tables of many columns."""
+    return Cell(text=show_digits(value), number=value)

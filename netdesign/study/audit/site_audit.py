@@ -15,7 +15,8 @@ from netdesign.site.model import NetRow, Resistance, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CREEP_LAWS, CreepLaw
 from netdesign.structure.members import ROPE_OF, EndMember, Member
 from netdesign.structure.row_position import LoadedWidth, Position
-from netdesign.study.audit.check_audit import is_held_back, list_bringing
+from netdesign.study.audit.action_audit import list_bringing
+from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import (
     Pair,
     is_of_steady_states,
@@ -66,10 +67,7 @@ from netdesign.study.sideways import (
     find_lack,
 )
 from netdesign.study.values import compare_values
-from netdesign.units import (
-    degree_from_radian,
-    newton_from_kilonewton,
-)
+from netdesign.units import degree_from_radian, newton_from_kilonewton
 from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
@@ -170,21 +168,8 @@ def _audit_judgement(
     effects = find_effects(given, standard, basis.site.ranges)
     floor = find_row_floor(given, basis.site.ranges, standard)
     pulls = read_pulls(given, row.pulls)
-    members = []
-    for check, (width, one) in zip(
-        row.checks, list_checked(given, effects), strict=False
-    ):
-        known = Circumstances(
-            row=given,
-            ranges=basis.site.ranges,
-            standard=standard,
-            pull=find_pull(pulls, one.member, width.position),
-            pressing=_find_pressing(check),
-        )
-        settled = settle_resistance(one, known)
-        members.append(_judge_again(row, check, width, settled, basis))
     expected = [
-        *members,
+        *_expect_members(row, pulls, effects, basis),
         *_expect_end(row, effects, basis),
         *_expect_directions(row, pulls, basis),
         *record_geometry(basis.site, given, standard),
@@ -196,19 +181,57 @@ def _audit_judgement(
     place = say("audit.row", row=row.id)
     for found in compare_values(stored, again)[:_MOST]:
         yield say("audit.judged_otherwise", place=place, value=found.message)
-    notes = [
-        *list_row_notes(given, effects, pulls),
-        *list_end_notes(given, basis.site.ranges, basis.law, effects),
-        *list_test_notes(row.checks, standard),
-        *list_case_notes(row.cases),
-    ]
     yield from _audit_pulls(row, given, effects.lateral_share)
+    notes = _list_notes(row, pulls, effects, basis)
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     for found in compare_values(shown, notes)[:_MOST]:
         yield say("audit.other_notes", place=place, value=found.message)
     for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
         yield say("audit.other_floor", place=place, value=found.message)
+    yield from _audit_actions(row, effects, floor, basis)
+    yield from _audit_guideline(row, given)
+    yield from _audit_slab(row, given, basis.law)
+
+
+def _expect_members(
+    row: RowStudy, pulls: Sequence[AnchorPull], effects: RowEffects, basis: _Basis
+) -> list[CheckRecord]:
+    """Checks of the members of each support, from the actions that are stored."""
+    given, members = basis.row, []
+    for check, (width, one) in zip(
+        row.checks, list_checked(given, effects), strict=False
+    ):
+        known = Circumstances(
+            row=given,
+            ranges=basis.site.ranges,
+            standard=basis.standard,
+            pull=find_pull(pulls, one.member, width.position),
+            pressing=_find_pressing(check),
+        )
+        settled = settle_resistance(one, known)
+        members.append(_judge_again(row, check, width, settled, basis))
+    return members
+
+
+def _list_notes(
+    row: RowStudy, pulls: Sequence[AnchorPull], effects: RowEffects, basis: _Basis
+) -> list[Message]:
+    """Notes of a row, but for those on histories."""
+    given = basis.row
+    return [
+        *list_row_notes(given, effects, pulls),
+        *list_end_notes(given, basis.site.ranges, basis.law, effects),
+        *list_test_notes(row.checks, basis.standard),
+        *list_case_notes(row.cases),
+    ]
+
+
+def _audit_actions(
+    row: RowStudy, effects: RowEffects, floor: Floor | None, basis: _Basis
+) -> Iterator[Message]:
+    """Way of each check from its solved force to that on the support."""
+    given, place = basis.row, say("audit.row", row=row.id)
     for check in row.checks:
         if check.member in ROPE_OF:
             yield from _audit_end_share(check, given, place)
@@ -218,8 +241,6 @@ def _audit_judgement(
             for found in compare_values(check.action, action):
                 where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
-    yield from _audit_guideline(row, given)
-    yield from _audit_slab(row, given, basis.law)
 
 
 def _expect_end(row: RowStudy, effects: RowEffects, basis: _Basis) -> list[CheckRecord]:

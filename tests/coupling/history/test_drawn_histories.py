@@ -19,7 +19,7 @@ from netdesign.coupling.history.transient import (
 )
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene

@@ -8,7 +8,7 @@ from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
 from netdesign.coupling.steady import bound
 from netdesign.coupling.steady.bound import bound_by_less_slack
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.evidence.benchmark.random_scenes import draw_scene
 from netdesign.evidence.benchmark.scenes import build_tables

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from netdesign.coupling.scene import Scene, SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import lines
 from netdesign.evidence.benchmark.lines import (

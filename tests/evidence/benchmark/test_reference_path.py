@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.benchmark import reference_path
 from netdesign.evidence.benchmark.scenes import SCENES, build_tables
 

@@ -8,7 +8,7 @@ import pytest
 from netdesign.coupling.balance import SuctionError
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.benchmark import truth as truths
 from netdesign.evidence.benchmark.truth import (

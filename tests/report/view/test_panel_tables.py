@@ -8,8 +8,8 @@ import pytest
 
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.html import list_sections, render_html
+from netdesign.report.view.demand_steps import describe_load, describe_widths
 from netdesign.report.view.panel_tables import view_panel
-from netdesign.report.view.row_tables import describe_load, describe_widths
 from netdesign.report.view.whole import build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.excel import render_workbook
@@ -118,10 +118,10 @@ def test_arrows_are_to_one_scale(study):
     tips = [tuple(map(float, one.split()[0].split(","))) for one in heads]
     (left, top), (inner, _) = tips[0], tips[2]
     at_end = panel.drawing.lower_along_kN
-    reach = left - 120.0
-    assert reach == pytest.approx(78.0, abs=0.2)
+    reach = left - 130.0
+    assert reach == pytest.approx(58.0, abs=0.2)
     assert at_end == max(panel.drawing.lower_along_kN, panel.drawing.upper_along_kN)
-    assert inner == pytest.approx(375.0, abs=0.2)
+    assert inner == pytest.approx(330.0, abs=0.2)
     assert (
         f"{math.hypot(at_end, math.hypot(*panel.drawing.foot_kN) / 2):.1f}" in drawing
     )

@@ -9,6 +9,7 @@ from rich.console import Console
 from netdesign.outcome import Verdict
 from netdesign.report.page.html import render_html
 from netdesign.report.terminal import print_changes
+from netdesign.report.view.demand_steps import describe_widths
 from netdesign.report.view.row_tables import (
     build_anchors,
     build_changes,
@@ -16,7 +17,6 @@ from netdesign.report.view.row_tables import (
     build_head,
     build_spreads,
     describe_change,
-    describe_widths,
 )
 from netdesign.report.words import ENGLISH, Words
 from netdesign.study.flips import CLOSE

@@ -9,13 +9,13 @@ from netdesign.coupling import interface
 from netdesign.coupling.refine import STEADY_ERROR
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution, Solution
-from netdesign.coupling.steady import hanging
-from netdesign.coupling.steady import rounds as steady
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady import hanging, rounds
+from netdesign.coupling.steady import solve as steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.snow import flow
-from netdesign.snow.kernel import PlacedMesh
+from netdesign.snow.placed_mesh import PlacedMesh
 
 COARSE = SolverSettings(
     accuracy=0.1,
@@ -121,8 +121,8 @@ def test_stress_that_is_not_in_equilibrium(a_scene, monkeypatch):
         state = replace(result.state, stress=result.state.stress + noise)
         return replace(result, state=state)
 
-    solve = steady.solve_flow
-    monkeypatch.setattr(steady, "solve_flow", disturb)
+    solve = rounds.solve_flow
+    monkeypatch.setattr(rounds, "solve_flow", disturb)
     monkeypatch.setattr(interface, "remove_rounding", lambda _, __, state: state)
     settings = replace(COARSE, shape_tolerance=1e-4)
     result = solve_steady(a_scene(), settings)
@@ -426,7 +426,7 @@ def test_patience_gives_rounds_more_work(a_scene):
     with pytest.raises(SolveError, match="the net still moves"):
         solve_steady(scene, hasty, on_failure="raise")
     found = solve_steady(scene, replace(hasty, patience=1.0), on_failure="raise")
-    assert found.cost.linear_solves > 0.6 * steady._LEAST_WORK
+    assert found.cost.linear_solves > 0.6 * rounds._LEAST_WORK
 
 
 def test_failure_names_what_leaves_no_steady_state(a_scene):

@@ -1,0 +1,331 @@
+"""The steady state: snow that flows along a net at rest, and the net it shapes.
+
+Rounds of flow and net (``rounds``) on meshes refined until the end forces are accurate
+enough. Theory: coupling/THEORY.md. Dimensionless inside: lengths in snow thicknesses d,
+forces per metre of width in rho g d^2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+
+from netdesign.cable.net import LARGEST_FRICTION_ANGLE, Net
+from netdesign.coupling.balance import (
+    LARGEST_SUCTION,
+    SuctionError,
+    check_balance,
+    measure_balance,
+    measure_suction,
+)
+from netdesign.coupling.interface import (
+    SupportForces,
+    find_support_forces,
+    measure_looseness,
+    share_net_forces,
+)
+from netdesign.coupling.refine import STEADY_ERROR, Estimate, refine
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.solution import (
+    Cost,
+    EndPull,
+    FailedSolution,
+    Solution,
+    list_skipped,
+    triangle_density,
+)
+from netdesign.coupling.steady.hanging import Hanging, SteadyProblem, hang_again
+from netdesign.coupling.steady.rounds import Coupled, couple
+from netdesign.errors import ModelError, SolveError
+from netdesign.numerics.arrays import Floats
+from netdesign.outcome import Outcome
+from netdesign.snow.mesh import MeshSize, build_template
+from netdesign.words.message import say
+
+# Share of suction, over the largest accepted, that no finer mesh takes back.
+_HOPELESS_SUCTION = 2.0
+
+
+def solve_steady(
+    scene: Scene,
+    settings: SolverSettings | None = None,
+    *,
+    on_failure: Literal["return", "raise"] = "return",
+) -> Solution | FailedSolution:
+    """Steady state of a scene, refined until its end forces are accurate.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    settings : SolverSettings, optional
+        Accuracy and tolerances.
+    on_failure : str
+        ``return`` a FailedSolution, or ``raise`` a SolveError.
+
+    Returns
+    -------
+    Solution or FailedSolution
+        The error of each end pull is estimated from two meshes. If the finest mesh
+        does not reach the accuracy asked for, the error says so.
+
+    Raises
+    ------
+    SolveError
+        For what else is a FailedSolution, if ``on_failure`` is ``raise``.
+
+    Verified by
+    -----------
+    tests/coupling/steady/test_solve.py, tests/verification/test_reference_scene.py
+    """
+    try:
+        return _solve(scene, settings or SolverSettings())
+    except SolveError as failure:
+        if on_failure == "raise":
+            raise
+        return FailedSolution(outcome=failure.outcome, reason=failure.reason)
+
+
+def find_end_pulls(
+    scene: Scene, size: MeshSize, settings: SolverSettings
+) -> tuple[Floats, Floats]:
+    """Pulls at foot and head on one mesh, of unknown error.
+
+    A benchmark compares them with the truth; a check takes ``solve_steady``.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
+
+    Returns
+    -------
+    ndarray, ndarray, shape (2,)
+        [N/m].
+
+    Raises
+    ------
+    SolveError
+        If the mesh gives no converged solution.
+    """
+    _, hanging = find_hanging(scene, size, settings)
+    cable = hanging.cable
+    return cable.foot_pull * scene.force_scale, cable.head_pull * scene.force_scale
+
+
+def find_hanging(
+    scene: Scene, size: MeshSize, settings: SolverSettings
+) -> tuple[SteadyProblem, Hanging]:
+    """Net at rest on one mesh, dimensionless: where a history may begin.
+
+    Parameters
+    ----------
+    scene : Scene
+        Snow, ground and net.
+    size : MeshSize
+        Of the one mesh.
+    settings : SolverSettings
+        Accuracy and tolerances.
+
+    Raises
+    ------
+    SolveError
+        If the mesh gives no converged solution.
+    """
+    problem = _build_problem(scene, _require_net(scene), size)
+    end, _ = _finish(couple(problem, settings, None, is_first=True))
+    return problem, end.hanging
+
+
+def _require_net(scene: Scene) -> Net:
+    if not isinstance(scene.net, Net):
+        raise ModelError(say("steady.needs_net"))
+    return scene.net
+
+
+def _solve(scene: Scene, settings: SolverSettings) -> Solution:
+    """The scene; with a net that lets go if the snow would pull on it too much."""
+    try:
+        return _solve_as_given(scene, settings)
+    except SuctionError as refusal:
+        released = replace(scene, net_contact="one-sided")
+        try:
+            freed = _solve_as_given(released, settings)
+        except SolveError:
+            raise refusal from None
+        return _widen(replace(freed, is_released=True), refusal.held)
+
+
+def _widen(freed: Solution, held: Solution | None) -> Solution:
+    """Errors that reach to the net which holds on: pulls then do not jump by more."""
+    if held is None:
+        return freed
+    foot, head = (
+        replace(own, error=own.error + math.hypot(own.x - other.x, own.y - other.y))
+        for own, other in ((freed.foot, held.foot), (freed.head, held.head))
+    )
+    return replace(freed, foot=foot, head=head)
+
+
+def _solve_as_given(scene: Scene, settings: SolverSettings) -> Solution:
+    if start := _find_start(scene, settings):
+        with suppress(SolveError):  # then it is solved as any other
+            return _refine(scene, settings, start)
+    return _refine(scene, settings, None)
+
+
+def _refine(scene: Scene, settings: SolverSettings, start: Coupled | None) -> Solution:
+    states, estimates = _solve_levels(scene, settings, start)
+    solution = _build_solution(scene, states, [one.error for one in estimates])
+    try:
+        check_balance(
+            solution.balance,
+            settings.balance_tolerance,
+            friction_tolerance=settings.stress_tolerance,
+        )
+    except SuctionError as refusal:
+        refusal.held = solution
+        raise
+    return solution
+
+
+def _solve_levels(
+    scene: Scene, settings: SolverSettings, start: Coupled | None
+) -> tuple[list[Coupled], list[Estimate]]:
+    """Meshes until two agree; those before the one that fails, if they are two."""
+    net = _require_net(scene)
+    solved: dict[MeshSize, Coupled] = {}
+
+    def solve(size: MeshSize, coarse: Coupled | None) -> Coupled:
+        if size not in solved:
+            problem = _build_problem(scene, net, size)
+            solved[size] = couple(
+                problem, settings, coarse or start, is_first=coarse is None
+            )
+            _require_pressure(solved[size])
+        return solved[size]
+
+    def run(levels: Sequence[MeshSize]) -> tuple[list[Coupled], list[Estimate]]:
+        return refine(
+            levels,
+            solve,
+            lambda end: (end.hanging.cable.foot_pull, end.hanging.cable.head_pull),
+            settings.accuracy,
+            STEADY_ERROR,
+            lambda end: measure_looseness(end.state.contact),
+        )
+
+    try:
+        return run(settings.levels)
+    except SolveError as failure:
+        # what a finer mesh finds outside of the model, coarser ones do not prove
+        if len(solved) < 2 or failure.outcome is Outcome.OUT_OF_VALIDITY:
+            raise
+        return run(settings.levels[: len(solved)])
+
+
+def _require_pressure(end: Coupled) -> None:
+    """Leave a net that finer meshes will not press against the snow either.
+
+    Raises
+    ------
+    SuctionError
+        With some margin: the finest mesh decides.
+    """
+    on_net = share_net_forces(end.problem.snow, end.mesh, end.state.reaction)
+    suction = measure_suction(end.mesh, on_net)
+    if suction > _HOPELESS_SUCTION * LARGEST_SUCTION:
+        raise SuctionError(suction)
+
+
+def _find_start(scene: Scene, settings: SolverSettings) -> Coupled | None:
+    """State that the first mesh starts from; None if there is none."""
+    if not settings.shares_start:
+        return None
+    net = replace(_require_net(scene), friction_angle=LARGEST_FRICTION_ANGLE)
+    return _find_stuck(replace(scene, net=net), settings)
+
+
+@lru_cache(maxsize=1)
+def _find_stuck(scene: Scene, settings: SolverSettings) -> Coupled | None:
+    """First mesh of a scene whose snow sticks to its net; None without a solution.
+
+    Scenes in turn that differ in friction only have it in common. Each ends the same
+    whether this was known or not.
+    """
+    problem = _build_problem(scene, _require_net(scene), settings.levels[0])
+    try:
+        return couple(problem, settings, None, is_first=True)
+    except SolveError:
+        return None
+
+
+def _build_problem(scene: Scene, net: Net, size: MeshSize) -> SteadyProblem:
+    thickness = scene.snowpack.thickness
+    return SteadyProblem(
+        snow=scene.steady_flow_problem,
+        template=build_template(scene.modelled_aspect, size, scene.layer_tops),
+        head=net.head / thickness,
+        length=net.unstressed_length / thickness,
+        slack=net.slack,
+        stiffness=net.stiffness_per_m / scene.force_scale,
+    )
+
+
+def _finish(end: Coupled) -> tuple[Coupled, SupportForces]:
+    """Forces from the stresses alone, and the net that hangs under these."""
+    state, forces = find_support_forces(end.problem.snow, end.mesh, end.state)
+    hanging = hang_again(end.problem, end.hanging, forces.on_net)
+    return replace(end, state=state, hanging=hanging), forces
+
+
+def _build_solution(
+    scene: Scene, states: Sequence[Coupled], errors: Sequence[float]
+) -> Solution:
+    """Solution of the finest mesh; ``errors`` of its pulls at foot and head."""
+    end, forces = _finish(states[-1])
+    thickness, scale = scene.snowpack.thickness, scene.force_scale
+    cable, mesh, snow = end.hanging.cable, end.mesh, end.problem.snow
+    foot, head = (
+        EndPull.of_estimate(Estimate(vector=pull, error=error), scale)
+        for pull, error in zip((cable.foot_pull, cable.head_pull), errors, strict=True)
+    )
+    along = end.problem.head / np.hypot(*end.problem.head)
+    offsets = along[1] * cable.curve[0] - along[0] * cable.curve[1]
+    tensions = [*(cable.tension.ravel() * scale), foot.size, head.size]
+    held = cable.foot_pull + cable.head_pull
+    return Solution(
+        scene=scene,
+        method="steady",
+        foot=foot,
+        head=head,
+        tension_min=min(tensions),
+        tension_max=max(tensions),
+        sag=float(offsets.max()) * thickness,
+        net_curve=cable.curve * thickness,
+        net_forces=forces.on_net * scale,
+        net_slides=np.append(False, end.state.contact.sign != 0),
+        mesh_nodes=mesh.nodes * thickness,
+        mesh_edges=mesh.template.edges,
+        mesh_triangles=mesh.template.triangles[:3],
+        mesh_density=triangle_density(scene, mesh.template),
+        largest_velocity=end.state.largest_velocity(mesh) * scene.velocity_scale,
+        balance=measure_balance(snow, mesh, forces, held, cable.tension, scale),
+        cost=Cost(
+            linear_solves=sum(state.linear_solves for state in states),
+            rounds=sum(state.rounds for state in states),
+            elements=mesh.template.triangles.shape[1],
+            degrees_of_freedom=mesh.n_dofs,
+            skipped=list_skipped(scene, mesh),
+        ),
+    )

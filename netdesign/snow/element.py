@@ -1,0 +1,200 @@
+"""The element: six-node triangles, their shape functions, strains and unknowns.
+
+Unknowns are velocities, interleaved by node; then, in the mixed element, one pressure
+per vertex. Theory: snow/THEORY.md.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats, Ints
+from netdesign.snow.mesh import MeshTemplate
+
+# Degree of exactness: strain rates of straight triangles are linear, the creep law of
+# them is not. Three points a triangle; six (degree 4) move end forces by some 0.005 %,
+# at most 0.1 %, and not nearer to the truth.
+QUADRATURE_DEGREE = 2
+
+
+Element = Literal["velocity", "mixed"]
+
+
+def point_heights(template: MeshTemplate) -> Floats:
+    """Reference heights of the quadrature points.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points)
+        [thickness].
+    """
+    shape, _, _ = reference_element()
+    return np.asarray(template.nodes[1, template.triangles.T] @ shape.T)
+
+
+def interpolate_reference(template: MeshTemplate) -> Floats:
+    """Reference coordinates of the quadrature points.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray, shape (2, n_triangles, n_points)
+        (xi, eta) [thickness].
+    """
+    shape, _, _ = reference_element()
+    return np.asarray(template.nodes[:, template.triangles.T] @ shape.T)
+
+
+def map_gradients(template: MeshTemplate, nodes: Floats) -> tuple[Floats, Floats]:
+    """Shape gradients and area element of placed nodes.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    nodes : ndarray, shape (2, n_nodes)
+        Positions [thickness].
+
+    Returns
+    -------
+    ndarray, shape (2, n_triangles, n_points, 6)
+        Gradients of the shape functions [1 / thickness].
+    ndarray, shape (n_triangles, n_points)
+        Area element; not above 0 where a triangle is turned over.
+    """
+    _, reference, _ = reference_element()
+    corners = nodes[:, template.triangles]
+    jacobian = np.einsum("aie,ijq->ajeq", corners, reference)
+    determinant = jacobian[0, 0] * jacobian[1, 1] - jacobian[0, 1] * jacobian[1, 0]
+    inverse = np.array(
+        [[jacobian[1, 1], -jacobian[0, 1]], [-jacobian[1, 0], jacobian[0, 0]]]
+    )
+    inverse /= determinant
+    gradients = np.einsum("ijq,jaeq->aeqi", reference, inverse)
+    return gradients, determinant * template.orientation[:, None]
+
+
+def build_strain_operator(
+    template: MeshTemplate, gradients: Floats, axes: Floats
+) -> Floats:
+    """Strains per velocity.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    gradients : ndarray, shape (2, n_triangles, n_points, 6)
+        Of the shape functions [1 / thickness].
+    axes : ndarray, shape (2, n_nodes)
+        Cosine and sine of the first node axis [-].
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, 3, 12)
+        (xx, yy, xy) for each velocity component of a triangle.
+    """
+    d_dx, d_dy = gradients
+    operator = np.zeros((*d_dx.shape[:2], 3, 12))
+    operator[..., 0, ::2] = operator[..., 2, 1::2] = d_dx
+    operator[..., 1, 1::2] = operator[..., 2, ::2] = d_dy
+    on_net = _touch_net(template)
+    cosine, sine = axes[:, template.triangles.T[on_net]][:, :, None, None, :]
+    in_x, in_y = operator[on_net, :, :, ::2], operator[on_net, :, :, 1::2]
+    operator[on_net, :, :, ::2] = cosine * in_x + sine * in_y
+    operator[on_net, :, :, 1::2] = cosine * in_y - sine * in_x
+    return operator
+
+
+@lru_cache(maxsize=256)
+def _touch_net(template: MeshTemplate) -> Ints:
+    """Triangles with a node on the net, whose axes are turned."""
+    return np.flatnonzero(np.isin(template.triangles, template.net).any(axis=0))
+
+
+@lru_cache(maxsize=1)
+def reference_element() -> tuple[Floats, Floats, Floats]:
+    """Shape functions (n_points, 6), gradients (6, 2, n_points), weights."""
+    from skfem import ElementTriP2
+    from skfem.quadrature import get_quadrature
+
+    element = ElementTriP2()
+    points, weights = get_quadrature(element.refdom, QUADRATURE_DEGREE)
+    values, gradients = zip(*(element.lbasis(points, i) for i in range(6)), strict=True)
+    return np.array(values).T, np.array(gradients), weights
+
+
+@lru_cache(maxsize=256)
+def list_dofs(template: MeshTemplate, element: Element) -> Ints:
+    """Unknowns of each triangle.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+    element : str
+        ``velocity`` or ``mixed``.
+
+    Returns
+    -------
+    ndarray of int, shape (n_triangles, C)
+        Velocities first.
+    """
+    dofs = list_velocity_dofs(template)
+    if element == "mixed":
+        first = 2 * template.nodes.shape[1]
+        dofs = np.hstack([dofs, first + template.triangles[:3].T])
+    dofs.setflags(write=False)
+    return dofs
+
+
+def list_velocity_dofs(template: MeshTemplate) -> Ints:
+    """Velocity components of each triangle.
+
+    Parameters
+    ----------
+    template : MeshTemplate
+        Reference mesh.
+
+    Returns
+    -------
+    ndarray of int, shape (n_triangles, 12)
+        X and Y of each node in turn.
+    """
+    first = 2 * template.triangles.T
+    return np.stack([first, first + 1], axis=-1).reshape(len(first), 12)
+
+
+def add_pressure_rows(strain: Floats) -> Floats:
+    """Operator of the mixed element.
+
+    Parameters
+    ----------
+    strain : ndarray, shape (n_triangles, n_points, 3, 12)
+        Operator of the velocity element.
+
+    Returns
+    -------
+    ndarray, shape (n_triangles, n_points, 4, 15)
+        Its fourth strain is the pressure, linear in a triangle.
+    """
+    from skfem import ElementTriP1
+    from skfem.quadrature import get_quadrature
+
+    element = ElementTriP1()
+    points, _ = get_quadrature(element.refdom, QUADRATURE_DEGREE)
+    operator = np.zeros((*strain.shape[:2], 4, 15))
+    operator[..., :3, :12] = strain
+    operator[..., 3, 12:] = np.array([element.lbasis(points, i)[0] for i in range(3)]).T
+    return operator
