@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import Solution
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.snow.creep_law import (
@@ -31,6 +31,7 @@ from netdesign.snow.snowpack import (
     build_layered_snowpack,
     compute_mean_density,
 )
+from netdesign.snowpack.hs2swe import Hs2swe
 
 DENSITIES = tuple(float(rho) for rho in range(150, 451, 25))  # [kg/m3]
 STRESSES = (1e3, 3e3, 5e3, 10e3)  # [Pa]
@@ -57,6 +58,12 @@ class CompactionModel:
     compute: Callable[[float, float], float]
 
 
+def _settle_as_hs2swe(density: float, cold: float) -> float:
+    model = Hs2swe()  # its constants are those of the program's winters
+    growth = model.stiffening * density + 0.081 * cold
+    return model.viscosity * math.exp(growth)
+
+
 MODELS = (
     CompactionModel(
         name="Crocus",
@@ -76,7 +83,7 @@ MODELS = (
         name="HS2SWE",
         source="Magnusson et al. 2025, constants as in its public code",
         mark="read in a source",
-        compute=lambda rho, cold: 6.051e7 * math.exp(0.081 * cold + 0.018 * rho),
+        compute=_settle_as_hs2swe,
     ),
     CompactionModel(
         name="SNTHRM",
