@@ -16,7 +16,7 @@ PACKAGE = Path(netdesign.__file__).parent
 ROOT = PACKAGE.parent
 PHYSICS = (
     *("numerics", "snow", "cable", "structure", "coupling", "checks"),
-    *("resistance", "guideline", "panel"),
+    *("resistance", "guideline", "panel", "snowpack", "winter"),
 )
 
 # A number says its unit in brackets, its shape if it is an array, or that it has

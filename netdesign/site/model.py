@@ -359,6 +359,8 @@ class Site:
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()
     declared: tuple[Declaration, ...] = ()
+    map_file: str = ""  # answers to headings, where there are any
+    map_sha256: str = ""
 
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""

@@ -9,8 +9,8 @@ from netdesign.checks import Standard
 from netdesign.envelope.ranges import Ranges
 from netdesign.errors import ModelError
 from netdesign.guideline.load_model import read_end_effect
+from netdesign.haefeli.slab import Slab
 from netdesign.planview.end_effect import EndEffect, compute_end_effect
-from netdesign.planview.scales import Slab
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.structure.row_position import LoadedWidth, compute_edge_width

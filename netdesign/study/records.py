@@ -15,6 +15,7 @@ from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
+from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
@@ -275,6 +276,8 @@ class RowStudy:
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     end_effects: list[EndEffectRecord] = field(default_factory=list)
+    slab: SlabRecord | None = None  # closed form, for comparison
+    model_form: ModelFormRecord | None = None  # None where nothing governs
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,6 +23,7 @@ FAMILIES: tuple[str, ...] = (
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     "creep_law.",
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
+    *("slab_ground.", "variant."),
     "floor.profile_",
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),

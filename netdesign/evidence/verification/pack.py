@@ -20,7 +20,9 @@ from netdesign.evidence.verification.manufactured import list_manufactured
 from netdesign.evidence.verification.panels import list_panels
 from netdesign.evidence.verification.plan_view import list_plan_view
 from netdesign.evidence.verification.sliding_net import list_sliding_net
+from netdesign.evidence.verification.snow_heights import list_snow_heights
 from netdesign.evidence.verification.walls import list_depth_averaged, list_walls
+from netdesign.evidence.verification.winters import list_winters
 
 # Lowest rung first: a rung is believed only when the one below stands.
 GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
@@ -40,6 +42,8 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_histories,
     list_panels,
     list_plan_view,
+    list_snow_heights,
+    list_winters,
 )
 
 

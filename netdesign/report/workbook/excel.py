@@ -156,6 +156,10 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         if name == "guideline":
             floors = _list_parts(view, "floor")
             shown.append(_stack(book, book.words("caption.floor"), floors))
+            for other in ("slab", "model_form"):
+                parts_of_other = _list_parts(view, other)
+                words = book.words(f"opinion.{other}")
+                shown.append(_stack(book, words, parts_of_other))
         if name == "directions":
             turns = [(row.id, row.figures.turns) for row in view.rows]
             shown.append(_stack(book, book.words("caption.turns"), turns))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
 from netdesign.site.columns.net_columns import UNCLEAR_SNOW
@@ -128,3 +130,6 @@ RANGES = word_plan(
         ),
     )
 )
+# As offices type it, with both ends in one cell; the template does not offer that.
+_SPAN = word_field(Field(key="span", kind="text"), "Ranges")
+RANGES_AS_TYPED = replace(RANGES, fields=(*RANGES.fields, _SPAN))

@@ -49,6 +49,7 @@ from netdesign.study.pulls import (
 )
 from netdesign.study.record_cases import read_point, record_point
 from netdesign.study.record_guideline import compare_case
+from netdesign.study.record_slab import compare_slab
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_end import find_lack as find_end_lack
 from netdesign.study.settle import (
@@ -194,6 +195,7 @@ def _audit_judgement(
         yield say("audit.other_floor", place=place, value=found.message)
     yield from _audit_actions(row, effects, floor, basis)
     yield from _audit_guideline(row, given)
+    yield from _audit_slab(row, given, basis.law)
 
 
 def _expect_members(
@@ -479,6 +481,23 @@ def _read_load(stored: ActionRecord) -> MemberLoad:
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
     return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
+
+
+def _audit_slab(row: RowStudy, given: NetRow, law: CreepLaw) -> Iterator[Message]:
+    """The closed form, again from the forces that it stands beside."""
+    stored = row.slab
+    if stored is None:
+        return
+    again = compare_slab(
+        given,
+        read_point(stored.case),
+        law,
+        load=newton_from_kilonewton(stored.solved_load_kN_per_m),
+        foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
+    )
+    place = say("audit.row", row=row.id)
+    for found in compare_values(stored, again)[:_MOST]:
+        yield say("audit.other_slab", place=place, value=found.message)
 
 
 def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:

@@ -1,0 +1,1 @@
+"""Snowpack of a station from its daily snow heights: layers, masses, densities."""

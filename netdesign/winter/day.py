@@ -1,0 +1,290 @@
+"""One day of a winter on a net row: its scene, and how its solve ended."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from netdesign.checks.result import Band
+from netdesign.coupling.scene import Scene, SolverSettings, is_overtopped
+from netdesign.envelope.ranges import Case
+from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
+from netdesign.errors import ModelError
+from netdesign.guards import require_within
+from netdesign.snow.creep_law import ICE_DENSITY
+from netdesign.snow.snowpack import Layer, Snowpack, build_layered_snowpack
+from netdesign.snowpack.pack import DayPack
+from netdesign.solving.runner import Runner
+from netdesign.structure.layout import SupportLayout
+from netdesign.winter.layers import LEAST_DENSITY, merge_layers
+from netdesign.words.message import Message, say
+
+HEIGHT_FACTORS = (0.2, 5.0)
+LEAST_THICKNESS = 0.25  # [m]; thinner snow is not solved, its force counts as 0
+UNIFORM_SHARE = 0.35  # of the net's height; thinner snow is taken as uniform
+
+Ending = Literal["open", "solved", "bare", "thin", "overtopped", "failed"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WinterRow:
+    """Net row on which a winter's snow lies.
+
+    Attributes
+    ----------
+    id : str
+        Name of the row.
+    scene : Scene
+        Net, ground, slope and creep law; its snowpack is replaced day by day.
+    layout : SupportLayout or None
+        Support, for forces per anchor; None follows the net alone.
+    height_factor : float
+        f_H, snow height at the row over that of the station [-].
+    """
+
+    id: str
+    scene: Scene
+    layout: SupportLayout | None = None
+    height_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        """Refuse a factor that no exposure explains, and a law that clamps density.
+
+        Raises
+        ------
+        ModelError
+            If either is so.
+        """
+        require_within(
+            "snow height over that of the station", self.height_factor, *HEIGHT_FACTORS
+        )
+        law = self.scene.creep_law
+        if law.clamp * ICE_DENSITY > LEAST_DENSITY:
+            raise ModelError(say("winter.clamped_law", law=law.name))
+
+    def find_thickness(self, height: float) -> float:
+        """Thickness normal to the slope of a station's snow height, eq. (Y1).
+
+        Parameters
+        ----------
+        height : float
+            HS [m].
+
+        Returns
+        -------
+        float
+            d [m].
+        """
+        along = self.scene.snowpack.slope_angle
+        return self.height_factor * height * float(np.cos(along))
+
+    def holds(self, thickness: float) -> bool:
+        """The net is as high as the snow.
+
+        Parameters
+        ----------
+        thickness : float
+            Of the snow [m].
+        """
+        return not is_overtopped(self.scene.net.height_normal, thickness)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowDay:
+    """Snow on a net row on one day, and the forces it gives at rest.
+
+    Attributes
+    ----------
+    index : int
+        Place in the series of heights.
+    thickness : float
+        d, normal to the slope [m].
+    density : float
+        Mean [kg/m3]; 0 of bare ground.
+    layers : tuple of Layer
+        As solved, from the ground up; empty for uniform snow.
+    ending : str
+        ``open`` before it is solved, then ``solved`` or ``failed``; ``bare`` and
+        ``thin`` count as force 0; ``overtopped`` has no force.
+    reason : Message or None
+        Why it failed, or why it was solved as uniform snow.
+    foot, head : Band or None
+        Pulls of the net with their numerical band [N/m].
+    member_forces : mapping of str to Band
+        Per anchor [N]; empty without a layout.
+    """
+
+    index: int
+    thickness: float
+    density: float
+    layers: tuple[Layer, ...] = ()
+    ending: Ending
+    reason: Message | None = None
+    foot: Band | None = None
+    head: Band | None = None
+    member_forces: Mapping[str, Band] = field(default_factory=dict)
+
+    @property
+    def is_open(self) -> bool:
+        """It waits for its solve."""
+        return self.ending == "open"
+
+    @property
+    def pull(self) -> float | None:
+        """Foot's pull [N/m]; None where nothing is known of it."""
+        if self.ending in ("bare", "thin"):
+            return 0.0
+        return self.foot.value if self.foot else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DaySolver:
+    """Solver of the days of a row.
+
+    Attributes
+    ----------
+    row : WinterRow
+        Whose snow is replaced.
+    settings : SolverSettings
+        Accuracy of each day.
+    runner : Runner
+        Where days are solved and kept.
+    """
+
+    row: WinterRow
+    settings: SolverSettings
+    runner: Runner = field(default_factory=Runner)
+
+    def prepare(
+        self, packs: Mapping[int, DayPack], *, layered: bool
+    ) -> tuple[RowDay, ...]:
+        """Days before they are solved: ``open``, or ended without a solve.
+
+        Parameters
+        ----------
+        packs : mapping of int to DayPack
+            Snowpack of the station by its place in the series.
+        layered : bool
+            Whether layers are taken where the snow is thick enough for them.
+        """
+        return tuple(self._prepare(k, pack, layered) for k, pack in packs.items())
+
+    def solve(self, days: Sequence[RowDay]) -> tuple[RowDay, ...]:
+        """Days in their order; a layered one that fails is tried as uniform snow.
+
+        Parameters
+        ----------
+        days : sequence of RowDay
+            Those that are not ``open`` stay as they are.
+        """
+        first = {day.index: day for day in self._run([d for d in days if d.is_open])}
+        failed = [day for day in first.values() if day.ending == "failed"]
+        again = [replace(day, layers=(), ending="open") for day in failed if day.layers]
+        second = {
+            day.index: replace(day, reason=first[day.index].reason)
+            for day in self._run(again)
+        }
+        ended = first | second
+        return tuple(ended.get(day.index, day) for day in days)
+
+    def _prepare(self, index: int, pack: DayPack, layered: bool) -> RowDay:
+        thickness = self.row.find_thickness(pack.height)
+        ending = self._judge(thickness)
+        layers: tuple[Layer, ...] = ()
+        thick = UNIFORM_SHARE * self.row.scene.net.height_normal
+        if ending == "open" and layered and thickness >= thick:
+            shares = pack.heights * (thickness / pack.height)
+            merged = merge_layers(list(shares), list(pack.densities))
+            layers = merged if len(merged) > 1 else ()
+        return RowDay(
+            index=index,
+            thickness=thickness,
+            density=pack.density,
+            layers=layers,
+            ending=ending,
+        )
+
+    def _judge(self, thickness: float) -> Ending:
+        if thickness <= 0.0:
+            return "bare"
+        if not self.row.holds(thickness):
+            return "overtopped"
+        return "thin" if thickness < LEAST_THICKNESS else "open"
+
+    def _run(self, days: Sequence[RowDay]) -> list[RowDay]:
+        results = run_cases([self._build_task(day) for day in days], self.runner)
+        return [_end(day, one) for day, one in zip(days, results, strict=True)]
+
+    def _build_task(self, day: RowDay) -> CaseTask:
+        net = self.row.scene.net
+        case = Case(
+            density=day.density,
+            friction_angle=getattr(net, "friction_angle", None) or 0.0,
+            inclination=net.inclination,
+        )
+
+        def build(_: Case) -> Scene:
+            return build_day_scene(self.row.scene, day)
+
+        return build_task(case, build, self.row.layout, self.settings)
+
+
+def build_day_scene(scene: Scene, day: RowDay) -> Scene:
+    """Scene of a row with the snow of one day.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of the row.
+    day : RowDay
+        Thickness, density, layers.
+
+    Raises
+    ------
+    ModelError
+        If the model refuses that snow.
+    """
+    pack = scene.snowpack
+    if day.layers:
+        snow = build_layered_snowpack(
+            day.layers,
+            slope_angle=pack.slope_angle,
+            upslope_length=pack.upslope_length,
+            gravity=pack.gravity,
+        )
+    else:
+        snow = Snowpack(
+            slope_angle=pack.slope_angle,
+            thickness=day.thickness,
+            upslope_length=pack.upslope_length,
+            density=day.density,
+            gravity=pack.gravity,
+        )
+    return replace(scene, snowpack=snow)
+
+
+def _end(day: RowDay, result: CaseResult) -> RowDay:
+    """Day with the forces of its solve, or with the reason why there are none."""
+    if not result.is_converged or result.solution is None:
+        reason = result.reason or result.outcome.message
+        return replace(day, ending="failed", reason=reason)
+    pulls = {"foot": result.solution.foot, "head": result.solution.head}
+    bands = {
+        name: Band(
+            low=max(0.0, pull.size - pull.error),
+            value=pull.size,
+            high=pull.size + pull.error,
+        )
+        for name, pull in pulls.items()
+    }
+    layout_forces = {} if "rope" in result.member_forces else result.member_forces
+    return replace(
+        day,
+        ending="solved",
+        foot=bands["foot"],
+        head=bands["head"],
+        member_forces=layout_forces,
+    )

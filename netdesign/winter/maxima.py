@@ -1,0 +1,272 @@
+"""Annual maximum of a row: uniform snow of each day's mass and height.
+
+Theory: winter/THEORY.md, sections 2 and 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+from netdesign.snowpack.pack import DayPack
+from netdesign.winter.day import DaySolver, RowDay
+from netdesign.winter.table import UniformTable, build_table
+
+# Powers of density and thickness that rank the days (fitted; no force follows).
+_RANKS = {"free": (0.95, 1.15), "no-slip": (1.2, 1.9), "sliding": (1.2, 1.9)}
+RANKED = 0.7  # of the best rank: days below it are not solved for the maximum
+# A failed day above this share of the best day's rank may be the one that governs.
+DOUBTED = 0.8
+_SECANT_STEPS = 3
+
+MaximumEnding = Literal["solved", "overtopped", "doubtful", "no snow"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnnualMaximum:
+    """Largest pull of a winter.
+
+    Attributes
+    ----------
+    winter : str
+        As "1999/2000".
+    ending : str
+        ``solved``; ``overtopped`` and ``doubtful`` prove no maximum: snow stood above
+        the net, or a day that may govern has no force. ``no snow``: on no day it
+        reached the least thickness, and the maximum is 0.
+    index : int or None
+        Place of its day in the series.
+    thickness, density : float
+        Of that day [m], [kg/m3]; 0 without one.
+    foot, head : float
+        Pulls of that day [N/m].
+    equivalent_density : float or None
+        Of uniform snow of the winter's largest height that pulls as much [kg/m3].
+    """
+
+    winter: str
+    ending: MaximumEnding
+    index: int | None = None
+    thickness: float = 0.0
+    density: float = 0.0
+    foot: float = 0.0
+    head: float = 0.0
+    equivalent_density: float | None = None
+
+    @property
+    def is_proven(self) -> bool:
+        """The winter's maximum is known."""
+        return self.ending in ("solved", "no snow")
+
+
+def find_annual_maximum(
+    winter: str, packs: Mapping[int, DayPack], solver: DaySolver
+) -> tuple[AnnualMaximum, tuple[RowDay, ...]]:
+    """Annual maximum by solves, and the days that were solved for it.
+
+    Parameters
+    ----------
+    winter : str
+        Its name.
+    packs : mapping of int to DayPack
+        Snowpack of each day by its place in the series.
+    solver : DaySolver
+        Of the row.
+    """
+    days = solver.prepare(packs, layered=False)
+    solved = solver.solve(choose_days(days, solver))
+    best = find_largest(solved)
+    ending = _judge(days, solved, best, solver)
+    if best is None or best.foot is None or best.head is None:
+        return AnnualMaximum(winter=winter, ending=ending), solved
+    maximum = AnnualMaximum(
+        winter=winter,
+        ending=ending,
+        index=best.index,
+        thickness=best.thickness,
+        density=best.density,
+        foot=best.foot.value,
+        head=best.head.value,
+        equivalent_density=find_equivalent(
+            max(day.thickness for day in days), best, solver
+        ),
+    )
+    return maximum, solved
+
+
+def find_many_maxima(
+    winters: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
+) -> tuple[AnnualMaximum, ...]:
+    """Annual maxima of many winters through one table; by solves where it has none.
+
+    Parameters
+    ----------
+    winters : mapping of str to mapping
+        Packs of each winter by its name.
+    solver : DaySolver
+        Of the row.
+    """
+    days = {
+        name: solver.prepare(packs, layered=False) for name, packs in winters.items()
+    }
+    chosen = {name: choose_days(one, solver) for name, one in days.items()}
+    every = [day for one in chosen.values() for day in one]
+    table = _build_table(every, days, solver) if every else None
+    found = []
+    for name, packs in winters.items():
+        maximum = _look_up(name, days[name], chosen[name], table) if table else None
+        found.append(maximum or find_annual_maximum(name, packs, solver)[0])
+    return tuple(found)
+
+
+def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
+    """Days whose uniform snow may pull most: those near the best rank.
+
+    Parameters
+    ----------
+    days : sequence of RowDay
+        Prepared.
+    solver : DaySolver
+        Of the row.
+    """
+    waiting = [day for day in days if day.is_open]
+    ranks = rank_days(waiting, solver.row.scene.ground.kind)
+    least = RANKED * float(ranks.max(initial=0.0))
+    return tuple(day for day, rank in zip(waiting, ranks, strict=True) if rank >= least)
+
+
+def rank_days(days: Sequence[RowDay], ground: str) -> Floats:
+    """Order of the pulls to be expected, eq. (Y3); no force follows. Shape (n_days,).
+
+    Parameters
+    ----------
+    days : sequence of RowDay
+        Thickness and density of each.
+    ground : str
+        Kind of ground.
+    """
+    p, q = _RANKS[ground]
+    densities = np.array([day.density for day in days])
+    thicknesses = np.array([day.thickness for day in days])
+    return np.asarray(densities**p * thicknesses**q)
+
+
+def find_largest(days: Iterable[RowDay]) -> RowDay | None:
+    """Day of the largest foot pull; None if no day has one.
+
+    Parameters
+    ----------
+    days : iterable of RowDay
+        Any.
+    """
+    solved = [day for day in days if day.foot is not None]
+    return max(solved, key=lambda day: day.pull or 0.0, default=None)
+
+
+def find_equivalent(
+    thickness: float, governing: RowDay, solver: DaySolver
+) -> float | None:
+    """Equivalent density [kg/m3], eq. (Y4), by secants in logarithms.
+
+    Parameters
+    ----------
+    thickness : float
+        Largest of the winter [m].
+    governing : RowDay
+        Day whose foot pull it is to have.
+    solver : DaySolver
+        Of the row.
+
+    Returns
+    -------
+    float or None
+        None where snow of that thickness cannot be solved, or stands above the net.
+    """
+    if not governing.pull or not solver.row.holds(thickness):
+        return None
+    target, power = np.log(governing.pull), _RANKS["no-slip"][0]
+    x, known = float(np.log(governing.density)), []
+    for _ in range(_SECANT_STEPS):
+        uniform = replace(
+            governing,
+            thickness=thickness,
+            density=float(np.exp(x)),
+            layers=(),
+            ending="open",
+        )
+        (day,) = solver.solve([uniform])
+        if not day.pull:
+            return None
+        known.append((x, float(np.log(day.pull))))
+        if len(known) > 1 and abs(known[-1][0] - known[-2][0]) > 1e-3:
+            (x0, y0), (x1, y1) = known[-2:]
+            power = (y1 - y0) / (x1 - x0)
+        x = known[-1][0] + (target - known[-1][1]) / power
+    return float(np.exp(x))
+
+
+def _judge(
+    days: Sequence[RowDay],
+    solved: Sequence[RowDay],
+    best: RowDay | None,
+    solver: DaySolver,
+) -> MaximumEnding:
+    if any(day.ending == "overtopped" for day in days):
+        return "overtopped"
+    failed = [day for day in solved if day.ending == "failed"]
+    if best is None:
+        return "doubtful" if failed else "no snow"
+    ranks = rank_days([best, *failed], solver.row.scene.ground.kind)
+    return "doubtful" if (ranks[1:] > DOUBTED * ranks[0]).any() else "solved"
+
+
+def _build_table(
+    chosen: Sequence[RowDay],
+    days: Mapping[str, Sequence[RowDay]],
+    solver: DaySolver,
+) -> UniformTable | None:
+    """Table over the days that may govern, and over the largest heights."""
+    tops = [max(day.thickness for day in one) for one in days.values() if one]
+    held = [top for top in tops if solver.row.holds(top)]
+    thicknesses = [*(day.thickness for day in chosen), *held]
+    densities = [day.density for day in chosen]
+    least = min(day.thickness for day in chosen)
+    return build_table(
+        solver, (least, max(thicknesses)), (min(densities), max(densities))
+    )
+
+
+def _look_up(
+    winter: str,
+    days: Sequence[RowDay],
+    chosen: Sequence[RowDay],
+    table: UniformTable,
+) -> AnnualMaximum | None:
+    """Annual maximum by the table; None where a day lies outside it."""
+    overtopped = any(day.ending == "overtopped" for day in days)
+    if not chosen:
+        ending: MaximumEnding = "overtopped" if overtopped else "no snow"
+        return AnnualMaximum(winter=winter, ending=ending)
+    foot, head = table.find_pulls(
+        np.array([day.thickness for day in chosen]),
+        np.array([day.density for day in chosen]),
+    )
+    if not np.isfinite(foot).all():
+        return None
+    best = int(np.argmax(foot))
+    return AnnualMaximum(
+        winter=winter,
+        ending="overtopped" if overtopped else "solved",
+        index=chosen[best].index,
+        thickness=chosen[best].thickness,
+        density=chosen[best].density,
+        foot=float(foot[best]),
+        head=float(head[best]),
+        equivalent_density=table.find_density(
+            max(day.thickness for day in days), float(foot[best])
+        ),
+    )

@@ -1,0 +1,157 @@
+"""All winters of a row: maxima, some with a curve, and what they tell together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import date
+
+from netdesign.snowpack.follow import SettlingModel, follow_heights
+from netdesign.snowpack.pack import DayPack
+from netdesign.snowpack.series import HeightSeries, split_winters
+from netdesign.winter.day import DaySolver
+from netdesign.winter.gumbel import Gumbel, fit_gumbel
+from netdesign.winter.maxima import AnnualMaximum, find_annual_maximum, find_many_maxima
+from netdesign.winter.season import CURVE_STEP, Season, follow_season
+
+FIRST_DENSITY = 300.0  # of snow that lies on the first day of a series [kg/m3]; assumed
+MANY = 4  # more winters than these go through a table
+SHOWN = 3  # largest winters of a table that are solved with their layers
+# A winter counts in statistics if its series covers these months and days (assumed).
+_COVERED = ((12, 1), (4, 30))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowWinters:
+    """Winters of one row by one settling model.
+
+    Attributes
+    ----------
+    row_id, model : str
+        Row, and name of the settling model.
+    maxima : tuple of AnnualMaximum
+        One of each winter, in their order.
+    seasons : tuple of Season
+        Winters with their layers: all of a few, else the largest.
+    others : mapping of str to tuple of AnnualMaximum
+        The same winters by the other settling models.
+    statistics : Gumbel or None
+        Of the complete winters with a proven maximum [N/m]; None of fewer than
+        ``gumbel.LEAST_WINTERS``, or where a complete winter proves none.
+    """
+
+    row_id: str
+    model: str
+    maxima: tuple[AnnualMaximum, ...]
+    seasons: tuple[Season, ...]
+    others: Mapping[str, tuple[AnnualMaximum, ...]]
+    statistics: Gumbel | None
+
+    @property
+    def density_range(self) -> tuple[float, float] | None:
+        """Least and largest equivalent density of all winters and models [kg/m3]."""
+        every = [
+            *self.maxima,
+            *(one for group in self.others.values() for one in group),
+        ]
+        found = [one.equivalent_density for one in every if one.equivalent_density]
+        return (min(found), max(found)) if found else None
+
+
+def split_packs(
+    series: HeightSeries, model: SettlingModel
+) -> dict[str, dict[int, DayPack]]:
+    """Packs of each winter with snow, by its name and by their place in the series.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    model : SettlingModel
+        Followed over the whole series: snow of last winter goes on settling.
+    """
+    packs = follow_heights(series.heights, model, FIRST_DENSITY)
+    winters = {
+        name: {k: packs[k] for k in range(days.start, days.stop)}
+        for name, days in split_winters(series).items()
+    }
+    return {
+        name: days
+        for name, days in winters.items()
+        if any(pack.heights.size for pack in days.values())
+    }
+
+
+def list_complete(series: HeightSeries) -> tuple[str, ...]:
+    """Names of the winters whose months with snow the series covers.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    """
+    first, last = series.first_day, series.day(len(series.heights) - 1)
+    found = []
+    for name in split_winters(series):
+        year = int(name[:4])
+        start, end = date(year, *_COVERED[0]), date(year + 1, *_COVERED[1])
+        if first <= start and end <= last:
+            found.append(name)
+    return tuple(found)
+
+
+def follow_winters(
+    series: HeightSeries,
+    models: Sequence[SettlingModel],
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+) -> RowWinters:
+    """Winters of a row: by the first model with layers, by the others their maxima.
+
+    Parameters
+    ----------
+    series : HeightSeries
+        Of the station.
+    models : sequence of SettlingModel
+        At least one.
+    solver : DaySolver
+        Of the row.
+    step : int
+        Days between those of a curve.
+    """
+    chosen, *rest = models
+    packs = split_packs(series, chosen)
+    if len(packs) > MANY:
+        maxima = find_many_maxima(packs, solver)
+        ranked = sorted(maxima, key=lambda one: -one.foot)[:SHOWN]
+        names = sorted(one.winter for one in ranked if one.index is not None)
+    else:
+        maxima, names = (), list(packs)
+    seasons = tuple(follow_season(name, packs[name], solver, step) for name in names)
+    maxima = maxima or tuple(season.maximum for season in seasons)
+    return RowWinters(
+        row_id=solver.row.id,
+        model=chosen.name,
+        maxima=maxima,
+        seasons=seasons,
+        others={one.name: _find_maxima(series, one, solver) for one in rest},
+        statistics=_fit(maxima, list_complete(series)),
+    )
+
+
+def _find_maxima(
+    series: HeightSeries, model: SettlingModel, solver: DaySolver
+) -> tuple[AnnualMaximum, ...]:
+    packs = split_packs(series, model)
+    if len(packs) > MANY:
+        return find_many_maxima(packs, solver)
+    return tuple(
+        find_annual_maximum(name, one, solver)[0] for name, one in packs.items()
+    )
+
+
+def _fit(maxima: Sequence[AnnualMaximum], complete: Sequence[str]) -> Gumbel | None:
+    counted = [one for one in maxima if one.winter in complete]
+    if not all(one.is_proven for one in counted):
+        return None
+    return fit_gumbel([one.foot for one in counted])

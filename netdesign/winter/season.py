@@ -1,0 +1,137 @@
+"""The season of a row: the curve of its forces, the governing day and why.
+
+Theory: winter/THEORY.md, section 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.snowpack.pack import DayPack
+from netdesign.winter.day import DaySolver, RowDay
+from netdesign.winter.maxima import (
+    AnnualMaximum,
+    find_annual_maximum,
+    find_equivalent,
+    find_largest,
+)
+
+HIGH_SHARE = 0.9  # of the largest pull: days above it count as days of high load
+CURVE_STEP = 4  # days between those of the curve
+# Layers pull at most so many times what uniform snow of their mass does (seen: 1.03, on
+# free ground; elsewhere they pull less).
+LAYERED_GAIN = 1.05
+_BATCH = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Season:
+    """Winter of a row, day by day with its layers.
+
+    Attributes
+    ----------
+    name : str
+        As "1999/2000".
+    maximum : AnnualMaximum
+        By uniform snow of each day, on the safe side.
+    curve : tuple of RowDay
+        Ascending: those of the curve, and those that may govern.
+    highest, heaviest : RowDay
+        Days of the largest snow height, and of the largest mass.
+    equivalent_density : float or None
+        Of uniform snow of the largest height that pulls as much as the governing day
+        [kg/m3]; None where there is none.
+    """
+
+    name: str
+    maximum: AnnualMaximum
+    curve: tuple[RowDay, ...]
+    highest: RowDay
+    heaviest: RowDay
+    equivalent_density: float | None
+
+    @property
+    def governing(self) -> RowDay | None:
+        """Day of the largest foot pull; None if no day has one."""
+        return find_largest(self.curve)
+
+    @property
+    def failed(self) -> tuple[RowDay, ...]:
+        """Days of the curve without a force, each with its reason."""
+        return tuple(day for day in self.curve if day.ending == "failed")
+
+    @property
+    def high_days(self) -> int:
+        """Days above ``HIGH_SHARE`` of the largest pull, read from the curve."""
+        known = [(day.index, day.pull) for day in self.curve if day.pull is not None]
+        if not known:
+            return 0
+        places, pulls = np.array(known).T
+        every = np.arange(places[0], places[-1] + 1)
+        curve = np.interp(every, places, pulls)
+        return int((curve > HIGH_SHARE * pulls.max()).sum())
+
+
+def follow_season(
+    name: str,
+    packs: Mapping[int, DayPack],
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+) -> Season:
+    """Season of a row: its annual maximum, and the curve of its forces.
+
+    Parameters
+    ----------
+    name : str
+        Of the winter.
+    packs : mapping of int to DayPack
+        Snowpack of each day by its place in the series, ascending; at least one.
+    solver : DaySolver
+        Of the row.
+    step : int
+        Days between those of the curve; 0 for the days near the maximum alone.
+    """
+    maximum, uniform = find_annual_maximum(name, packs, solver)
+    near = _solve_near(uniform, packs, solver)
+    highest = max(packs, key=lambda k: packs[k].height)
+    heaviest = max(packs, key=lambda k: packs[k].mass)
+    evenly = set(list(packs)[::step]) if step else set()
+    wanted = sorted((evenly | {highest, heaviest}) - near.keys())
+    days = solver.prepare({k: packs[k] for k in wanted}, layered=True)
+    curve = near | {day.index: day for day in solver.solve(days)}
+    governing = find_largest(curve.values())
+    top = curve[highest].thickness
+    return Season(
+        name=name,
+        maximum=maximum,
+        curve=tuple(curve[k] for k in sorted(curve)),
+        highest=curve[highest],
+        heaviest=curve[heaviest],
+        equivalent_density=(
+            find_equivalent(top, governing, solver) if governing else None
+        ),
+    )
+
+
+def _solve_near(
+    uniform: Sequence[RowDay], packs: Mapping[int, DayPack], solver: DaySolver
+) -> dict[int, RowDay]:
+    """Layered days, by descending pull of uniform snow, while one may govern."""
+    left = sorted(
+        (day for day in uniform if day.foot is not None),
+        key=lambda day: -(day.pull or 0.0),
+    )
+    found: dict[int, RowDay] = {}
+    while left:
+        best = find_largest(found.values())
+        least = (best.pull or 0.0) / LAYERED_GAIN if best else 0.0
+        batch = [day for day in left[:_BATCH] if (day.pull or 0.0) >= least]
+        if not batch:
+            break
+        left = left[_BATCH:]
+        days = solver.prepare({d.index: packs[d.index] for d in batch}, layered=True)
+        found |= {day.index: day for day in solver.solve(days)}
+    return found

@@ -1,0 +1,72 @@
+"""Settling models against their authors' series, snow pits, and another code.
+
+Spoilt formulas that made this file fail are named in its commit.
+"""
+
+import csv
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from netdesign.evidence.verification.snow_heights import (
+    list_snow_heights,
+    measure_imbalance,
+    read_weissfluhjoch,
+)
+from netdesign.snowpack.follow import MODELS, follow_heights
+from netdesign.snowpack.hs2swe import HS2SWE
+
+
+def read_made_up_winter():
+    """Heights [m] and true SWE [kg/m2] of the winter at 2000 m that comes along."""
+    text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
+    lines = list(csv.DictReader(text.splitlines()))
+    heights = [float(line["HS [cm]"]) / 100.0 for line in lines]
+    return heights, [float(line["true SWE [kg/m2]"]) for line in lines]
+
+
+def test_hs2swe_is_its_authors_series():
+    series = read_weissfluhjoch()
+    packs = follow_heights(list(map(float, series.heights)), HS2SWE)
+    assert series.heights.size == 2191
+    masses = np.array([pack.mass for pack in packs])
+    assert masses == pytest.approx(series.reference, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "bias", "spread"),
+    [
+        ("delta-snow", -37.6, 64.2),
+        ("delta-snow-ageing", -6.6, 48.8),
+        ("hs2swe", -1.3, 45.8),
+    ],
+)
+def test_densities_against_103_pits_are_as_the_page_says(name, bias, spread):
+    got = {case.id: case.got for case in list_snow_heights()}
+    assert got[f"{name}-density-bias"] == pytest.approx(bias, abs=0.05)
+    assert got[f"{name}-density-rmse"] == pytest.approx(spread, abs=0.05)
+
+
+def test_largest_mass_of_the_made_up_winter():
+    """An independent code has 885 kg/m2; the truth is a tenth less."""
+    heights, true = read_made_up_winter()
+    masses = [pack.mass for pack in follow_heights(heights)]
+    assert max(masses) == pytest.approx(885.0, abs=0.5)
+    assert 1.05 < max(masses) / max(true) < 1.12
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_no_mass_is_lost_in_drawn_winters(name):
+    rng = np.random.default_rng(61)
+    steps = rng.normal(0.0, 0.17, size=(6, 160))
+    for walk in steps:
+        heights = np.append(np.abs(np.cumsum(walk)), 0.0)
+        packs = follow_heights(list(map(float, heights)), MODELS[name])
+        fallen = sum(pack.new_mass for pack in packs)
+        assert sum(pack.runoff for pack in packs) == pytest.approx(fallen, rel=1e-12)
+        assert fallen > 10.0
+        assert measure_imbalance(packs) < 1e-9
+        assert all((pack.heights > 0.0).all() for pack in packs)
+        off = max(abs(p.height - h) for p, h in zip(packs, heights, strict=True))
+        assert off < (0.02 + 1e-9 if name == "hs2swe" else 1e-9)

@@ -1,0 +1,123 @@
+"""Annual maxima: which days are solved, what proves no maximum, the table."""
+
+import numpy as np
+import pytest
+
+from netdesign.snowpack.follow import follow_heights
+from netdesign.winter.day import RowDay
+from netdesign.winter.maxima import (
+    choose_days,
+    find_annual_maximum,
+    find_equivalent,
+    find_many_maxima,
+)
+from netdesign.winter.season import follow_season
+from netdesign.winter.table import build_table
+from tests.winter.made_up_row import a_solver
+
+QUICK = {"accuracy": 0.03}
+
+
+def follow(heights):
+    return dict(enumerate(follow_heights(heights)))
+
+
+def test_days_far_below_the_best_rank_are_not_solved():
+    solver = a_solver(**QUICK)
+    sizes = [(2.0, 300.0), (1.7, 300.0), (2.0, 220.0), (1.0, 400.0)]
+    days = [
+        RowDay(index=k, thickness=d, density=rho, ending="open")
+        for k, (d, rho) in enumerate(sizes)
+    ]
+    assert [day.index for day in choose_days(days, solver)] == [0, 1]
+    assert choose_days([], solver) == ()
+
+
+def test_largest_day_has_an_equivalent_density_of_its_own():
+    solver = a_solver(**QUICK)
+    days = solver.solve([RowDay(index=0, thickness=1.9, density=317.0, ending="open")])
+    found = find_equivalent(1.9, days[0], solver)
+    assert found == pytest.approx(317.0, rel=1e-6)
+    assert find_equivalent(3.1, days[0], solver) is None
+
+
+def test_equivalent_density_pulls_as_much():
+    solver = a_solver(accuracy=0.005)
+    spring = RowDay(index=0, thickness=1.6, density=401.0, ending="open")
+    (governing,) = solver.solve([spring])
+    density = find_equivalent(2.2, governing, solver)
+    highest = RowDay(index=1, thickness=2.2, density=density, ending="open")
+    (alike,) = solver.solve([highest])
+    assert density < 300.0
+    assert alike.foot.value == pytest.approx(governing.foot.value, rel=2e-3)
+
+
+def test_winter_above_the_net_proves_no_maximum():
+    packs = follow([0.0, 0.9, 1.9, 1.6, 4.2, 1.5])
+    maximum, solved = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
+    assert maximum.ending == "overtopped"
+    assert not maximum.is_proven
+    assert maximum.foot > 0.0
+    assert all(day.ending == "solved" for day in solved)
+
+
+def test_winter_without_a_solved_day_proves_no_maximum():
+    """New snow alone is lighter than the creep law allows."""
+    packs = follow([0.0, 0.9])
+    maximum, _ = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
+    assert (maximum.ending, maximum.foot) == ("doubtful", 0.0)
+
+
+def test_winter_of_thin_snow_pulls_nothing():
+    packs = follow([0.0, 0.2, 0.25, 0.1])
+    maximum, _ = find_annual_maximum("1999/2000", packs, a_solver(**QUICK))
+    assert (maximum.ending, maximum.is_proven) == ("no snow", True)
+    season = follow_season("1999/2000", packs, a_solver(**QUICK))
+    assert season.governing is None
+    assert season.equivalent_density is None
+
+
+def test_table_is_the_solves_themselves():
+    """Twenty drawn states; the solver's own noise is half a percent."""
+    solver = a_solver(accuracy=0.01)
+    table = build_table(solver, (1.0, 2.6), (190.0, 500.0))
+    rng = np.random.default_rng(3)
+    d, rho = rng.uniform(1.0, 2.6, 20), rng.uniform(190.0, 500.0, 20)
+    foot, head = table.find_pulls(d, rho)
+    days = solver.solve(
+        [
+            RowDay(index=k, thickness=float(a), density=float(b), ending="open")
+            for k, (a, b) in enumerate(zip(d, rho, strict=True))
+        ]
+    )
+    assert foot == pytest.approx([day.foot.value for day in days], rel=0.01)
+    assert head == pytest.approx([day.head.value for day in days], rel=0.01)
+    outside, _ = table.find_pulls(np.array([0.9, 1.5]), np.array([300.0, 520.0]))
+    assert np.isnan(outside).all()
+    pull = table.find_pulls(np.array([2.1]), np.array([307.0]))[0][0]
+    assert table.find_density(2.1, pull) == pytest.approx(307.0, rel=1e-3)
+    assert table.find_density(2.1, 1e9) is None
+
+
+def test_maxima_through_the_table_are_those_of_solves():
+    heights = [0.0, 0.8, 1.3, 1.9, 2.3, 2.2, 2.1, 2.4, 2.3, 2.2]
+    winters = {
+        "2000/2001": follow(heights),
+        "2001/2002": follow([0.8 * h for h in heights]),
+        "2002/2003": follow([2.0 * h for h in heights]),
+        "2003/2004": follow([0.05 * h for h in heights]),
+    }
+    solver = a_solver(accuracy=0.02)
+    found = find_many_maxima(winters, solver)
+    assert [one.ending for one in found] == [
+        "solved",
+        "solved",
+        "overtopped",
+        "no snow",
+    ]
+    alone, _ = find_annual_maximum("2000/2001", winters["2000/2001"], solver)
+    assert found[0].index == alone.index
+    assert found[0].foot == pytest.approx(alone.foot, rel=0.02)
+    assert found[0].equivalent_density == pytest.approx(
+        alone.equivalent_density, rel=0.02
+    )
