@@ -155,6 +155,7 @@ def _read_line(
     name = read_field(table, "quantity", row, findings)
     unit = read_field(table, "unit", row, findings)
     samples = read_field(table, "samples", row, findings)
+    why = read_field(table, "justification", row, findings)
     if name.state != "given":
         return
     meaning = match_item(name, table, "quantity", findings)
@@ -178,7 +179,17 @@ def _read_line(
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        found[field.key] = _read_range(field, (low, high, samples), settled, findings)
+        built = _read_range(field, (low, high, samples), settled, findings)
+        found[field.key] = _justify(built, field, why)
+
+
+def _justify(built: _Range | None, field: Field, why: Reading) -> _Range | None:
+    """Range with its justification among its inputs, where one is given."""
+    if built is None or why.state != "given":
+        return built
+    named = say("column.justification_of", name=field.name)
+    labelled = replace(why, field=replace(why.field, named=named))
+    return replace(built, inputs=(*built.inputs, labelled.echo()))
 
 
 def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:

@@ -278,9 +278,6 @@ class RowStudy:
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
     end_effects: list[EndEffectRecord] = field(default_factory=list)
-    end_effects: list[EndEffectRecord] = field(default_factory=list)
-    slab: SlabRecord | None = None  # closed form, for comparison
-    model_form: ModelFormRecord | None = None  # None where nothing governs
 
 
 @dataclass(frozen=True, kw_only=True)
