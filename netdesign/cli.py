@@ -38,6 +38,7 @@ from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, describe_refusal
 from netdesign.commands.validate import validate
 from netdesign.commands.verify import verify
+from netdesign.commands.winter import winter
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
@@ -99,6 +100,7 @@ cli.add_command(solve)
 cli.add_command(standards)
 cli.add_command(validate)
 cli.add_command(verify)
+cli.add_command(winter)
 
 
 accept_variables(cli)
