@@ -276,7 +276,7 @@ def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
 
 
 def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
-    """Why a heading without a field is not read; None where nobody knows it."""
+    """Reason why a heading is not read; None where nobody knows it."""
     if meaning.is_ignored:
         return Refusal(say("heading.ignored", file=sheet.answered_in))
     if meaning.is_wrong_answer:

@@ -1,4 +1,4 @@
-"""What a workbook leaves open, as a file of answers to fill in: ``SITE.map.toml``."""
+"""Questions that a workbook leaves open, as a file of answers: ``SITE.map.toml``."""
 
 from __future__ import annotations
 

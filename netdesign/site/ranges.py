@@ -169,8 +169,10 @@ def _read_line(
     settled = _settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
     if not settled or ends is None:
         return
+    span = table.cell(row, "span")
+    typed = span.text if span else ""  # both ends show what their one cell holds
     low, high = (
-        _read_end(cell, key, field, settled, findings)
+        _read_end(cell, key, field, settled, findings, typed)
         for key, cell in zip(("low", "high"), ends, strict=True)
     )
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
@@ -266,11 +268,17 @@ def _read_range(
 
 
 def _read_end(
-    cell: Cell | None, key: str, field: Field, unit: str, findings: list[Finding]
+    cell: Cell | None,
+    key: str,
+    field: Field,
+    unit: str,
+    findings: list[Finding],
+    typed: str = "",
 ) -> Reading | None:
     if cell is None:  # the missing heading is a finding already
         return None
-    return read_cell(cell, _name_end(field, key), unit, findings)
+    reading = read_cell(cell, _name_end(field, key), unit, findings)
+    return replace(reading, text=typed) if typed else reading
 
 
 def _name_end(field: Field, key: str) -> Field:

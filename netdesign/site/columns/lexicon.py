@@ -1,4 +1,4 @@
-"""What a heading means in one sheet: one field, several that it may be, or none.
+"""Meaning of a heading in one sheet: one field, several that it may be, or none.
 
 A heading is taken only where everything in it agrees: its name in each language, its
 symbols, the group that it stands under. Else it is asked for.

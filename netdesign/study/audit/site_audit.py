@@ -31,10 +31,11 @@ from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
+    list_one_anchor_notes,
     list_row_notes,
     list_site_notes,
     list_test_notes,
@@ -181,6 +182,10 @@ def _audit_judgement(
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     yield from tell_differences("audit.other_notes", shown, notes, place=place)
+    ends = record_end_effects(given, basis.site.ranges, basis.law, basis.standard)
+    yield from tell_differences(
+        "audit.other_end_effects", row.end_effects, ends, place=place
+    )
     yield from tell_differences(
         "audit.other_floor", row.floor, record_floor(floor, given), place=place
     )
@@ -218,6 +223,7 @@ def _list_notes(
         *list_row_notes(given, effects, pulls),
         *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, basis.standard),
+        *list_one_anchor_notes(row.checks),
         *list_case_notes(row.cases),
     ]
 
@@ -370,7 +376,8 @@ def _audit_share(
     ]
     if action.foot_part_kN is not None and action.guy_part_kN is not None:
         both = action.foot_part_kN + action.guy_part_kN
-        pairs.append(("solved_kN", action.solved_kN, both))
+        name = "panel_kN" if action.is_by_panel else "solved_kN"
+        pairs.append((name, action.larger_force, both))
     yield from tell_unequal(place, pairs)
 
 
