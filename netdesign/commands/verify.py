@@ -143,13 +143,12 @@ def _verify_study(
     if not all(hashes):
         tell(say("verify.not_its_inputs"), language)
         return _FAIL
+    arithmetic = audit_study(study, profile, site)
     told = [
         show.digest(study),
         show.contradictions(say("verify.its_command"), contradict_command(study)),
         show.contradictions(say("verify.its_time"), _contradict_time(study)),
-        show.contradictions(
-            say("verify.its_arithmetic"), audit_study(study, profile, site)
-        ),
+        show.contradictions(say("verify.its_arithmetic"), arithmetic),
     ]
     with open_run(
         site, run, executor="", cache=False, quiet=False, language=language
