@@ -265,6 +265,10 @@ def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
         else:
             unit = _find_unit(found, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
+            if meaning.answer:
+                file = found.sheet.answered_in
+                rule = say("heading.answered", name=field.name, file=file)
+                findings.append(cell.finding(Refusal(rule), severity="note"))
     plan = found.plan
     missing = [field for field in plan.fields if field.key not in columns]
     judged = _judge_all_unknown(unknown, missing)
