@@ -362,6 +362,9 @@ def _find_unit(
 ) -> str | None:
     """Take the unit of a column from its heading, the row of units, or its answer."""
     if not field.units:
+        if title.unit in KNOWN_UNITS and title.unit != "-":  # a number of another field
+            rule = say("heading.unit_not_wanted", unit=title.unit, name=field.name)
+            findings.append(title.cell.finding(Refusal(rule, field.name)))
         return ""
     column, unit, cell = title.cell.column, title.unit, title.cell
     below = found.sheet.cell(found.units_row, column) if found.units_row else None

@@ -280,3 +280,13 @@ def test_lines_between_the_lines_of_a_table_are_told(sheets, save):
 def test_a_line_that_may_be_a_net_row_is_never_passed_over(sheets, save, refused, line):
     sheets["Nets"].insert(2, line)
     assert {one.cell[1:] for one in refused(save(sheets))} == {"3"}
+
+
+def test_a_name_with_a_unit_is_asked_for(sheets, save, refused):
+    """A length of the line is none of its ids."""
+    sheets["Nets"][0][0] = "ligne [m]"
+    (finding,) = refused(save(sheets))
+    assert (finding.cell, str(finding.rule)) == (
+        "A1",
+        "has the unit m, but id has none",
+    )
