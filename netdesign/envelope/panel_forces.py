@@ -62,6 +62,12 @@ class PanelForces:
     foot: EndPull
     head: EndPull
 
+    def is_mid_largest(self, member: str) -> bool:
+        """The anchor in mid-panel is the more loaded one of a member's."""
+        mid_foot = math.hypot(*self.solution.mid_foot)
+        beside = self.anchors.member_forces[Member.FOOT_ANCHOR]
+        return member == Member.FOOT_ANCHOR and mid_foot > beside
+
 
 def resolve_panel(
     panel: Panel, net: Net, points: SupportPoints, state: SolvedState

@@ -24,6 +24,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.net_columns import ENDS, NETS
 from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
+from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item, refuse_unused_answers
@@ -50,6 +51,7 @@ from netdesign.site.tables import (
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.site.winter_sheet import read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
@@ -103,6 +105,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         check_layers(net_rows, snow, built.ranges, findings)
     ids = _list_ids(nets)
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
+    winter = read_winter(tables[WINTER.name], findings)
     declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
@@ -118,6 +121,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         range_inputs=built.inputs,
         project_cells=project_cells,
         monitoring=monitoring,
+        winter=winter,
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,

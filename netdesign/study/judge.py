@@ -18,7 +18,7 @@ from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import ExtremeRecord
 from netdesign.study.cases import CheckRun
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
@@ -27,6 +27,7 @@ from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
+    list_one_anchor_notes,
     list_reasons,
     list_row_notes,
     list_site_notes,
@@ -162,10 +163,14 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
             *list_test_notes(checks, task.standard),
+            *list_one_anchor_notes(checks),
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
         statics=record_statics(row, solved.results, extremes, floor),
+        end_effects=record_end_effects(
+            row, task.site.ranges, run.creep_law, task.standard
+        ),
         held_sideways=record_held_sideways(
             row, solved.results, extremes, loads.sideways, floor
         ),

@@ -19,6 +19,7 @@ from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
+    EndEffectRecord,
     HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
@@ -105,6 +106,11 @@ class ActionRecord:
     def is_by_panel(self) -> bool:
         """The force by the panel between posts is larger than that of the section."""
         return (self.panel_support_kN or 0.0) > self.coupled_kN
+
+    @property
+    def larger_force(self) -> float:
+        """Larger one of both inside the row, whose parts are told [kN]."""
+        return (self.panel_kN or 0.0) if self.is_by_panel else self.solved_kN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -271,6 +277,7 @@ class RowStudy:
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
+    end_effects: list[EndEffectRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -63,8 +63,10 @@ def _describe_parts(action: ActionRecord) -> list[tuple[str, str, str]]:
             show_with_unit("solved_kN", one)
             for one in (action.foot_part_kN, action.guy_part_kN)
         )
-        solved = show_with_unit("solved_kN", action.solved_kN)
-        steps.append(("E_s = |F_foot| + |F_uphill|", " + ".join(parts), solved))
+        solved = show_with_unit("solved_kN", action.larger_force)
+        symbol = "E_p" if action.is_by_panel else "E_s"
+        symbols = f"{symbol} = |F_foot| + |F_uphill|"
+        steps.append((symbols, " + ".join(parts), solved))
     load = action.sideways
     if load is None:
         return steps

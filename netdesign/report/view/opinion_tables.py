@@ -67,6 +67,27 @@ def build_slab(row: RowStudy, words: Words) -> Table:
     return Table(caption=caption, columns=columns, rows=(solved, *cases), empty=empty)
 
 
+def tell_slab(row: RowStudy, words: Words) -> str:
+    """The closed form's forces in one line, one part for each ground; "" without."""
+    if row.slab is None:
+        return ""
+    parts = [
+        words(
+            "opinion.slab_case",
+            ground=_name_ground(case, words),
+            load=show_with_unit("load_kN_per_m", case.load_kN_per_m),
+            foot=show_with_unit("foot_anchor_kN", case.foot_anchor_kN),
+        )
+        for case in row.slab.cases
+    ]
+    return words(
+        "opinion.slab_line",
+        load=show_with_unit("load_kN_per_m", row.slab.solved_load_kN_per_m),
+        foot=show_with_unit("foot_anchor_kN", row.slab.solved_foot_anchor_kN),
+        cases=words.join(parts),
+    )
+
+
 def _name_ground(case: SlabCase, words: Words) -> str:
     named = words.show(name("slab_ground", case.name))
     if case.reason is None:

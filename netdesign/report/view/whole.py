@@ -16,6 +16,7 @@ from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
+    end_tables,
     envelope_tables,
     figure_tables,
     formula_tables,
@@ -124,10 +125,12 @@ class RowView:
     floor: Table
     floor_governs: bool  # in a check at least
     slab: Table
+    slab_line: str  # the same in short; "" without
     model_form: Table
     model_form_line: str  # "" where nothing governs
     figures: Figures
     panel: panel_tables.PanelView | None
+    end_effects: Table
     notes: tuple[str, ...]
 
 
@@ -307,11 +310,13 @@ def _view_row(
             one.action is not None and one.action.governs == "guideline"
             for one in row.checks
         ),
+        slab_line=opinion_tables.tell_slab(row, words),
         slab=opinion_tables.build_slab(row, words),
         model_form=opinion_tables.build_model_form(row, words),
         model_form_line=opinion_tables.tell_model_form(row.model_form, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
+        end_effects=end_tables.build_end_effects(row, words),
         notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
     )
 

@@ -165,6 +165,8 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
             shown.append(_stack(book, book.words("caption.turns"), turns))
         if name == "support":
             shown += _list_panels(book, view)
+            ends = [(row.id, row.end_effects) for row in view.rows]
+            shown.append(_stack(book, book.words("end_view.caption"), ends))
         sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:
