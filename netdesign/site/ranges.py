@@ -171,9 +171,8 @@ def _read_line(
     if not settled or ends is None:
         return
     span = table.cell(row, "span")
-    typed = span.text if span else ""  # both ends show what their one cell holds
     low, high = (
-        _read_end(cell, key, field, settled, findings, typed)
+        _read_end(cell, key, field, settled, findings, span)
         for key, cell in zip(("low", "high"), ends, strict=True)
     )
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
@@ -284,12 +283,17 @@ def _read_end(
     field: Field,
     unit: str,
     findings: list[Finding],
-    typed: str = "",
+    span: Cell | None,
 ) -> Reading | None:
+    """Reading of one end; where one cell holds both, it shows that cell."""
     if cell is None:  # the missing heading is a finding already
         return None
+    count = len(findings)
     reading = read_cell(cell, _name_end(field, key), unit, findings)
-    return replace(reading, text=typed) if typed else reading
+    if span is None or span.is_blank:
+        return reading
+    findings[count:] = [replace(one, text=span.text) for one in findings[count:]]
+    return replace(reading, text=span.text, cell=span)
 
 
 def _name_end(field: Field, key: str) -> Field:
