@@ -110,7 +110,7 @@ class Compared:
     def exceeds(self, member: str) -> bool:
         """The history's force is larger by more than both state as their errors.
 
-        A force by the panel between posts is of a state at rest.
+        A history may have no forces by the panel between posts.
         """
         if member not in self.history.member_forces:
             return False

@@ -116,7 +116,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         rows=net_rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=fold_findings(findings),
+        notes=fold_findings([_shorten(one) for one in findings]),
         findings=tuple(findings),
         range_inputs=built.inputs,
         project_cells=project_cells,
@@ -148,6 +148,12 @@ def is_heading(text: str) -> bool:
 def _known_headings() -> frozenset[str]:
     fields = (field for plan in SHEETS for field in plan.fields)
     return frozenset(name for field in fields for name in field.names)
+
+
+def _shorten(finding: Finding) -> Finding:
+    """Remark without the list of headings, which helps only where one is sought."""
+    is_long = finding.rule.key == "heading.unknown"
+    return replace(finding, accepted="") if is_long else finding
 
 
 def _is_wanted(sheet_name: str, answers: Answers) -> bool:

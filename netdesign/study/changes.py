@@ -108,7 +108,7 @@ def list_end_changes(
 
 
 def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
-    """What the end effect makes of a rope's pull, over some ranges [-]."""
+    """Factor of the end effect on a rope's pull, over some ranges [-]."""
     effects = find_effects(task.row, task.standard, ranges)
     edge = effects.find_support("edge")
     return compute_end_factor(edge, effects.post_spacing)

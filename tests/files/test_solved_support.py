@@ -115,10 +115,10 @@ def test_a_panel_that_fails_leaves_its_reason(section, language):
     assert record_solved_panel(solved.result) is None
 
 
-def test_a_history_has_no_panel(section):
-    written, _ = write(replace(section, method="transient"), panel=PANEL)
+def test_a_staggered_history_has_no_panel(section):
+    written, _ = write(replace(section, method="staggered"), panel=PANEL)
     assert written["panel"] is None
-    assert "not on a history" in written["reason"]
+    assert "staggered exchange" in written["reason"]
 
 
 @pytest.mark.parametrize("language", ["en", "de", "fr"])

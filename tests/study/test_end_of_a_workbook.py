@@ -61,9 +61,9 @@ def at_end(row):
     return {one.id: one for one in row.checks if one.member in MEMBERS}
 
 
-@pytest.mark.parametrize("emptied", ["net_cut", "lower_sag"])
-def test_an_end_that_is_held_is_not_proven_without_a_panel(tmp_path, emptied):
-    row = judge(tmp_path, {key: one for key, one in PANEL.items() if key != emptied})
+def test_an_end_that_is_held_is_not_proven_without_a_panel(tmp_path):
+    """One emptied cell is enough."""
+    row = judge(tmp_path, {key: one for key, one in PANEL.items() if key != "net_cut"})
     assert row.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
     checks = at_end(row)
     assert {one.member for one in checks.values()} == MEMBERS
@@ -86,10 +86,11 @@ def test_with_its_panel_each_of_them_has_a_demand(tmp_path, mid):
     assert shared.is_by_panel is (mid == "no")
     parts = shared.foot_part_kN + shared.guy_part_kN
     assert parts == pytest.approx(shared.larger_force)
+    require_one_anchor_told(row)
 
 
-def test_one_anchor_at_foot_and_side_is_told_of(tmp_path):
-    row = judge(tmp_path, PANEL)
+def require_one_anchor_told(row):
+    """Foot anchor and lateral anchor as one: the root of both squares."""
     forces = {
         member: max(
             one.action_kN

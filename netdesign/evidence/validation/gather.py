@@ -18,6 +18,11 @@ from netdesign.evidence.validation.page import (
 from netdesign.evidence.validation.structure import Structure, read_structures
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import compare_contrasts, list_places
+from netdesign.evidence.verification.exported import (
+    list_files,
+    solve_exported,
+    write_scenes,
+)
 from netdesign.evidence.verification.pack import GROUPS, run_pack
 
 _OWN = "measured.toml"
@@ -45,20 +50,21 @@ def read_all(path: Path | None) -> tuple[Structure, ...]:
 
 
 def list_pages(out: Path) -> list[Path]:
-    """Files of the page in a folder."""
-    return [out / PAGE_FILE, out / DOCUMENT_FILE]
+    """Files of the page in a folder, the page first; then those of the scenes."""
+    return [out / name for name in (PAGE_FILE, DOCUMENT_FILE, *list_files())]
 
 
 def write_page(evidence: Evidence, out: Path, *, force: bool) -> None:
-    """Write the page and its document into a folder.
+    """Write the page, its document and the exported scenes into a folder.
 
     Raises
     ------
     OutputError
         If they exist and may not be replaced, or cannot be written.
     """
-    files = {out / name: text for name, text in render_validation(evidence).items()}
-    write_files(files, overwrite=force)
+    files = render_validation(evidence) | write_scenes(solve_exported())
+    contents = {out / name: content for name, content in files.items()}
+    write_files(contents, overwrite=force)
 
 
 def count_parts(structures: Sequence[Structure]) -> int:

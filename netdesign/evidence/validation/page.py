@@ -15,6 +15,7 @@ from netdesign.evidence.validation.pictures import (
     draw_errors,
 )
 from netdesign.evidence.validation.structure import Structure
+from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import (
     MODELS,
@@ -98,6 +99,7 @@ def _render_page(evidence: Evidence) -> str:
             inside=sum(one.is_inside for one in compared),
             middle_of_five=sum(one.is_in_the_middle for one in compared),
             measured=len(compared),
+            codes=_list_codes(),
         )
     )
 
@@ -151,6 +153,15 @@ def _show_softness(place: Place) -> dict[str, Any]:
 
 def _show_ratio(value: float) -> str:
     return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
+
+
+def _list_codes() -> dict[str, dict[str, Any]]:
+    """Other codes by their names, with recipe and results."""
+    codes: dict[str, dict[str, Any]] = {}
+    for one in load_results():
+        code = codes.setdefault(one.code, {"recipe": one.recipe, "scenes": []})
+        code["scenes"].append(one.scene)
+    return codes
 
 
 def _show_contrast(one: Contrast) -> dict[str, str]:

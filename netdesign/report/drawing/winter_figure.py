@@ -10,7 +10,7 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
 from netdesign.report.words import Words, show_member
 
-_LEFT, _RIGHT = 36.0, 74.0  # beside the panels [pt]
+_LEFT, _RIGHT = 36.0, 116.0  # beside the panels [pt]
 _HEAD, _GAP = 16.0, 24.0  # above the first panel, between two [pt]
 _FORCES, _MEMBERS, _SNOW, _AIR = 118.0, 96.0, 104.0, 52.0  # heights of the panels [pt]
 _LOOSE, _DENSE = 80.0, 600.0  # ends of the greys [kg/m3]
@@ -168,7 +168,7 @@ class _Panel:
             self._chart.line(
                 ((x, y - 2.5), (x + 9.0, y - 2.5)), stroke=stroke, width=1.4
             )
-            self._chart.text(x + 12.0, y, f"{name} {value:.1f}")
+            self._chart.text(x + 12.0, y, f"{value:.1f} {name}")
 
     def _draw_scale(self, frame: Frame) -> None:
         """Greys of some densities at the right."""

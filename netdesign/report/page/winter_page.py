@@ -90,6 +90,11 @@ def _view_row(
             slope=row["slope_deg"],
         ),
         "summary": _tabulate_winters(row, words),
+        "unproven": [
+            f"{one['name']}: {show_text(one['why'])}"
+            for one in row["winters"]
+            if not one["is_proven"]
+        ],
         "members": _tabulate_members(shown, words),
         "models": _tabulate_models(row, document["model"], words),
         "statistics": _tabulate_statistics(row["statistics"], words),

@@ -113,6 +113,13 @@ RANGES = word_plan(
                 note="number of values from low to high; left empty: the worst case is "
                 "searched, with a bound",
             ),
+            Field(
+                key="justification",
+                aliases=("basis", "source"),
+                kind="text",
+                note="why this range; netdesign winter writes one for the density; "
+                "shown with the range in every report",
+            ),
         ),
     )
 )

@@ -24,7 +24,7 @@ WINTER = word_plan(
             ),
             Field(
                 key="snow_height",
-                aliases=("HS", "snow depth"),
+                aliases=("HS", "snow height"),
                 units=LENGTHS,
                 bounds=(0.0, 8.0),
                 note="of the station, vertical; left empty where it was not read",

@@ -118,6 +118,8 @@ def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
         ("épaisseur [m]", "Filet", "Filet"),
         ("longueur amont [m]", "Ancrages", "Ancrages"),
         ("Dk [m]", "Neige", "Neige"),
+        ("Dk/Hk [m]", "", "Hk"),
+        ("Ancrage amont (ancien)", "", "ancien"),
     ],
 )
 def test_a_symbol_or_group_of_another_quantity_is_asked_for(heading, group, contrary):
@@ -145,6 +147,9 @@ def test_what_may_be_several_quantities_is_asked_for(heading):
 @pytest.mark.parametrize(
     "heading",
     [
+        *("Hauteur de poteau [m]", "Entraxe rangées [m]", "Pente filet [°]", "Dk min"),
+        *("longueur amont du hauban [m]", "Raideur câble [kN/m]", "D vertical [m]"),
+        *("Anker bergseitig Länge [m]", "Dk Hk", "Poids N", "inclinaison filet [°]"),
         *("épaisseur de glace [m]", "résistance Rd [kN]", "Nb de poteaux", "Masse"),
         *("hauteur de neige (normale à la pente) [m]", "net height vertical [m]"),
         *("Schneehöhe (hangnormal) [m]", "Dk min. vertical", "post type old"),
@@ -185,3 +190,28 @@ def test_italian_has_every_required_column():
     asked_for = {"net_height"}  # taken with its symbol DK, or as normal to the slope
     assert required - asked_for <= set(table["Nets"])
     assert asked_for <= set(table["unclear"]["Nets"])
+
+
+@pytest.mark.parametrize(
+    "quantity",
+    [
+        *("Neigung [°]", "inclinaison", "Bodenreibung", "frottement neige/sol [°]"),
+        *("Reibung Schnee/Boden", "Attrito", "H", "D [m]", "N", "Neigung ψ"),
+        *("masse volumique φ", "neige"),
+    ],
+)
+def test_quantities_that_may_be_others_are_asked_for(quantity):
+    match = Lexicon.of(RANGES.items, RANGES).match(quantity)
+    assert match.field is None
+    assert match.readings
+
+
+@pytest.mark.parametrize(
+    "quantity",
+    [
+        *("densité relative", "Hangneigung", "inclinaison du terrain [°]", "angle φ"),
+        *("Reibungswinkel Boden φ", "angle de frottement du sol", "Dichte Eis"),
+    ],
+)
+def test_quantities_of_something_else_are_not_taken(quantity):
+    assert Lexicon.of(RANGES.items, RANGES).match(quantity).field is None
