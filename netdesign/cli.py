@@ -36,7 +36,9 @@ from netdesign.commands.running import EXIT_CODES, own_command
 from netdesign.commands.solve import solve
 from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, describe_refusal
+from netdesign.commands.validate import validate
 from netdesign.commands.verify import verify
+from netdesign.commands.winter import winter
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
@@ -96,7 +98,9 @@ cli.add_command(paper)
 cli.add_command(report)
 cli.add_command(solve)
 cli.add_command(standards)
+cli.add_command(validate)
 cli.add_command(verify)
+cli.add_command(winter)
 
 
 accept_variables(cli)

@@ -120,6 +120,7 @@ _ROWS = (
     _row("load_difference_percent", "", "%", 0),
     _row("foot_difference_percent", "", "%", 0),
     # second opinions
+    _row("matched_slip_m", "D*", "m", 2),
     _row("influence_length_m", "l", "m", 2),
     _row("dynamic_kN_per_m", "", "kN/m", 1),
     _row("at_rest_kN_per_m", "", "kN/m", 1),

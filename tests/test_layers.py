@@ -47,6 +47,7 @@ ROWS = (
     {"report", "public", "examples"},  # examples see the public names only
     {"evidence"},
     {"evidence.verification", "evidence.paper", "evidence.benchmark"},
+    {"evidence.validation"},
     {"commands"},
     {"cli"},
     {"__main__"},

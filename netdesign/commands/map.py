@@ -1,4 +1,4 @@
-"""``netdesign map``: what a workbook leaves open, in a file to be answered."""
+"""``netdesign map``: questions that a workbook leaves open, in a file."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ def open_site(
 def build_text_format(
     *, delimiter: str = "", decimal_mark: str | None = None
 ) -> TextFormat:
-    """What the options declare of a file's text."""
+    """Declared form of a file's text."""
     from netdesign.site.cells.cells import TextFormat
 
     return TextFormat(delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""])

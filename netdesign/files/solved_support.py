@@ -14,11 +14,10 @@ from netdesign.envelope.panel_forces import PanelForces
 from netdesign.envelope.ranges import build_case
 from netdesign.envelope.run import CaseResult, CaseTask, resolve_case
 from netdesign.files.support_tables import GivenSupport
-from netdesign.outcome import Outcome
 from netdesign.panel.row_forces import EndForces, compute_end_forces
 from netdesign.panel.solution import RopeForces
 from netdesign.solving.solve import Settings
-from netdesign.solving.state import CaseEnd, keep_state
+from netdesign.solving.state import keep_state
 from netdesign.solving.workers import Job
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.layout import Point, place_support
@@ -57,8 +56,7 @@ def resolve_support(
         layout=given.layout,
         panel=given.panel,
     )
-    ended = CaseEnd(outcome=Outcome.CONVERGED, state=keep_state(solution))
-    result = resolve_case(task, ended)
+    result = resolve_case(task, keep_state(solution))
     return SolvedSupport(given=given, result=result, end=_find_end(given, result))
 
 

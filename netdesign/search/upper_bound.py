@@ -131,19 +131,24 @@ def bound_quantities(
         excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
         wanted += zip(excess.tolist(), _settle(places), repeat(quantity), strict=False)
     wanted.sort(key=lambda one: (-one[0], one[1], one[2]))
-    margin = _MARGIN * tolerance
     summits = _settle(around)
     return Bounds(
         best=best,
         tolerance=tolerance,
-        # what is negative everywhere is no force at all: a guy that stays slack
-        upper=np.where(
-            (upper > 0.0) | (best > 0.0), np.maximum(upper, best) + margin, 0.0
-        ),
+        upper=_close_above(upper, best, _MARGIN * tolerance),
         watched=tuple(asked),
         summits=tuple((summits[q], q) for q in asked if values[:, q].max() >= best[q]),
         wanted=tuple(wanted),
     )
+
+
+def _close_above(upper: Floats, best: Floats, margin: Floats) -> Floats:
+    """Bound above the largest value found, and above what the model reaches.
+
+    What is negative everywhere is no force at all: a guy that stays slack.
+    """
+    is_force = (upper > 0.0) | (best > 0.0)
+    return np.where(is_force, np.maximum(upper, best) + margin, 0.0)
 
 
 def _settle(places: Floats) -> list[Point]:

@@ -265,6 +265,10 @@ def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
         else:
             unit = _find_unit(found, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
+            if meaning.answer:
+                file = found.sheet.answered_in
+                rule = say("heading.answered", name=field.name, file=file)
+                findings.append(cell.finding(Refusal(rule), severity="note"))
     plan = found.plan
     missing = [field for field in plan.fields if field.key not in columns]
     judged = _judge_all_unknown(unknown, missing)
@@ -276,7 +280,7 @@ def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
 
 
 def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
-    """Why a heading without a field is not read; None where nobody knows it."""
+    """Reason why a heading is not read; None where nobody knows it."""
     if meaning.is_ignored:
         return Refusal(say("heading.ignored", file=sheet.answered_in))
     if meaning.is_wrong_answer:
@@ -358,6 +362,9 @@ def _find_unit(
 ) -> str | None:
     """Take the unit of a column from its heading, the row of units, or its answer."""
     if not field.units:
+        if title.unit in KNOWN_UNITS and title.unit != "-":  # a number of another field
+            rule = say("heading.unit_not_wanted", unit=title.unit, name=field.name)
+            findings.append(title.cell.finding(Refusal(rule, field.name)))
         return ""
     column, unit, cell = title.cell.column, title.unit, title.cell
     below = found.sheet.cell(found.units_row, column) if found.units_row else None

@@ -50,6 +50,10 @@ def match_item(
     if meaning.is_ignored:
         rule = say("item.ignored", file=table.sheet.answered_in)
         refuse(name, rule, "", findings, severity="note")
+    elif meaning.answer and meaning.field:
+        file = table.sheet.answered_in
+        rule = say("heading.answered", name=meaning.field.name, file=file)
+        refuse(name, rule, "", findings, severity="note")
     elif meaning.field is None:
         refuse(name, *_explain(name.word, table, what, meaning), findings)
     return meaning

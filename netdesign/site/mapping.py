@@ -84,7 +84,7 @@ _WANTED = say("map.wanted")
 
 
 def _find_fault(table: Mapping[str, Any]) -> Message | None:
-    """What is wrong with the tables of the file."""
+    """First fault of the tables of the file."""
     stranger = next((key for key in table if key not in _KEYS), None)
     if stranger is not None:
         return say("map.unknown_key", key=quote(stranger))

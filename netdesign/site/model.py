@@ -23,6 +23,7 @@ from netdesign.snow.snowpack import (
     compute_thickness,
     scale_layers,
 )
+from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import EndMember, Member
 from netdesign.structure.row_position import Position
@@ -329,6 +330,34 @@ class MonitoringSeries:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StationWinter:
+    """Series of a station, and how it reaches the rows.
+
+    Attributes
+    ----------
+    series : HeightSeries
+        Snow heights [m] and air temperatures [K], gaps closed.
+    station : str
+        Its name; may be empty.
+    altitude : float or None
+        [m].
+    height_factor : float or None
+        f_H [-]; None where none is given.
+    source : str
+        First cell.
+    notes : tuple of Message
+        What was filled, what looks odd.
+    """
+
+    series: HeightSeries
+    station: str = ""
+    altitude: float | None = None
+    height_factor: float | None = None
+    source: str = ""
+    notes: tuple[Message, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """Identification printed on every output.
 
@@ -361,6 +390,7 @@ class Site:
     declared: tuple[Declaration, ...] = ()
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
+    winter: StationWinter | None = None
 
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""

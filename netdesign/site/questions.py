@@ -1,4 +1,4 @@
-"""What a workbook leaves open, as a file of answers to fill in: ``SITE.map.toml``."""
+"""Questions that a workbook leaves open, as a file of answers: ``SITE.map.toml``."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _OF_UNITS = (
 )
 _OF_NAMES = (
     *("heading.ambiguous", "heading.contrary", "heading.close_to_missing"),
-    *("heading.twice", "heading.wrong_answer"),
+    *("heading.twice", "heading.wrong_answer", "heading.unit_not_wanted"),
     *("item.unknown", "item.unknown_quantity"),
 )
 _LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one

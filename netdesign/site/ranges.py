@@ -155,6 +155,7 @@ def _read_line(
     name = read_field(table, "quantity", row, findings)
     unit = read_field(table, "unit", row, findings)
     samples = read_field(table, "samples", row, findings)
+    why = read_field(table, "justification", row, findings)
     if name.state != "given":
         return
     meaning = match_item(name, table, "quantity", findings)
@@ -169,14 +170,25 @@ def _read_line(
     settled = _settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
     if not settled or ends is None:
         return
+    span = table.cell(row, "span")
     low, high = (
-        _read_end(cell, key, field, settled, findings)
+        _read_end(cell, key, field, settled, findings, span)
         for key, cell in zip(("low", "high"), ends, strict=True)
     )
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
         del names[field.key], found[field.key]  # a line of a form, not filled in
     else:
-        found[field.key] = _read_range(field, (low, high, samples), settled, findings)
+        built = _read_range(field, (low, high, samples), settled, findings)
+        found[field.key] = _justify(built, field, why)
+
+
+def _justify(built: _Range | None, field: Field, why: Reading) -> _Range | None:
+    """Range with its justification among its inputs, where one is given."""
+    if built is None or why.state != "given":
+        return built
+    named = say("column.justification_of", name=field.name)
+    labelled = replace(why, field=replace(why.field, named=named))
+    return replace(built, inputs=(*built.inputs, labelled.echo()))
 
 
 def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
@@ -266,11 +278,22 @@ def _read_range(
 
 
 def _read_end(
-    cell: Cell | None, key: str, field: Field, unit: str, findings: list[Finding]
+    cell: Cell | None,
+    key: str,
+    field: Field,
+    unit: str,
+    findings: list[Finding],
+    span: Cell | None,
 ) -> Reading | None:
+    """Reading of one end; where one cell holds both, it shows that cell."""
     if cell is None:  # the missing heading is a finding already
         return None
-    return read_cell(cell, _name_end(field, key), unit, findings)
+    count = len(findings)
+    reading = read_cell(cell, _name_end(field, key), unit, findings)
+    if span is None or span.is_blank:
+        return reading
+    findings[count:] = [replace(one, text=span.text) for one in findings[count:]]
+    return replace(reading, text=span.text, cell=span)
 
 
 def _name_end(field: Field, key: str) -> Field:

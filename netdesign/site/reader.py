@@ -24,6 +24,7 @@ from netdesign.site.columns.all_tables import (
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.net_columns import ENDS, NETS
 from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
+from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
 from netdesign.site.items import match_item, refuse_unused_answers
@@ -50,6 +51,7 @@ from netdesign.site.tables import (
     read_rows,
 )
 from netdesign.site.type_resistances import check_tests, fill_in_resistances
+from netdesign.site.winter_sheet import read_winter
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.words.message import say
 
@@ -103,6 +105,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         check_layers(net_rows, snow, built.ranges, findings)
     ids = _list_ids(nets)
     monitoring = read_monitoring(tables[MONITORING.name], ids, findings)
+    winter = read_winter(tables[WINTER.name], findings)
     declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
@@ -113,11 +116,12 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         rows=net_rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=fold_findings(findings),
+        notes=fold_findings([_shorten(one) for one in findings]),
         findings=tuple(findings),
         range_inputs=built.inputs,
         project_cells=project_cells,
         monitoring=monitoring,
+        winter=winter,
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
@@ -144,6 +148,12 @@ def is_heading(text: str) -> bool:
 def _known_headings() -> frozenset[str]:
     fields = (field for plan in SHEETS for field in plan.fields)
     return frozenset(name for field in fields for name in field.names)
+
+
+def _shorten(finding: Finding) -> Finding:
+    """Remark without the list of headings, which helps only where one is sought."""
+    is_long = finding.rule.key == "heading.unknown"
+    return replace(finding, accepted="") if is_long else finding
 
 
 def _is_wanted(sheet_name: str, answers: Answers) -> bool:

@@ -103,7 +103,7 @@ def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
 def _find_other(
     sheet: Sheet, plan: SheetPlan, headings: Headings, row: int, rows: list[int]
 ) -> Message | None:
-    """What a line is that holds no data; None of a line of the table."""
+    """Rule of a line that holds no data; None of a line of the table."""
     cells = sheet.row(row)
     if sheet.is_delimited:  # a line may be cut at wrong places
         return None

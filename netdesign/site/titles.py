@@ -24,7 +24,7 @@ class Title:
 
     @property
     def text(self) -> str:
-        """As typed."""
+        """Text as typed."""
         return str(self.cell.value)
 
     @property
@@ -42,7 +42,7 @@ class Title:
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What a heading is taken for.
+    """Field that a heading is taken for, and by what.
 
     Attributes
     ----------

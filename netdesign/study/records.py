@@ -275,9 +275,9 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
-    end_effects: list[EndEffectRecord] = field(default_factory=list)
     slab: SlabRecord | None = None  # closed form, for comparison
     model_form: ModelFormRecord | None = None  # None where nothing governs
+    end_effects: list[EndEffectRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

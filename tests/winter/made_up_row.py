@@ -2,9 +2,11 @@
 
 import csv
 import math
+from dataclasses import replace
 from importlib.resources import files
 
 from netdesign.cable.net import Net
+from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.snow.ground import GroundLaw, build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
@@ -50,3 +52,23 @@ def read_winter():
     """Snow heights [m] of the made-up winter at 2000 m, from 1 November."""
     text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
     return [float(line["HS [cm]"]) / 100 for line in csv.DictReader(text.splitlines())]
+
+
+class FormulaSolver(DaySolver):
+    """Pulls that grow as rho^1.2 d^1.9: the season's logic without a solve."""
+
+    def _run(self, days):
+        return [
+            replace(
+                day, ending="solved", foot=self._pull(day), head=self._pull(day, 0.8)
+            )
+            for day in days
+        ]
+
+    def _pull(self, day, share=1.0):
+        value = share * (day.density / 300.0) ** 1.2 * day.thickness**1.9 * 4e3
+        return Band(low=0.99 * value, value=value, high=1.01 * value)
+
+
+def a_formula_solver():
+    return FormulaSolver(row=a_solver().row, settings=SolverSettings(accuracy=0.05))

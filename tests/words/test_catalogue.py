@@ -22,6 +22,7 @@ FAMILIES: tuple[str, ...] = (
     *("outcome.", "ended.", "member.", "mode.", "basis.", "status.", "axis."),
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     "creep_law.",
+    *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",

@@ -23,8 +23,8 @@ from netdesign.study.opinion_records import ModelFormRecord, SlabCase, VariantRe
 from netdesign.study.records import RowStudy
 from netdesign.words.names import name
 
+_SLIP = "matched_slip_m"  # shown in centimetres: nobody typed it
 _SLAB = (
-    "slip_length_m",
     "influence_length_m",
     "dynamic_kN_per_m",
     "at_rest_kN_per_m",
@@ -44,7 +44,7 @@ def build_slab(row: RowStudy, words: Words) -> Table:
     record = row.slab
     columns = (
         text_column(words("opinion.ground")),
-        *(quantity_column(words, key) for key in _SLAB),
+        *(quantity_column(words, key) for key in (_SLIP, *_SLAB)),
     )
     caption, empty = words("opinion.slab"), words("heading.no_case_converged")
     if record is None:
@@ -54,17 +54,39 @@ def build_slab(row: RowStudy, words: Words) -> Table:
         "foot_anchor_kN": record.solved_foot_anchor_kN,
     }
     solved = (
-        text_cell(words("opinion.solved", case=name_case(record.case))),
-        *(number_cell(key, known.get(key)) for key in _SLAB),
+        text_cell(words("show.coupled_solve", case=name_case(record.case))),
+        *(number_cell(key, known.get(key)) for key in (_SLIP, *_SLAB)),
     )
     cases = tuple(
         (
             text_cell(_name_ground(case, words)),
+            number_cell(_SLIP, case.slip_length_m),
             *(number_cell(key, getattr(case, key)) for key in _SLAB),
         )
         for case in record.cases
     )
     return Table(caption=caption, columns=columns, rows=(solved, *cases), empty=empty)
+
+
+def tell_slab(row: RowStudy, words: Words) -> str:
+    """The closed form's forces in one line, one part for each ground; "" without."""
+    if row.slab is None:
+        return ""
+    parts = [
+        words(
+            "opinion.slab_case",
+            ground=_name_ground(case, words),
+            load=show_with_unit("load_kN_per_m", case.load_kN_per_m),
+            foot=show_with_unit("foot_anchor_kN", case.foot_anchor_kN),
+        )
+        for case in row.slab.cases
+    ]
+    return words(
+        "opinion.slab_line",
+        load=show_with_unit("load_kN_per_m", row.slab.solved_load_kN_per_m),
+        foot=show_with_unit("foot_anchor_kN", row.slab.solved_foot_anchor_kN),
+        cases=words.join(parts),
+    )
 
 
 def _name_ground(case: SlabCase, words: Words) -> str:
@@ -82,7 +104,7 @@ def build_model_form(row: RowStudy, words: Words) -> Table:
         columns=(
             text_column(words("opinion.model")),
             text_column(words("opinion.law")),
-            *(quantity_column(words, key) for key in ("exponent", "slip_length_m")),
+            *(quantity_column(words, key) for key in ("exponent", _SLIP)),
             text_column(words("opinion.stated")),
             text_column(words("opinion.given")),
             *(quantity_column(words, key) for key in _FORCES),
@@ -102,7 +124,7 @@ def _list_variant(one: VariantRecord, words: Words) -> tuple[Cell, ...]:
         text_cell(words.show(name("variant", one.kind))),
         text_cell(show_text(one.creep_law)),
         given_cell(one.exponent),
-        number_cell("slip_length_m", one.slip_length_m),
+        number_cell(_SLIP, one.slip_length_m),
         text_cell(_tell(one.is_stated, words)),
         text_cell(_tell(one.is_calibrated, words)),
         *(number_cell(key, getattr(one, key)) for key in _FORCES),

@@ -22,7 +22,7 @@ from netdesign.site.model import InputEcho
 from netdesign.structure.members import CARRYING_MEMBERS, EndMember
 from netdesign.study.records import CheckRecord, RowStudy, Study
 
-_ACROSS = 8  # rows of nets beside each other on a page
+_ACROSS = 12  # rows of nets beside each other on a page
 _BY_DEFAULT, _DERIVED = "*", "‡"
 
 

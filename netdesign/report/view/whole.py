@@ -125,6 +125,7 @@ class RowView:
     floor: Table
     floor_governs: bool  # in a check at least
     slab: Table
+    slab_line: str  # the same in short; "" without
     model_form: Table
     model_form_line: str  # "" where nothing governs
     figures: Figures
@@ -309,6 +310,7 @@ def _view_row(
             one.action is not None and one.action.governs == "guideline"
             for one in row.checks
         ),
+        slab_line=opinion_tables.tell_slab(row, words),
         slab=opinion_tables.build_slab(row, words),
         model_form=opinion_tables.build_model_form(row, words),
         model_form_line=opinion_tables.tell_model_form(row.model_form, words),

@@ -134,21 +134,9 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         ("cases", "heading.all_cases", cases),
         ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
         ("holds", "heading.single_values", _list_parts(view, "holds")),
-        (
-            "support",
-            "heading.forces_on_ground",
-            _list_parts(view, "anchors"),
-        ),
-        (
-            "directions",
-            "heading.directions_of_pulls",
-            _list_parts(view, "pulls"),
-        ),
-        (
-            "guideline",
-            "heading.check_by_guideline",
-            _list_parts(view, "guideline"),
-        ),
+        ("support", "heading.forces_on_ground", _list_parts(view, "anchors")),
+        ("directions", "heading.directions_of_pulls", _list_parts(view, "pulls")),
+        ("guideline", "heading.check_by_guideline", _list_parts(view, "guideline")),
     ):
         caption = parts[0][1].caption if parts else book.words(title)
         stacked = _stack(book, caption, parts)

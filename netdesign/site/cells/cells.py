@@ -31,7 +31,7 @@ UNDECLARED = TextFormat()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answers:
-    """What the engineer answers of a workbook, in the file of `site.mapping`.
+    """Answers of the engineer about a workbook, from the file of `site.mapping`.
 
     Attributes
     ----------

@@ -26,6 +26,7 @@ from netdesign.site.columns.unit_names import (
     TEMPERATURES,
     TIMES,
 )
+from netdesign.site.columns.winter_columns import WINTER
 from netdesign.words.catalogue import LANGUAGES, Language, render
 from netdesign.words.message import say
 
@@ -263,7 +264,7 @@ DECLARED = word_plan(
 
 SHEETS: tuple[SheetPlan, ...] = (
     *(PROJECT, NETS, RANGES, SNOW, ANCHORS, ROPES, POSTS, ENDS),
-    *(MONITORING, DECLARED),
+    *(MONITORING, DECLARED, WINTER),
 )
 # The sheet that an annotated copy lists its findings on, by language.
 FINDINGS_SHEETS: Mapping[Language, str] = {

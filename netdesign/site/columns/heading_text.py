@@ -70,13 +70,15 @@ def fold(text: str) -> str:
 def find_unit(text: str) -> str:
     """Unit of a heading, in brackets or behind a comma; empty where there is none.
 
-    >>> find_unit("Dk (rechtwinklig) [m]"), find_unit("Entraxe, en m")
-    ('m', 'm')
+    Two units that differ are both given: together they are none that anybody knows.
+
+    >>> find_unit("Dk (rechtwinklig) [m]"), find_unit("Pente (deg) [%]")
+    ('m', 'deg, %')
     """
     bracketed = [normalise_unit(one) for one in _BRACKETS.findall(text)]
-    known = [one for one in bracketed if one in KNOWN_UNITS]
+    known = dict.fromkeys(one for one in bracketed if one in KNOWN_UNITS)
     if known:
-        return known[-1]
+        return ", ".join(known)
     behind = _BEHIND.search(text)
     unit = normalise_unit(behind[1]) if behind else ""
     return unit if unit in KNOWN_UNITS and behind and not _is_short(behind[1]) else ""

@@ -1,4 +1,4 @@
-"""What a heading means in one sheet: one field, several that it may be, or none.
+"""Meaning of a heading in one sheet: one field, several that it may be, or none.
 
 A heading is taken only where everything in it agrees: its name in each language, its
 symbols, the group that it stands under. Else it is asked for.
@@ -19,6 +19,7 @@ from netdesign.site.columns.heading_text import (
     split_languages,
 )
 from netdesign.site.columns.synonyms import load_synonyms
+from netdesign.site.columns.unit_names import KNOWN_UNITS
 
 _Keys = frozenset[str]  # of fields; with _UNCLEAR among them never one for sure
 _NOTHING: _Keys = frozenset()
@@ -115,14 +116,27 @@ class Lexicon:
         return _NOTHING
 
     def _match_alone(self, text: str) -> Match:
-        own, _ = split_heading(text)
+        own, bracket = split_heading(text)
         if own in self.names:
-            return self._conclude(self.names[own])
+            found = self._conclude(self.names[own])
+            field = found.field
+            if field and not self._may_stand_behind(bracket, field):
+                return Match(readings=(field,), contrary=bracket)
+            return found
         for parts in split_languages(text):
             known = [self._find(part) for part in parts]
             if all(keys for keys, _ in known):
                 return self._agree(known)
         return UNKNOWN
+
+    def _may_stand_behind(self, bracket: str, field: Field) -> bool:
+        """A bracket says nothing else: a unit, or the same field once more.
+
+        Behind a number it can only be a unit; that a unit is unknown is told elsewhere.
+        """
+        keys = self.names.get(normalise(bracket), _NOTHING)
+        is_same = field.key in keys
+        return not bracket or bool(field.units) or bracket in KNOWN_UNITS or is_same
 
     def _agree(self, known: list[tuple[_Keys, str]]) -> Match:
         """Meaning that all parts of a heading share."""
@@ -136,7 +150,7 @@ class Lexicon:
     def _find(self, part: Part) -> tuple[_Keys, str]:
         """Fields that a part may mean, and the symbol that says otherwise."""
         if not part.name:
-            return self._find_symbols(part.symbols), ""
+            return self._find_symbols(part.symbols)
         if part.whole in self.folded:
             return self.folded[part.whole], ""
         keys = self.folded.get(part.name, _NOTHING)
@@ -147,18 +161,22 @@ class Lexicon:
             keys &= meant if is_clear else meant | _UNCLEAR
         return keys, ""
 
-    def _find_symbols(self, symbols: frozenset[str]) -> _Keys:
-        """Fields that a heading of nothing but symbols may mean."""
+    def _find_symbols(self, symbols: frozenset[str]) -> tuple[_Keys, str]:
+        """Fields that a part of nothing but a symbol may mean.
+
+        Also the symbol, where it stands for a quantity that no field is.
+        """
         if len(symbols) != 1:
-            return _NOTHING
+            return _NOTHING, ""
         symbol, *_ = symbols
         meant, is_clear = _find_meant(symbol)
         if is_clear:
-            return meant.intersection(self.fields)
+            return meant.intersection(self.fields), ""
         table = load_synonyms("signs")["unclear"]
         keys = frozenset(key for key, names in table.items() if symbol in names)
         known = keys.intersection(self.fields)
-        return known | _UNCLEAR if known else _NOTHING
+        contrary = "" if known.intersection(meant) else symbol
+        return (known | _UNCLEAR, contrary) if known else (_NOTHING, "")
 
     def _conclude(self, keys: _Keys, contrary: str = "") -> Match:
         fields = tuple(one for key, one in self.fields.items() if key in keys)

@@ -24,12 +24,12 @@ def test_the_matrix_shows_the_worst_verdict_of_each_member():
 
 
 def test_inputs_of_all_rows_stand_beside_each_other():
-    many = replace(STUDY, rows=[replace(STUDY.rows[0], id=f"N{k}") for k in range(11)])
+    many = replace(STUDY, rows=[replace(STUDY.rows[0], id=f"N{k}") for k in range(17)])
     tables = build_site_inputs(many, ENGLISH)
     headings = [
         c.heading for table in tables for c in table.columns if c.heading[:1] == "N"
     ]
-    assert headings == [f"N{k}" for k in range(11)]
+    assert headings == [f"N{k}" for k in range(17)]
     lines = {cells[0].text: cells for cells in tables[0].rows}
     for echo in STUDY.rows[0].inputs:
         label = ENGLISH.show(echo.label)

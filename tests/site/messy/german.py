@@ -185,5 +185,8 @@ TYPES: dict[str, dict[str, float | str]] = {
 }
 # What the office answers when asked: "Neigung" is the slope again, in per cent, and
 # "Grad" are degrees.
-ANSWERS: dict[str, str] = {"Neigung": "ignore", "Reibung Schnee/Netz φ": "deg"}
+ANSWERS: dict[str, str] = {
+    "Gelände › Neigung": "ignore",
+    "Reibung Schnee/Netz φ": "Reibungswinkel [deg]",
+}
 LEFT_OUT = ("Abschnitt", "Neigung", "Bemerkung")

@@ -1,0 +1,280 @@
+"""``netdesign winter``: a station's snow heights on the rows of a site."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from netdesign.commands.config import ConfiguredCommand
+from netdesign.commands.faults import tell_faults
+from netdesign.commands.language import tell
+from netdesign.commands.options import (
+    accuracy_option,
+    force_option,
+    json_option,
+    language_option,
+    out_option,
+    quiet_option,
+)
+from netdesign.commands.running import EXIT_CODES, report_places
+from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.solving import open_phases, solving_options
+from netdesign.commands.usage import UsageRefusal
+from netdesign.edge.streams import print_json
+from netdesign.outcome import Verdict
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.files.winter import WinterRun
+    from netdesign.site.model import Site, StationWinter
+    from netdesign.solving.runner import Runner
+    from netdesign.words.catalogue import Language
+
+_MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
+_FOLDER = "winter"
+_PHASE = 150  # solves of a row and winter, about; a table has 63
+EXAMPLE_HEIGHTS = "winter_2000.csv"
+
+
+@click.command(cls=ConfiguredCommand)
+@click.argument("site_file", required=False, type=click.Path(path_type=Path))
+@click.option("--example", is_flag=True, help="Built-in site, made-up winter.")
+@site_options
+@click.option(
+    "--heights",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE.csv",
+    help="Snow heights of a station, instead of sheet Winter.",
+)
+@click.option(
+    "--model",
+    type=click.Choice(_MODELS),
+    default=_MODELS[0],
+    show_default=True,
+    help="Settling model of the curves; the others give their annual maxima.",
+)
+@click.option("--row", "row_ids", multiple=True, metavar="ID", help="Rows [all].")
+@click.option(
+    "--every",
+    type=click.IntRange(1, 60),
+    default=4,
+    show_default=True,
+    help="Days between those of a curve.",
+)
+@click.option("--median", is_flag=True, help="Heights as medians of three days.")
+@click.option(
+    "--accept-heights", is_flag=True, help="However little or much snow that is."
+)
+@accuracy_option("Relative error allowed in every end force.", default=0.01)
+@solving_options
+@out_option(f"Folder of the outputs [{_FOLDER}; with --json none].")
+@language_option("Of page and messages.")
+@json_option("winters")
+@force_option
+@quiet_option
+def winter(
+    site_file: Path | None,
+    *,
+    example: bool,
+    heights: Path | None,
+    model: str,
+    row_ids: tuple[str, ...],
+    every: int,
+    median: bool,
+    accept_heights: bool,
+    accuracy: float,
+    jobs: int | None,
+    executor: str,
+    cache: bool,
+    out: Path | None,
+    language: Language,
+    as_json: bool,
+    force: bool,
+    quiet: bool,
+    **reading: Any,
+) -> None:
+    """Follow a station's snow heights on the net rows of a site.
+
+    \b
+    netdesign winter --example
+    netdesign winter site.xlsx --out winter
+    netdesign winter site.xlsx --heights station.csv --model hs2swe
+    netdesign winter site.xlsx --row R1 --every 1 --json > winter.json
+
+    Daily snow heights become layers, each day's snow is solved at rest: forces against
+    date, the governing day, annual maxima of many winters, and a range of density that
+    sheet Ranges may use. Exit code 4 if a winter has no proven maximum.
+    """
+    from netdesign.edge.output import require_free, write_files
+    from netdesign.files.winter import write_winter_document
+    from netdesign.report.page.winter_page import (
+        DOCUMENT_FILE,
+        PAGE_FILE,
+        render_winter,
+    )
+
+    if example == (site_file is not None):
+        raise UsageRefusal(say("usage.site_or_example"))
+    folder = out or (None if as_json else Path(_FOLDER))
+    names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
+    require_free(names, overwrite=force)
+    site = _read_site(site_file, overwrite=force, language=language, **reading)
+    station = _find_heights(site, heights, median, example=example, language=language)
+    chosen = _choose_rows(site, row_ids)
+    with open_phases(
+        _list_phases(chosen),
+        processes=jobs or os.cpu_count() or 1,
+        executor=executor,
+        cache=cache,
+        quiet=quiet,
+        language=language,
+    ) as (runner, progress):
+        progress.enter("winters")
+        run = _solve(
+            chosen,
+            station,
+            runner,
+            model=model,
+            accuracy=accuracy,
+            every=every,
+            is_smoothed=median,
+            is_checked=not accept_heights,
+        )
+    failed = tell_faults(runner.faults, language)
+    document = write_winter_document(run, language)
+    if folder:
+        contents = render_winter(document, language)
+        files = {folder / name: content for name, content in contents.items()}
+        write_files(files, overwrite=force)
+    _show(document, language, as_json=as_json)
+    report_places([names], language, quiet=quiet or as_json)
+    proven = all(one["is_proven"] for row in document["rows"] for one in row["winters"])
+    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _read_site(site_file: Path | None, **reading: Any) -> Site:
+    if site_file is not None:
+        return open_site(site_file, **reading)
+    with temporary_example() as path:
+        return open_site(path, **reading)
+
+
+def _find_heights(
+    site: Site,
+    heights: Path | None,
+    median: bool,
+    *,
+    example: bool,
+    language: Language,
+) -> StationWinter:
+    """Heights of the file, else those of the site, else those of the example."""
+    from dataclasses import replace
+    from importlib.resources import as_file, files
+
+    from netdesign.site.winter_sheet import read_height_file
+    from netdesign.snowpack.series import smooth
+
+    found = site.winter
+    if heights is not None:
+        found, remarks = read_height_file(heights)
+        for remark in remarks:
+            tell(remark.message, language, err=True)
+    elif found is None and example:
+        with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
+            found, _ = read_height_file(path)
+    if found is None:
+        raise UsageRefusal(say("winter.no_heights"))
+    return replace(found, series=smooth(found.series)) if median else found
+
+
+def _choose_rows(site: Site, row_ids: Sequence[str]) -> Site:
+    """Site with the rows asked for alone."""
+    from dataclasses import replace
+
+    known = tuple(row.id for row in site.rows)
+    unknown = tuple(one for one in row_ids if one not in known)
+    if unknown:
+        raise UsageRefusal(say("winter.no_such_rows", rows=unknown, known=known))
+    rows = tuple(row for row in site.rows if not row_ids or row.id in row_ids)
+    return replace(site, rows=rows)
+
+
+def _list_phases(site: Site) -> list[Any]:
+    from netdesign.edge.progress import Phase
+
+    count = _PHASE * len(site.rows)
+    return [
+        Phase(key="winters", words=say("phase.winters"), cases=count, most=4 * count)
+    ]
+
+
+def _solve(
+    site: Site,
+    station: StationWinter,
+    runner: Runner,
+    *,
+    model: str,
+    accuracy: float,
+    every: int,
+    is_smoothed: bool,
+    is_checked: bool,
+) -> WinterRun:
+    from netdesign.coupling.scene import SolverSettings
+    from netdesign.files.winter import WinterRun
+    from netdesign.snowpack.follow import MODELS
+    from netdesign.study.winter_row import build_winter_row, require_plausible_heights
+    from netdesign.winter.day import DaySolver
+    from netdesign.winter.row_winters import follow_winters
+
+    rows = [build_winter_row(site, row, station) for row in site.rows]
+    if is_checked:
+        require_plausible_heights(rows, site.rows, station)
+    models = [MODELS[model], *(one for name, one in MODELS.items() if name != model)]
+    settings = SolverSettings(accuracy=accuracy)
+    return WinterRun(
+        site=site,
+        winter=station,
+        rows=rows,
+        results=[
+            follow_winters(
+                station.series,
+                models,
+                DaySolver(row=row, settings=settings, runner=runner),
+                every,
+            )
+            for row in rows
+        ],
+        is_smoothed=is_smoothed,
+        accuracy=accuracy,
+        step=every,
+    )
+
+
+def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> None:
+    import json
+
+    if as_json:
+        print_json(json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False))
+        return
+    for row in document["rows"]:
+        for one in row["winters"]:
+            tell(
+                say(
+                    "winter.line",
+                    row=row["id"],
+                    winter=one["name"],
+                    foot=one["foot_peak_kN_per_m"],
+                    head=one["head_peak_kN_per_m"] or 0.0,
+                    day=one["governing_date"] or "-",
+                    why=one["why"],
+                ),
+                language,
+            )
+        if row["equivalent_density"]:
+            tell(row["equivalent_density"]["justification"], language)

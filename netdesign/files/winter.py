@@ -1,0 +1,322 @@
+"""The winter document: plain values of all rows' winters, for JSON and for the page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from netdesign.checks.result import Band
+from netdesign.site.model import Site, StationWinter
+from netdesign.snowpack.follow import MODELS
+from netdesign.snowpack.pack import DayPack
+from netdesign.units import (
+    celsius_from_kelvin,
+    degree_from_radian,
+    kilonewton_from_newton,
+)
+from netdesign.winter.day import RowDay, WinterRow
+from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
+from netdesign.winter.maxima import AnnualMaximum
+from netdesign.winter.row_winters import RowWinters, list_complete, split_packs
+from netdesign.winter.season import Season
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
+
+SCHEMA = "netdesign.winter/1"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WinterRun:
+    """Winters of a site as they were solved.
+
+    Attributes
+    ----------
+    site : Site
+        Where the rows stand.
+    winter : StationWinter
+        What was measured.
+    rows : sequence of WinterRow
+        As loaded.
+    results : sequence of RowWinters
+        Of each row.
+    is_smoothed : bool
+        Heights are medians of three days.
+    accuracy : float
+        Of each solve [-].
+    step : int
+        Days between those of a curve.
+    """
+
+    site: Site
+    winter: StationWinter
+    rows: Sequence[WinterRow]
+    results: Sequence[RowWinters]
+    is_smoothed: bool
+    accuracy: float
+    step: int
+
+
+def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:
+    """Document of all rows; sentences in one language.
+
+    Parameters
+    ----------
+    run : WinterRun
+        What was solved.
+    language : str
+        Of its sentences.
+    """
+    station, series = run.winter, run.winter.series
+    density = run.site.ranges["density"]
+    return {
+        "schema": SCHEMA,
+        "site": {"file": run.site.file_name, "name": run.site.project.name},
+        "station": {
+            "name": station.station,
+            "altitude_m": station.altitude,
+            "height_factor": run.rows[0].height_factor if run.rows else None,
+            "height_factor_given": station.height_factor is not None,
+            "first_day": series.first_day.isoformat(),
+            "last_day": series.days[-1].isoformat(),
+            "days_filled": len(series.filled),
+            "is_smoothed": run.is_smoothed,
+        },
+        "model": run.results[0].model if run.results else "",
+        "accuracy": run.accuracy,
+        "days_between": run.step,
+        "check_density_kg_m3": [density.low, density.high],
+        "notes": [render(note, language) for note in station.notes],
+        "air_temperatures_C": _write_temperatures(station),
+        "rows": [
+            _write_row(row, result, run, language)
+            for row, result in zip(run.rows, run.results, strict=True)
+        ],
+    }
+
+
+def _write_temperatures(station: StationWinter) -> dict[str, float]:
+    """Daily air temperature of the station by its date, where it is known."""
+    series = station.series
+    return {
+        day.isoformat(): round(celsius_from_kelvin(kelvin), 2)
+        for day, kelvin in zip(series.days, series.air_temperatures, strict=False)
+        if kelvin is not None
+    }
+
+
+def _write_row(
+    row: WinterRow, result: RowWinters, run: WinterRun, language: Language
+) -> dict[str, Any]:
+    scene, net = row.scene, row.scene.net
+    packs = split_packs(run.winter.series, MODELS[result.model])
+    seasons = {season.name: season for season in result.seasons}
+    complete = list_complete(run.winter.series)
+    winters = [
+        _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
+        | {
+            "complete": maximum.winter in complete,
+            "models": {
+                name: _write_maximum(group, maximum.winter, run)
+                for name, group in result.others.items()
+            },
+        }
+        for maximum in result.maxima
+    ]
+    for winter in winters:
+        winter["why"] = render(_explain(winter), language)
+        for day in winter["curve"]:
+            reason = day["reason"]
+            day["reason"] = render(reason, language) if reason else ""
+    return {
+        "id": row.id,
+        "slope_deg": degree_from_radian(scene.snowpack.slope_angle),
+        "net_height_m": net.height_normal,
+        "inclination_deg": degree_from_radian(net.inclination),
+        "friction_deg": degree_from_radian(getattr(net, "friction_angle", 0.0) or 0.0),
+        "ground": scene.ground.kind,
+        "slip_length_m": scene.ground.slip_length,
+        "winters": winters,
+        "statistics": _write_statistics(result.statistics, result.maxima, complete),
+        "equivalent_density": _write_range(result, run, language),
+        "fit": None,
+    }
+
+
+def _write_winter(
+    maximum: AnnualMaximum,
+    packs: Mapping[int, DayPack],
+    season: Season | None,
+    run: WinterRun,
+) -> dict[str, Any]:
+    series = run.winter.series
+    highest = max(packs, key=lambda k: packs[k].height)
+    heaviest = max(packs, key=lambda k: packs[k].mass)
+    governing = season.governing if season else None
+    index = governing.index if governing else maximum.index
+    head = _largest_head(season) if season else maximum.head
+    return {
+        "name": maximum.winter,
+        "outcome": maximum.ending.replace(" ", "_"),
+        "is_proven": maximum.is_proven,
+        "basis": "layers" if governing else "uniform",
+        "height_max_m": packs[highest].height,
+        "height_max_date": series.day(highest).isoformat(),
+        "height_max_density_kg_m3": packs[highest].density,
+        "swe_max_kg_m2": packs[heaviest].mass,
+        "swe_max_date": series.day(heaviest).isoformat(),
+        "governing_date": series.day(index).isoformat() if index is not None else None,
+        "governing_height_m": packs[index].height if index is not None else None,
+        "governing_density_kg_m3": packs[index].density if index is not None else None,
+        "foot_peak_kN_per_m": _in_kilonewton(
+            governing.pull if governing else maximum.foot
+        ),
+        "head_peak_kN_per_m": _in_kilonewton(head),
+        "members_peak_kN": _largest_members(season) if season else {},
+        "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "foot_at_height_max_kN_per_m": _in_kilonewton(season.highest.pull)
+        if season
+        else None,
+        "equivalent_density_kg_m3": (
+            season.equivalent_density if season else maximum.equivalent_density
+        ),
+        "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
+        "days_above_90_percent": season.high_days if season else None,
+        "curve": [_write_day(day, packs, run) for day in season.curve]
+        if season
+        else [],
+    }
+
+
+def _write_maximum(
+    group: Sequence[AnnualMaximum], winter: str, run: WinterRun
+) -> dict[str, Any] | None:
+    """Annual maximum of the same winter by another settling model."""
+    maximum = next((one for one in group if one.winter == winter), None)
+    if maximum is None:
+        return None
+    day = run.winter.series.day(maximum.index) if maximum.index is not None else None
+    return {
+        "outcome": maximum.ending.replace(" ", "_"),
+        "uniform_peak_kN_per_m": _in_kilonewton(maximum.foot),
+        "date": day.isoformat() if day else None,
+        "density_kg_m3": maximum.density,
+        "uniform_equivalent_density_kg_m3": maximum.equivalent_density,
+    }
+
+
+def _write_day(
+    day: RowDay, packs: Mapping[int, DayPack], run: WinterRun
+) -> dict[str, Any]:
+    return {
+        "date": run.winter.series.day(day.index).isoformat(),
+        "outcome": day.ending,
+        "reason": day.reason,
+        "station_height_m": packs[day.index].height,
+        "swe_kg_m2": packs[day.index].mass,
+        "thickness_m": day.thickness,
+        "density_kg_m3": day.density,
+        "foot_kN_per_m": _in_kilonewton(day.pull),
+        "head_kN_per_m": _in_kilonewton(day.head.value if day.head else None),
+        "error_kN_per_m": _in_kilonewton(_half(day.foot) if day.foot else None),
+        "members_kN": {
+            name: kilonewton_from_newton(band.value)
+            for name, band in day.member_forces.items()
+        },
+        "layers": [
+            {"thickness_m": layer.thickness, "density_kg_m3": layer.density}
+            for layer in day.layers
+        ],
+    }
+
+
+def _half(band: Band) -> float:
+    return (band.high - band.low) / 2.0
+
+
+def _in_kilonewton(force: float | None) -> float | None:
+    return None if force is None else kilonewton_from_newton(force)
+
+
+def _largest_head(season: Season) -> float | None:
+    pulls = [day.head.value for day in season.curve if day.head]
+    return max(pulls, default=None)
+
+
+def _largest_members(season: Season) -> dict[str, float]:
+    """Largest force of each member over the curve [kN]."""
+    found: dict[str, float] = {}
+    for day in season.curve:
+        for name, band in day.member_forces.items():
+            force = kilonewton_from_newton(band.value)
+            found[name] = max(force, found.get(name, 0.0))
+    return found
+
+
+def _write_statistics(
+    fit: Gumbel | None, maxima: Sequence[AnnualMaximum], complete: Sequence[str]
+) -> dict[str, Any] | None:
+    if fit is None:
+        return None
+    values = [fit.find_return_value(period) for period in RETURN_PERIODS]
+    return {
+        "distribution": "Gumbel, by moments",
+        "winters": sum(one.winter in complete for one in maxima),
+        "mean_kN_per_m": kilonewton_from_newton(fit.mean),
+        "variation": fit.variation,
+        "return_values": [
+            {
+                "period_a": one.period,
+                "foot_kN_per_m": kilonewton_from_newton(one.value),
+                "standard_error_kN_per_m": kilonewton_from_newton(one.error),
+            }
+            for one in values
+        ],
+    }
+
+
+def _write_range(
+    result: RowWinters, run: WinterRun, language: Language
+) -> dict[str, Any] | None:
+    """Range of density that the winters give, and the sentence that justifies it."""
+    found = result.density_range
+    if found is None:
+        return None
+    text = say(
+        "winter.justification",
+        low=found[0],
+        high=found[1],
+        count=len(result.maxima),
+        station=run.winter.station or run.site.file_name,
+        first=run.winter.series.first_day.isoformat(),
+        last=run.winter.series.days[-1].isoformat(),
+        models=(result.model, *result.others),
+        row=result.row_id,
+    )
+    return {
+        "low_kg_m3": found[0],
+        "high_kg_m3": found[1],
+        "justification": render(text, language),
+    }
+
+
+def _explain(winter: Mapping[str, Any]) -> Message:
+    """Reason why that day governs, or why no maximum is proven."""
+    if winter["outcome"] == "overtopped":
+        return say("winter.why_overtopped")
+    if winter["outcome"] == "doubtful":
+        return say("winter.why_doubtful")
+    if winter["governing_date"] is None:
+        return say("winter.why_no_snow")
+    share = winter["governing_height_m"] / winter["height_max_m"]
+    return say(
+        "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high",
+        share=share,
+        density=winter["governing_density_kg_m3"],
+        before=winter["height_max_density_kg_m3"],
+        day=winter["governing_date"],
+        highest=winter["height_max_date"],
+    )
+
+
+_NEARLY_HIGHEST = 0.98

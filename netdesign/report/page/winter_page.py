@@ -1,0 +1,251 @@
+"""Winter document -> folder: page without script, and JSON.
+
+All numbers shown are the document's.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from netdesign.edge.given_files import make_printable
+from netdesign.report.drawing.winter_figure import draw_winter
+from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.view.table import Cell, Table, name_columns, text_cell
+from netdesign.report.words import MISSING, Words, show_member, show_text
+from netdesign.words.catalogue import Language
+
+PAGE_FILE, DOCUMENT_FILE = "winter.html", "winter.json"
+
+
+def render_winter(
+    document: Mapping[str, Any], language: Language = "en"
+) -> dict[str, bytes]:
+    """Contents of both files by name.
+
+    Parameters
+    ----------
+    document : mapping
+        As ``files.winter.write_winter_document`` gives it.
+    language : str
+        Of the page.
+    """
+    words = Words(language)
+    page = (
+        build_environment(language)
+        .get_template("winter.html")
+        .render(
+            language=language,
+            css=load_style("report.css", "study.css"),
+            title=show_text(document["site"]["name"] or document["site"]["file"]),
+            station=_describe_station(document, words),
+            notes=[show_text(note) for note in document["notes"]],
+            rows=[_view_row(row, document, words) for row in document["rows"]],
+        )
+    )
+    text = json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False)
+    return {
+        DOCUMENT_FILE: text.encode(),
+        PAGE_FILE: make_printable(page).encode(),
+    }
+
+
+def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
+    """Sentences on where the heights come from, and how they reach the rows."""
+    station = document["station"]
+    altitude = station["altitude_m"]
+    named = station["name"] or words("winter_page.unnamed")
+    if altitude is not None:
+        named = words("winter_page.at_altitude", station=named, altitude=altitude)
+    is_given = station["height_factor_given"]
+    factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
+    found = [
+        words(
+            "winter_page.station",
+            station=named,
+            first=station["first_day"],
+            last=station["last_day"],
+        ),
+        words(factor, factor=station["height_factor"]),
+        words("winter_page.model", model=document["model"]),
+    ]
+    if station["is_smoothed"]:
+        found.append(words("winter_page.smoothed"))
+    return [show_text(text) for text in found]
+
+
+def _view_row(
+    row: Mapping[str, Any], document: Mapping[str, Any], words: Words
+) -> dict[str, Any]:
+    shown = [winter for winter in row["winters"] if winter["curve"]]
+    air = document["air_temperatures_C"]
+    return {
+        "id": show_text(row["id"]),
+        "scene": words(
+            "winter_page.scene",
+            friction=row["friction_deg"],
+            inclination=row["inclination_deg"],
+            height=row["net_height_m"],
+            slope=row["slope_deg"],
+        ),
+        "summary": _tabulate_winters(row, words),
+        "unproven": [
+            f"{one['name']}: {show_text(one['why'])}"
+            for one in row["winters"]
+            if not one["is_proven"]
+        ],
+        "members": _tabulate_members(shown, words),
+        "models": _tabulate_models(row, document["model"], words),
+        "statistics": _tabulate_statistics(row["statistics"], words),
+        "without_statistics": words("winter_page.no_statistics"),
+        "range": _describe_range(row, document, words),
+        "figures": [
+            {
+                "svg": mark_safe(draw_winter(winter, air, words)),
+                "caption": f"{winter['name']}: {show_text(winter['why'])}",
+                "failed": _list_failed(winter, words),
+            }
+            for winter in shown
+        ],
+    }
+
+
+def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
+    keys = (
+        *("winter", "height_max", "on", "swe_max", "foot", "head", "governing"),
+        *("at_height_max", "uniform", "equivalent", "days_90", "outcome"),
+    )
+    headings = [words(f"winter_column.{key}") for key in keys]
+    numbers = [headings[k] for k in (1, 3, 4, 5, 7, 8, 9, 10)]
+    rows = tuple(
+        (
+            _unbroken(one["name"]),
+            _number(one["height_max_m"], 2),
+            _unbroken(one["height_max_date"]),
+            _number(one["swe_max_kg_m2"], 0),
+            _number(one["foot_peak_kN_per_m"], 1),
+            _number(one["head_peak_kN_per_m"], 1),
+            _unbroken(one["governing_date"] or MISSING),
+            _number(one["foot_at_height_max_kN_per_m"], 1),
+            _number(one["uniform_peak_kN_per_m"], 1),
+            _number(one["equivalent_density_kg_m3"], 0),
+            _number(one["days_above_90_percent"], 0),
+            text_cell(words(f"winter_outcome.{one['outcome']}")),
+        )
+        for one in row["winters"]
+    )
+    return Table(
+        caption=words("winter_page.summary_caption"),
+        columns=name_columns(headings, numbers=numbers),
+        rows=rows,
+    )
+
+
+def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
+    """Largest characteristic force of each member, per support."""
+    members = list(dict.fromkeys(m for one in shown for m in one["members_peak_kN"]))
+    headings = [words("winter_column.winter")]
+    headings += [show_member(words, member) + " [kN]" for member in members]
+    return Table(
+        caption=words("winter_page.members_caption"),
+        columns=name_columns(headings, numbers=headings[1:]),
+        rows=tuple(
+            (
+                _unbroken(one["name"]),
+                *(_number(one["members_peak_kN"].get(m), 1) for m in members),
+            )
+            for one in shown
+            if members
+        ),
+    )
+
+
+def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
+    """Annual maximum of uniform snow by each settling model."""
+    others = list(row["winters"][0]["models"]) if row["winters"] else []
+    names = [model, *others]
+    headings = [words("winter_column.winter")]
+    headings += [f"{name} [kN/m]" for name in names]
+    headings += [words("winter_page.density_by", model=name) for name in names]
+    rows = []
+    for one in row["winters"]:
+        every = [one, *(one["models"][name] or {} for name in others)]
+        rows.append(
+            (
+                _unbroken(one["name"]),
+                *(_number(part.get("uniform_peak_kN_per_m"), 1) for part in every),
+                *(
+                    _number(part.get("uniform_equivalent_density_kg_m3"), 0)
+                    for part in every
+                ),
+            )
+        )
+    return Table(
+        caption=words("winter_page.models_caption"),
+        columns=name_columns(headings, numbers=headings[1:]),
+        rows=tuple(rows),
+    )
+
+
+def _tabulate_statistics(
+    statistics: Mapping[str, Any] | None, words: Words
+) -> Table | None:
+    if statistics is None:
+        return None
+    headings = [
+        words(f"winter_column.{key}") for key in ("period", "return_value", "error")
+    ]
+    return Table(
+        caption=words(
+            "winter_page.statistics_caption",
+            count=statistics["winters"],
+            mean=statistics["mean_kN_per_m"],
+            variation=statistics["variation"],
+        ),
+        columns=name_columns(headings, numbers=headings),
+        rows=tuple(
+            (
+                _number(one["period_a"], 0),
+                _number(one["foot_kN_per_m"], 1),
+                _number(one["standard_error_kN_per_m"], 1),
+            )
+            for one in statistics["return_values"]
+        ),
+    )
+
+
+def _describe_range(
+    row: Mapping[str, Any], document: Mapping[str, Any], words: Words
+) -> list[str]:
+    """Density range of the winters beside that of the check."""
+    low, high = document["check_density_kg_m3"]
+    found = [words("winter_page.check_range", low=low, high=high)]
+    if row["equivalent_density"]:
+        found.insert(0, show_text(row["equivalent_density"]["justification"]))
+        found.append(words("winter_page.feed"))
+    return found
+
+
+def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
+    return [
+        words(
+            "winter_page.failed_day",
+            day=day["date"],
+            outcome=words(f"day_outcome.{day['outcome']}"),
+            reason=show_text(day["reason"] or MISSING),
+        )
+        for day in winter["curve"]
+        if day["outcome"] in ("failed", "overtopped") or day["reason"]
+    ]
+
+
+def _unbroken(text: str) -> Cell:
+    """Date, or name of a winter, that stays on one line."""
+    return text_cell(text.replace("-", "\u2011").replace("/", "\u2060/\u2060"))
+
+
+def _number(value: float | None, decimals: int) -> Cell:
+    return Cell(
+        text=MISSING if value is None else f"{value:.{decimals}f}", number=value
+    )

@@ -1,0 +1,179 @@
+"""Sheet Winter: daily snow heights of a station, every fault with its cell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from datetime import date, datetime
+from pathlib import Path
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import UNDECLARED, TextFormat
+from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.fields import split_heading
+from netdesign.site.columns.winter_columns import WINTER
+from netdesign.site.model import StationWinter
+from netdesign.site.readings import Reading, Row, refuse
+from netdesign.site.tables import Table, find_table, read_rows
+from netdesign.snowpack.series import (
+    LONGEST_GAP,
+    HeightSeries,
+    build_series,
+    find_gaps,
+    find_spikes,
+)
+from netdesign.words.message import Message, say
+
+
+def read_winter(table: Table | None, findings: list[Finding]) -> StationWinter | None:
+    """Series of the sheet; None without it, or where it is refused.
+
+    Parameters
+    ----------
+    table : Table or None
+        Sheet Winter, if there is one.
+    findings : list of Finding
+        Appended to: days that are none or come twice, gaps inside snow, and remarks on
+        what was filled and on steep rises.
+    """
+    if table is None:
+        return None
+    faults = len(findings)
+    lines = list(read_rows(table, findings))
+    days = _read_days(lines, findings)
+    heights = {
+        day: line["snow_height"].si
+        for day, line in days.items()
+        if line["snow_height"].state == "given"
+    }
+    if not heights:
+        if lines and len(findings) == faults:
+            rule = say("winter_sheet.no_height")
+            refuse(lines[0]["date"], rule, say("winter_sheet.heights"), findings)
+        return None
+    _check_gaps(heights, days, findings)
+    warm = {
+        day: line["temperature"].si
+        for day, line in days.items()
+        if line["temperature"].state == "given"
+    }
+    series = build_series(heights, warm)
+    notes = _note_oddities(series, heights, days, findings)
+    return _build(lines[0], series, notes)
+
+
+def read_height_file(
+    path: Path, text_format: TextFormat = UNDECLARED
+) -> tuple[StationWinter, tuple[Finding, ...]]:
+    """Series of a csv file of a station alone, and remarks on it.
+
+    Parameters
+    ----------
+    path : Path
+        A csv file with the columns of sheet Winter, whatever its name.
+    text_format : TextFormat
+        What is declared of the file's text.
+
+    Raises
+    ------
+    SiteDataError
+        With all findings, if any of them is an error.
+    """
+    known = {name for field in WINTER.fields for name in field.names}
+    workbook = read_workbook(
+        path,
+        lambda _: True,
+        lambda _: False,
+        lambda text: split_heading(text)[0] in known,
+        text_format,
+    )
+    sheets = tuple(replace(one, name=WINTER.name) for one in workbook.sheets)
+    findings = list(workbook.remarks)
+    table = find_table(replace(workbook, sheets=sheets), WINTER, findings)
+    winter = read_winter(table, findings)
+    if winter is None or any(one.severity == "error" for one in findings):
+        if not findings:
+            rule = say("winter_sheet.no_height")
+            accepted = say("winter_sheet.heights")
+            findings.append(Finding(file=path.name, rule=rule, accepted=accepted))
+        raise SiteDataError(findings)
+    return winter, tuple(findings)
+
+
+def _build(
+    head: Row, series: HeightSeries, notes: tuple[Message, ...]
+) -> StationWinter:
+    return StationWinter(
+        series=series,
+        station=head["station"].word,
+        altitude=head["altitude"].given_si,
+        height_factor=head["height_factor"].given_si,
+        source=head["date"].place,
+        notes=notes,
+    )
+
+
+def _read_days(lines: list[Row], findings: list[Finding]) -> dict[date, Row]:
+    """Lines by their day, ascending; days that are none or not in order are refused."""
+    days: dict[date, Row] = {}
+    last: date | None = None
+    for line in lines:
+        day = _read_day(line["date"], findings)
+        if day is None:
+            continue
+        if last is not None and day <= last:
+            rule = say("winter_sheet.not_after" if day < last else "winter_sheet.twice")
+            refuse(line["date"], rule, say("winter_sheet.one_a_day"), findings)
+            continue
+        days[day], last = line, day
+    return days
+
+
+def _read_day(reading: Reading, findings: list[Finding]) -> date | None:
+    if reading.state != "given":
+        return None
+    try:
+        return datetime.fromisoformat(reading.word).date()
+    except ValueError:
+        rule, accepted = say("winter_sheet.no_date"), say("winter_sheet.such_as")
+        refuse(reading, rule, accepted, findings)
+        return None
+
+
+def _check_gaps(
+    heights: Mapping[date, float], days: Mapping[date, Row], findings: list[Finding]
+) -> None:
+    for gap in find_gaps(heights):
+        if gap.is_closable:
+            continue
+        rule = say(
+            "winter_sheet.gap", count=len(gap.days), before=gap.before.isoformat()
+        )
+        accepted = say("winter_sheet.shorter", most=LONGEST_GAP)
+        refuse(days[gap.after]["date"], rule, accepted, findings)
+
+
+def _note_oddities(
+    series: HeightSeries,
+    heights: Mapping[date, float],
+    days: Mapping[date, Row],
+    findings: list[Finding],
+) -> tuple[Message, ...]:
+    """Remarks in the findings, and one of each kind for the page of the winter."""
+    notes: list[Message] = []
+    for gap in find_gaps(heights):
+        if gap.is_closable and any(heights[day] > 0 for day in (gap.before, gap.after)):
+            listed = tuple(day.isoformat() for day in gap.days)
+            notes.append(say("winter_sheet.filled", days=listed))
+            reading = days[gap.after]["date"]
+            refuse(reading, notes[-1], "", findings, severity="note")
+    for day in find_spikes(series):
+        notes.append(say("winter_sheet.spike", day=day.isoformat()))
+        reading = days.get(day, next(iter(days.values())))["snow_height"]
+        refuse(reading, notes[-1], "", findings, severity="note")
+    if series.starts_in_snow:
+        notes.append(say("winter_sheet.starts_in_snow"))
+        first = next(iter(days.values()))["snow_height"]
+        refuse(first, notes[-1], "", findings, severity="note")
+    return tuple(notes)

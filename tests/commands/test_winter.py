@@ -1,0 +1,114 @@
+"""The command ``winter``: document, page, refusals, exit codes."""
+
+import json
+
+import pytest
+
+from netdesign.words.catalogue import LANGUAGES
+from tests.short_example import write_short_example
+
+HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
+QUICK = ("--accuracy", "0.05", "--jobs", "1", "--every", "5", "--quiet")
+
+
+def write_heights(path, heights=HEIGHTS, year=2003):
+    lines = ["date,HS [cm],air temperature [C]"]
+    lines += [f"{year}-02-{k + 1:02d},{h},-3.5" for k, h in enumerate(heights)]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    path = tmp_path_factory.mktemp("winter") / "site.xlsx"
+    write_short_example(path, ["R2"])
+    return path
+
+
+@pytest.fixture(scope="module")
+def heights(tmp_path_factory):
+    return write_heights(tmp_path_factory.mktemp("winter") / "station.csv")
+
+
+def test_document_is_that_of_the_interface(call, site, heights):
+    ended = call("winter", site, "--heights", heights, "--json", *QUICK)
+    document = json.loads(ended.out)
+    assert document["schema"] == "netdesign.winter/1"
+    (row,) = document["rows"]
+    (winter,) = row["winters"]
+    assert (row["statistics"], row["fit"]) == (None, None)
+    assert winter["name"] == "2002/2003"
+    assert (winter["height_max_m"], winter["height_max_date"]) == (1.6, "2003-02-09")
+    assert winter["outcome"] == "solved"
+    assert ended.code == 0
+    assert winter["is_proven"]
+    assert not winter["complete"]
+    assert 0 < winter["foot_peak_kN_per_m"] <= 1.05 * winter["uniform_peak_kN_per_m"]
+    governing = [
+        day for day in winter["curve"] if day["date"] == winter["governing_date"]
+    ]
+    assert governing[0]["foot_kN_per_m"] == winter["foot_peak_kN_per_m"]
+    assert set(winter["models"]) == {"delta-snow-ageing", "hs2swe"}
+    assert winter["models"]["hs2swe"]["uniform_peak_kN_per_m"] > 0
+    density = row["equivalent_density"]
+    assert density["low_kg_m3"] <= density["high_kg_m3"]
+    assert "equivalent density" in density["justification"]
+    assert document["check_density_kg_m3"] == [270.0, 400.0]
+    assert document["station"]["height_factor_given"] is False
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_page_shows_the_document_in_each_language(
+    call, site, heights, tmp_path, language
+):
+    folder = tmp_path / "out"
+    ended = call(
+        "winter", site, "--heights", heights, "--out", folder,
+        "--language", language, *QUICK,
+    )  # fmt: skip
+    assert ended.code == 0
+    page = (folder / "winter.html").read_text(encoding="utf-8")
+    document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
+    (winter,) = document["rows"][0]["winters"]
+    assert f'lang="{language}"' in page
+    assert f">{winter['foot_peak_kN_per_m']:.1f}<" in page
+    assert page.count("<svg") == 1
+    assert winter["why"].split(":")[0] in page
+    assert "<script" not in page
+
+
+def test_snow_above_the_net_is_not_proven(call, site, tmp_path):
+    path = write_heights(tmp_path / "deep.csv", [0, 60, 120, 700, 650, 600])
+    ended = call("winter", site, "--heights", path, "--json", *QUICK)
+    (winter,) = json.loads(ended.out)["rows"][0]["winters"]
+    assert ended.code == 4
+    assert (winter["outcome"], winter["is_proven"]) == ("overtopped", False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told", "code"),
+    [
+        ((), "no snow heights", 2),
+        (("--heights", "thin"), "are metres taken for centimetres", 3),
+        (("--heights", "good", "--row", "R77"), "no such rows: R77", 2),
+    ],
+)
+def test_refusals(call, site, heights, tmp_path, arguments, told, code):
+    thin = write_heights(tmp_path / "thin.csv", [0, 1, 3, 2])
+    paths = {"thin": thin, "good": heights}
+    given = [paths.get(one, one) for one in arguments]
+    ended = call("winter", site, *given, "--json", *QUICK)
+    assert ended.code == code
+    assert told in ended.err
+
+
+def test_medians_are_taken_where_asked_for(call, site, tmp_path):
+    path = write_heights(tmp_path / "noisy.csv", [0, 50, 100, 190, 100, 100, 100])
+    plain, smoothed = (
+        json.loads(call("winter", site, "--heights", path, "--json", *more, *QUICK).out)
+        for more in ((), ("--median",))
+    )
+    assert smoothed["station"]["is_smoothed"]
+    (winter,) = smoothed["rows"][0]["winters"]
+    assert winter["height_max_m"] == 1.0
+    assert plain["rows"][0]["winters"][0]["height_max_m"] == 1.9

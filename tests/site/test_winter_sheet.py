@@ -1,0 +1,132 @@
+"""Sheet Winter: a series in SI, every fault with its cell."""
+
+from datetime import date, datetime
+
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.reader import read_site
+from netdesign.site.winter_sheet import read_height_file
+
+HEADINGS = ["date", "snow height of the station [cm]", "air temperature [°C]"]
+
+
+def with_lines(sheets, *lines, headings=HEADINGS):
+    sheets["Winter"] = [headings, *map(list, lines)]
+    return sheets
+
+
+def days(*heights, first=1):
+    return [
+        [f"2003-02-{first + k:02d}", height, -4.5] for k, height in enumerate(heights)
+    ]
+
+
+def test_without_the_sheet_there_is_nothing(sheets, save):
+    assert read_site(save(sheets)).winter is None
+
+
+def test_series_is_read_in_metres_and_kelvin(sheets, save):
+    lines = [["2003-02-01", 0, None], [datetime(2003, 2, 2), 37.5, -4.5]]
+    winter = read_site(save(with_lines(sheets, *lines))).winter
+    assert winter.series.first_day == date(2003, 2, 1)
+    assert winter.series.heights == (0.0, 0.375)
+    assert winter.series.air_temperatures == (None, pytest.approx(268.65))
+    assert (winter.station, winter.altitude, winter.height_factor) == ("", None, None)
+    assert winter.source == "Winter!A2"
+    assert winter.notes == ()
+
+
+def test_head_of_the_station_stands_on_the_first_line(sheets, save):
+    headings = [
+        "Datum",
+        "Schneehöhe [m]",
+        "Station",
+        "Höhe über Meer",
+        "Höhenfaktor [-]",
+    ]
+    headings[3] = "Höhe über Meer [m]"
+    lines = [["2003-02-01", 0.0, "Weissfluhjoch", 2540, 0.85], ["2003-02-02", 0.2]]
+    sheets = with_lines(sheets, *lines, headings=headings)
+    winter = read_site(save(sheets)).winter
+    assert (winter.station, winter.altitude) == ("Weissfluhjoch", 2540.0)
+    assert winter.height_factor == 0.85
+
+
+def test_short_gap_in_snow_is_filled_and_told(sheets, save):
+    lines = [*days(0, 80), ["2003-02-05", 110, None]]
+    site = read_site(save(with_lines(sheets, *lines)))
+    assert site.winter.series.heights == pytest.approx((0, 0.8, 0.9, 1.0, 1.1))
+    told = [str(note) for note in site.notes if "straight line" in str(note)]
+    assert len(told) == 1
+    assert "2003-02-03, 2003-02-04" in told[0]
+
+
+def test_blank_height_is_a_day_without_a_reading(sheets, save):
+    site = read_site(save(with_lines(sheets, *days(0, 80, None, 90))))
+    assert site.winter.series.heights == pytest.approx((0, 0.8, 0.85, 0.9))
+
+
+@pytest.mark.parametrize(
+    ("lines", "cell", "told"),
+    [
+        (days(0, -1), "B3", "accepted: 0 to 8 m"),
+        (days(0, 801), "B3", "accepted: 0 to 8 m"),
+        ([["1.2.2003", 0, None]], "A2", "is no date"),
+        ([*days(0, 20), ["2003-02-02", 21, None]], "A4", "second reading of its day"),
+        ([*days(0, 20), ["2003-02-01", 21, None]], "A4", "before the line above"),
+        ([*days(0, 20), ["2003-02-07", 21, None]], "A4", "4 days without a reading"),
+        (
+            [["2003-10-01", 0, None], ["2003-12-02", 0, None]],
+            "A3",
+            "61 days without a reading",
+        ),
+        ([["2003-02-01", None, -2.0]], "A2", "without a snow height"),
+    ],
+)
+def test_faults_have_their_cell(sheets, save, refused, lines, cell, told):
+    findings = [
+        one
+        for one in refused(save(with_lines(sheets, *lines)))
+        if one.severity == "error"
+    ]
+    (finding,) = findings
+    assert (finding.sheet, finding.cell) == ("Winter", cell)
+    assert told in str(finding.message)
+
+
+def test_all_faults_are_told_at_once(sheets, save, refused):
+    lines = [*days(0, -1, 40), ["x", 20, None], ["2003-02-09", 30, None]]
+    findings = refused(save(with_lines(sheets, *lines)))
+    cells = {one.cell for one in findings if one.severity == "error"}
+    assert cells == {"B3", "A5", "A6"}
+
+
+def test_spikes_and_a_start_in_snow_are_told(sheets, save):
+    site = read_site(save(with_lines(sheets, *days(30, 92, 40))))
+    told = " ".join(map(str, site.notes))
+    assert "2003-02-02: the snow rises by more than 0.6 m" in told
+    assert "300 kg/m3 (assumed)" in told
+    assert len(site.winter.notes) == 2
+
+
+def test_file_of_a_station_alone(tmp_path):
+    path = tmp_path / "davos 2003.csv"
+    path.write_text("date;HS [cm];LWD\n2003-02-01;0;1\n2003-02-02;41;2\n")
+    winter, remarks = read_height_file(path)
+    assert winter.series.heights == (0.0, 0.41)
+    assert any("LWD" in str(one.message) for one in remarks)
+
+
+def test_file_without_a_unit_is_refused(tmp_path):
+    path = tmp_path / "davos.csv"
+    path.write_text("date;HS\n2003-02-01;0\n2003-02-02;41\n")
+    with pytest.raises(SiteDataError, match="unit"):
+        read_height_file(path)
+
+
+def test_file_without_heights_is_refused(tmp_path):
+    path = tmp_path / "davos.csv"
+    path.write_text("date;air temperature [°C]\n2003-02-01;0\n2003-02-02;-4\n")
+    with pytest.raises(SiteDataError, match="without a snow height"):
+        read_height_file(path)
