@@ -32,6 +32,7 @@ from netdesign.commands.language import find_language, tell
 from netdesign.commands.paper import paper
 from netdesign.commands.report import report
 from netdesign.commands.running import EXIT_CODES, own_command
+from netdesign.commands.snowpack import snowpack
 from netdesign.commands.solve import solve
 from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, describe_refusal
@@ -92,6 +93,7 @@ cli.add_command(glide)
 cli.add_command(init)
 cli.add_command(paper)
 cli.add_command(report)
+cli.add_command(snowpack)
 cli.add_command(solve)
 cli.add_command(standards)
 cli.add_command(verify)
