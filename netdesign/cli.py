@@ -29,6 +29,7 @@ from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
 from netdesign.commands.init import init
 from netdesign.commands.language import find_language, tell
+from netdesign.commands.map import map_headings
 from netdesign.commands.paper import paper
 from netdesign.commands.report import report
 from netdesign.commands.running import EXIT_CODES, own_command
@@ -36,6 +37,7 @@ from netdesign.commands.snowpack import snowpack
 from netdesign.commands.solve import solve
 from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, describe_refusal
+from netdesign.commands.validate import validate
 from netdesign.commands.verify import verify
 from netdesign.commands.winter import winter
 from netdesign.edge.causes import explain_system
@@ -76,6 +78,7 @@ def cli(context: click.Context) -> None:
     \b
     netdesign check --example          a first look
     netdesign init site.xlsx           an input workbook to fill in
+    netdesign map site.xlsx            what the headings of your own workbook mean
     netdesign check site.xlsx          verdict, report.html, report.xlsx, study.json
     netdesign diff old.json new.json   what changed between two studies
     """
@@ -91,11 +94,13 @@ cli.add_command(doctor)
 cli.add_command(envelope)
 cli.add_command(glide)
 cli.add_command(init)
+cli.add_command(map_headings)
 cli.add_command(paper)
 cli.add_command(report)
 cli.add_command(snowpack)
 cli.add_command(solve)
 cli.add_command(standards)
+cli.add_command(validate)
 cli.add_command(verify)
 cli.add_command(winter)
 

@@ -71,11 +71,13 @@ class SiteDataError(NetDesignError):
 
     exit_code = 3
 
-    def __init__(self, findings: Sequence[Told]) -> None:
+    def __init__(
+        self, findings: Sequence[Told], lines: tuple[Message, ...] = ()
+    ) -> None:
         self.findings = tuple(findings)
-        lines = tuple(finding.message for finding in self.findings)
-        super().__init__(say("text.lines", lines=lines))
-        self.args = (findings,)
+        told = lines or tuple(finding.message for finding in self.findings)
+        super().__init__(say("text.lines", lines=told))
+        self.args = (findings, lines)
 
 
 class StudyError(NetDesignError):

@@ -119,6 +119,13 @@ _ROWS = (
     _row("chord_tension_kN_per_m", "T", "kN/m", 2),
     _row("load_difference_percent", "", "%", 0),
     _row("foot_difference_percent", "", "%", 0),
+    # second opinions
+    _row("matched_slip_m", "D*", "m", 2),
+    _row("influence_length_m", "l", "m", 2),
+    _row("dynamic_kN_per_m", "", "kN/m", 1),
+    _row("at_rest_kN_per_m", "", "kN/m", 1),
+    _row("wedge_kN_per_m", "G_x", "kN/m", 1),
+    _row("exponent", "n", "", None),
     # checks
     _row("action_kN", "E_k", "kN", 1),
     _row("action_factor", "γ_E", "", None),

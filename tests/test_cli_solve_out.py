@@ -68,6 +68,40 @@ def test_steady_scene_becomes_a_folder(tmp_path, monkeypatch, capsys, net):
     assert "wrote" in capsys.readouterr().err
 
 
+PANEL = """
+[support]
+post_spacing_m = 3.5
+[panel]
+rope_stiffness_kN = 18000
+rope_sag = 0.05
+cut = "upper"
+end_guy_deg = 45
+"""
+
+
+def test_a_panel_is_printed_and_drawn(tmp_path, monkeypatch, capsys):
+    scene, out = write_scene(tmp_path), tmp_path / "out"
+    text = scene.read_text(encoding="utf-8").replace(CABLE, CABLE + "\nslack = 0.04")
+    scene.write_text(text + PANEL, encoding="utf-8")
+    assert run(monkeypatch, "solve", scene, "--out", out) == 0
+    printed = capsys.readouterr().out
+    support = json.loads((out / "solution.json").read_text(encoding="utf-8"))["support"]
+    for force in (
+        support["plain"]["post_kN"],
+        support["panel"]["uphill_guy_kN"],
+        support["panel"]["lower_rope"]["T_kN"],
+        support["row_end"]["foot_kN"]["z"],
+        support["row_end"]["end_guy_kN"],
+    ):
+        assert f"{force:.2f}" in printed
+    assert names(out) == {"solution.json", "index.html", "panel.svg", *DRAWINGS}
+    page = (out / "index.html").read_text(encoding="utf-8")
+    assert 'id="support"' in page
+    assert 'id="figure-panel"' in page
+    assert run(monkeypatch, "solve", scene, "--out", out) == 2
+    assert "panel.svg" in capsys.readouterr().err
+
+
 def test_history_without_plateau_says_so_and_ends_with_4(tmp_path, monkeypatch, capsys):
     out = tmp_path / "out"
     scene = write_scene(tmp_path)

@@ -27,6 +27,7 @@ ROWS = (
     {"numerics"},
     {"resistance", "search", "snowpack"},
     {"snow", "cable", "structure", "checks"},
+    {"haefeli"},
     {"coupling", "guideline", "planview"},
     {"coupling.steady", "panel"},
     {"coupling.history"},
@@ -46,6 +47,7 @@ ROWS = (
     {"report", "public", "examples"},  # examples see the public names only
     {"evidence"},
     {"evidence.verification", "evidence.paper", "evidence.benchmark"},
+    {"evidence.validation"},
     {"commands"},
     {"cli"},
     {"__main__"},
@@ -92,7 +94,10 @@ THIRD_PARTY = {
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
     "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
-    "pydantic": ("checks.schema", "files.scene", "study.document", "edge.json_text"),
+    "pydantic": (
+        *("checks.schema", "files.scene", "files.support_tables", "study.document"),
+        "edge.json_text",
+    ),
     "pydantic_core": ("checks.schema", "edge.json_text", "words.text_field"),
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),

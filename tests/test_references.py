@@ -22,6 +22,7 @@ SECTIONS = re.compile(r"FACTS\.md, sections? (\d+)(?: and (\d+))?")
 
 # A place or a month before a year is no author.
 NO_AUTHORS = {"December 1992", "Bern 2007", "Paris 2013"}
+NO_AUTHORS |= {"Chamonix 1995", "Egilsstadir 2008", "Hafelekar 2006"}  # measured nets
 NO_AUTHORS |= {"Ice 2012"}  # the manual of Elmer/Ice, listed by its author
 NO_DOCUMENT = {"REMARKS.md"}  # a file's wrong name, in a test
 # Translations repeat what the texts cite.

@@ -24,7 +24,8 @@ ROOT = PACKAGE.parent
 # In these rooms every word like a label is one.
 NUMERICAL = (
     *("numerics", "snow", "cable", "structure", "coupling"),
-    *("resistance", "guideline", "checks", "panel", "planview", "snowpack", "winter"),
+    *("resistance", "guideline", "checks", "panel", "planview", "haefeli"),
+    *("snowpack", "winter"),
 )
 ELEMENTS = {"P1", "P2"}  # finite elements, not labels
 

@@ -1,7 +1,6 @@
-"""Cables under the same forces, of different lengths and ends, pulled all at once.
+"""Cables under the same forces, of different lengths and ends, all at once.
 
-Newton's method on (C4) for many cables together: one pass through arrays takes hardly
-longer than for one.
+One pass through arrays takes hardly longer for many cables than for one.
 Theory: cable/THEORY.md, eqs (C3) to (C5).
 """
 
@@ -13,10 +12,6 @@ import numpy as np
 
 from netdesign.cable.funicular import integrate_curve, tension_offsets
 from netdesign.numerics.arrays import Floats
-
-_MOST_STEPS = 100
-_MOST_HALVINGS = 40
-_ACCEPTED_CLIMB = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -66,52 +61,40 @@ def build_alike(forces: Floats, shares: Floats, stiffness: float) -> AlikeCables
     )
 
 
-def find_pulls(
-    cables: AlikeCables, ends: Floats, start: Floats, *, tolerance: float = 1e-12
-) -> Floats | None:
-    """Pull of each cable, the tension vector of its first element at the middle.
+def reach_ends(cables: AlikeCables, pulls: Floats) -> tuple[Floats, Floats]:
+    """Ends that cables reach under pulls, and how they answer to them, (C4).
 
     Parameters
     ----------
     cables : AlikeCables
         What they have in common.
-    ends : ndarray, shape (2, K)
-        Head less foot of each, over its unstressed length [-].
-    start : ndarray, shape (2, K)
-        Guesses, in the unit of the forces.
-    tolerance : float
-        Gap at the head, over the length, that counts as closed.
+    pulls : ndarray, shape (2, K)
+        Tension vector of the first element of each at the middle, in the unit of the
+        forces.
 
     Returns
     -------
-    ndarray, shape (2, K), or None
-        In the unit of the forces; None if one of them finds no equilibrium.
+    ndarray, shape (2, K)
+        Head less foot of each, over its unstressed length [-].
+    ndarray, shape (2, 2, K)
+        Derivative of that by the pull, symmetric and positive, per unit of the forces.
 
     Verified by
     -----------
     tests/cable/test_alike.py
     """
-    pulls = start
-    gap, step = _step(cables, ends, pulls)
-    for _ in range(_MOST_STEPS):
-        if not np.isfinite(gap).all():
-            return None
-        is_open = np.hypot(*gap) > tolerance
-        if not is_open.any():
-            return pulls
-        descent = -np.einsum("ik,ik->k", gap, step)
-        share = np.ones(descent.size)
-        for _ in range(_MOST_HALVINGS):
-            new_gap, new_step = _step(cables, ends, pulls + share * step)
-            climb = np.einsum("ik,ik->k", new_gap, step)
-            # what is closed has rounding left: it cannot climb any better
-            climbs = ~(climb <= _ACCEPTED_CLIMB * descent) & is_open
-            if not climbs.any():
-                break
-            share[climbs] /= 2.0
-        pulls = pulls + share * step
-        gap, step = new_gap, new_step
-    return None
+    x = pulls[0, :, None] + cables.offsets[0]
+    y = pulls[1, :, None] + cables.offsets[1]
+    square = x * x + y * y
+    share = cables.weights / np.sqrt(square)
+    give = share + cables.weights / cables.stiffness
+    ends = np.array([np.einsum("kg,kg->k", x, give), np.einsum("kg,kg->k", y, give)])
+    bent = share / square
+    whole = give.sum(axis=1)
+    xx = whole - np.einsum("kg,kg,kg->k", x, x, bent)
+    yy = whole - np.einsum("kg,kg,kg->k", y, y, bent)
+    xy = -np.einsum("kg,kg,kg->k", x, y, bent)
+    return ends, np.array([[xx, xy], [xy, yy]])
 
 
 def draw_curves(cables: AlikeCables, lengths: Floats, pulls: Floats) -> Floats:
@@ -124,7 +107,7 @@ def draw_curves(cables: AlikeCables, lengths: Floats, pulls: Floats) -> Floats:
     lengths : ndarray, shape (K,)
         Unstressed.
     pulls : ndarray, shape (2, K)
-        As ``find_pulls`` gives them.
+        As ``reach_ends`` takes them.
 
     Returns
     -------
@@ -141,22 +124,3 @@ def draw_curves(cables: AlikeCables, lengths: Floats, pulls: Floats) -> Floats:
     slope = vector * give[:, None]
     own = 2.0 * cables.weights[:count] * lengths[:, None]
     return integrate_curve(slope.reshape(lengths.size, 2, 2, count), own[:, None])
-
-
-def _step(cables: AlikeCables, ends: Floats, pulls: Floats) -> tuple[Floats, Floats]:
-    """Gap at each head, the gradient of (C4), and Newton's step to close it."""
-    x = pulls[0, :, None] + cables.offsets[0]
-    y = pulls[1, :, None] + cables.offsets[1]
-    square = x * x + y * y
-    share = cables.weights / np.sqrt(square)
-    give = share + cables.weights / cables.stiffness
-    gap = np.array([np.einsum("kg,kg->k", x, give), np.einsum("kg,kg->k", y, give)])
-    gap -= ends
-    bent = share / square
-    whole = give.sum(axis=1)
-    xx = whole - np.einsum("kg,kg,kg->k", x, x, bent)
-    yy = whole - np.einsum("kg,kg,kg->k", y, y, bent)
-    xy = -np.einsum("kg,kg,kg->k", x, y, bent)
-    size = xx * yy - xy * xy
-    step = np.array([xy * gap[1] - yy * gap[0], xy * gap[0] - xx * gap[1]]) / size
-    return gap, step

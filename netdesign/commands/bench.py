@@ -51,6 +51,11 @@ _REACHED = {True: "reached", False: "NOT reached"}
     help="Measure envelopes instead: cases, time, misses, store, workers.",
 )
 @click.option(
+    "--panel",
+    is_flag=True,
+    help="Measure what a panel adds to the searches of the example's rows instead.",
+)
+@click.option(
     "--missed",
     type=click.IntRange(1),
     default=5,
@@ -82,6 +87,7 @@ def bench(
     errors: int | None,
     lines: int | None,
     envelope: bool,
+    panel: bool,
     missed: int,
     seed: int,
     accuracy: float,
@@ -101,6 +107,7 @@ def bench(
     netdesign bench --lines 60 --jobs 2
     netdesign bench --envelope --json
     netdesign bench --envelope --missed 200
+    netdesign bench --panel
     """
     random: dict[Kind, int | None] = {
         "stress": stress,
@@ -108,9 +115,10 @@ def bench(
         "lines": lines,
     }
     wanted = {kind: count for kind, count in random.items() if count is not None}
-    if len(wanted) + envelope > 1:
-        raise click.UsageError("give one of --stress, --errors, --lines, --envelope")
-    if (wanted or envelope) and (scenes or plot):
+    if len(wanted) + envelope + panel > 1:
+        kinds = "--stress, --errors, --lines, --envelope, --panel"
+        raise click.UsageError(f"give one of {kinds}")
+    if (wanted or envelope or panel) and (scenes or plot):
         raise click.UsageError("--scenes and --plot are for named scenes only")
     if wanted and quick:
         raise click.UsageError("--quick: not with random scenes")
@@ -118,6 +126,8 @@ def bench(
         sys.exit(_run_random(kind, count, seed, accuracy, jobs, as_json=as_json))
     if envelope:
         sys.exit(_run_envelope(missed, quick=quick, as_json=as_json))
+    if panel:
+        sys.exit(_run_panel(quick=quick, as_json=as_json))
     names = tuple(name.strip() for name in scenes.split(",")) if scenes else ()
     _run_named(names, plot, quick=quick, force=force, as_json=as_json)
 
@@ -174,6 +184,18 @@ def _run_envelope(missed: int, *, quick: bool, as_json: bool) -> int:
     if as_json:
         _print_json(document)
     return 0 if quick or document["pass"] else _EXIT_FAIL
+
+
+def _run_panel(*, quick: bool, as_json: bool) -> int:
+    """Exit code: a quick look reaches nothing and so fails at nothing."""
+    from netdesign.evidence.benchmark.panel_cost import ROWS, measure_panel_cost
+
+    document = measure_panel_cost(repeats=1 if quick else 7, rows=1 if quick else ROWS)
+    if as_json:
+        _print_json(document)
+    else:
+        _show_row(document)
+    return 0 if quick or document["reached"] else _EXIT_FAIL
 
 
 def _ignore(_: object) -> None:

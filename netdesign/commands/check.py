@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
+    from netdesign.report.view.whole import Detail, ReportView
     from netdesign.site.model import Site
     from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
@@ -79,7 +80,7 @@ def check(
     cache: bool,
     out: Path | None,
     language: Language,
-    detail: Literal["summary", "full"],
+    detail: Detail,
     html: bool,
     excel: bool,
     csv: bool,
@@ -140,10 +141,11 @@ def check(
         studies = check_site(site, profiles, run, runner, progress)
         progress.enter("reports")
         style = ReportStyle(language=language, detail=detail)
-        files = render_files(studies, names, style)
+        views = [] if as_json else _view_studies(studies, language)
+        files = render_files(studies, names, style, views)
     failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=force)
-    _show(studies, language, as_json=as_json, explain=explain)
+    _show(studies, views, language, as_json=as_json, explain=explain)
     report_places(names, language, quiet=quiet or as_json)
     sys.exit(failed or _exit_code(studies))
 
@@ -201,8 +203,20 @@ def _plan_files(
     return names
 
 
+def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:
+    """Views of the studies, once for reports and terminal."""
+    from netdesign.report.view.whole import build_view
+
+    return [build_view(study, language) for study in studies]
+
+
 def _show(
-    studies: Sequence[Study], language: Language, *, as_json: bool, explain: bool
+    studies: Sequence[Study],
+    views: Sequence[ReportView],
+    language: Language,
+    *,
+    as_json: bool,
+    explain: bool,
 ) -> None:
     from netdesign.study.document import write_document
 
@@ -214,8 +228,8 @@ def _show(
         )
 
         console = open_console()
-        for study in studies:
-            print_summary(study, console, language)
+        for study, view in zip(studies, views, strict=True):
+            print_summary(study, console, language, view)
             if explain:
                 print_changes(study, console, language)
     elif len(studies) == 1:

@@ -12,7 +12,7 @@ _PROGRAM = "netdesign"
 
 
 @click.command()
-@click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
+@click.argument("shell", type=click.Choice(["bash", "zsh", "fish", "powershell"]))
 @click.pass_context
 def completion(context: click.Context, shell: str) -> None:
     """Print the script that completes commands and options in a shell.
@@ -21,11 +21,14 @@ def completion(context: click.Context, shell: str) -> None:
     eval "$(netdesign completion bash)"                     in ~/.bashrc
     eval "$(netdesign completion zsh)"                      in ~/.zshrc
     netdesign completion fish > ~/.config/fish/completions/netdesign.fish
+    netdesign completion powershell >> $PROFILE             in PowerShell
     """
     from click.shell_completion import get_completion_class
 
+    _add_powershell()
+
     kind = get_completion_class(shell)
-    if kind is None:  # click knows all three
+    if kind is None:  # click knows the others
         raise UsageRefusal(say("usage.shell_unknown", shell=shell))
     command = context.find_root().command
     script = kind(command, {}, _PROGRAM, COMPLETE_VARIABLE)
@@ -37,4 +40,14 @@ def answer_shell(command: click.Command, instruction: str) -> int:
     """Answer a shell that asks for completions; the exit code it expects."""
     from click.shell_completion import shell_complete
 
+    _add_powershell()
     return shell_complete(command, {}, _PROGRAM, COMPLETE_VARIABLE, instruction)
+
+
+def _add_powershell() -> None:
+    """Make PowerShell known to click."""
+    from click.shell_completion import add_completion_class
+
+    from netdesign.commands.powershell import PowerShellComplete
+
+    add_completion_class(PowerShellComplete, "powershell")

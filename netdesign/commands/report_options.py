@@ -9,7 +9,10 @@ import click
 
 from netdesign.commands.options import language_option
 
-_DETAIL_HELP = "Of report.html: summary leaves out what only a reviewer of a row needs."
+_DETAIL_HELP = (
+    "Of report.html: summary leaves out what only a reviewer of a row needs; figures "
+    "unfolds every figure of the checks, also on paper."
+)
 
 
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -18,7 +21,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
         language_option("Of the reports; numbers, symbols and keys stay."),
         click.option(
             "--detail",
-            type=click.Choice(["summary", "full"]),
+            type=click.Choice(["summary", "full", "figures"]),
             default="full",
             show_default=True,
             help=_DETAIL_HELP,

@@ -27,13 +27,18 @@ _MARKS: dict[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
 
 def site_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that say how a site file is read."""
+    annotate = click.option(
+        "--annotate",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="OUT.xlsx",
+        help="Write the workbook again with every finding at its cell.",
+    )
+    return text_options(annotate(command))
+
+
+def text_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that say how the text of a site file is written."""
     for option in (
-        click.option(
-            "--annotate",
-            type=click.Path(path_type=Path, dir_okay=False),
-            metavar="OUT.xlsx",
-            help="Write the workbook again with every finding at its cell.",
-        ),
         click.option(
             "--decimal-mark",
             type=click.Choice(["comma", "point"]),
@@ -79,12 +84,9 @@ def open_site(
         If the copy is in the way of another file.
     """
     from netdesign.edge.output import require_free
-    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.reader import read_site
 
-    text_format = TextFormat(
-        delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""]
-    )
+    text_format = build_text_format(delimiter=delimiter, decimal_mark=decimal_mark)
     if annotate is None:
         return read_site(path, text_format)
     if annotate.suffix.casefold() != ".xlsx":
@@ -102,6 +104,15 @@ def open_site(
         raise
     write(site)
     return site
+
+
+def build_text_format(
+    *, delimiter: str = "", decimal_mark: str | None = None
+) -> TextFormat:
+    """Declared form of a file's text."""
+    from netdesign.site.cells.cells import TextFormat
+
+    return TextFormat(delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""])
 
 
 def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:

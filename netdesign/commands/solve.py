@@ -25,8 +25,12 @@ from netdesign.words.message import Message, say
 from netdesign.words.names import name_member
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from netdesign.coupling.scene import Scene
     from netdesign.coupling.steady.bound import PullBound
+    from netdesign.files.scene import GivenScene
+    from netdesign.files.solved_support import SolvedSupport
     from netdesign.report.page.solution_page import Solved
     from netdesign.solving.solve import Settings
     from netdesign.words.catalogue import Language
@@ -65,23 +69,28 @@ def solve(
         require_free_folder,
         write_solution_folder,
     )
-    from netdesign.files.scene import read_scene
+    from netdesign.files.scene import read_scene_file
     from netdesign.files.solution import write_solution_document
 
-    scene, settings = read_scene(scene_file, method)
+    given = read_scene_file(scene_file, method)
+    scene, settings = given.scene, given.settings
     if out is not None:
-        require_free_folder(out, scene, settings, overwrite=force)
+        require_free_folder(out, given, overwrite=force)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings, language)
     elapsed = time.perf_counter() - start
     bound = None if failed else _bound_refused(scene, settings, solution)
-    document = write_solution_document(solution, settings, elapsed, bound, language)
+    support = _resolve_support(solution, given)
+    document = write_solution_document(
+        solution, settings, elapsed, bound, language, support
+    )
     if out is not None:
         written = write_solution_folder(
             out,
             solution,
             document,
             scene_file.name,
+            support,
             overwrite=force,
             language=language,
         )
@@ -109,6 +118,16 @@ def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved
         return solution, 0
     failed = FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE)
     return failed, tell_faults({solution: ()}, language)
+
+
+def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | None:
+    """Support of a net that was solved; None without a solution or a support."""
+    from netdesign.coupling.solution import Solution
+    from netdesign.files.solved_support import resolve_support
+
+    if given.support is None or not isinstance(solution, Solution):
+        return None
+    return resolve_support(solution, given.settings, given.support)
 
 
 def _bound_refused(
@@ -148,6 +167,8 @@ def _show_solution(document: dict[str, Any], language: Language) -> None:
         tell(say("solve.sag", sag=document["sag_m"]), language)
     if document["history"]:
         tell(_describe_plateau(document), language)
+    for line in _describe_support(document.get("support"), language):
+        tell(line, language)
     residual = document["balance"]["relative_residual"]
     tell(say("solve.balance", residual=residual), language)
     for flag in document["flags"]:
@@ -173,6 +194,49 @@ def _describe_wall(wall: dict[str, float]) -> Message:
         error=wall["error_kN_per_m"],
         moment=wall["moment_about_foot_kN"],
     )
+
+
+def _describe_support(
+    support: dict[str, Any] | None, language: Language
+) -> Iterator[Message]:
+    """Forces of both sets, ropes and row end, a line each."""
+    from netdesign.report.view.solved_support import find_force
+    from netdesign.structure.members import REPORTED_MEMBERS
+
+    if support is None:
+        return
+    if "reason" in support:
+        yield say("solve.support_lack", reason=support["reason"])
+    for member in REPORTED_MEMBERS:
+        forces = {
+            name: force
+            for name, part in (("section", "plain"), ("panel", "panel"))
+            if (force := find_force(support[part], member)) is not None
+        }
+        if forces:
+            both = "panel" in forces
+            key = "solve.support_with_panel" if both else "solve.support"
+            name = render(name_member(member), language)  # padded as a text
+            yield say(key, member=name, **forces)
+    if support["panel"]:
+        yield from _describe_panel(support["panel"], language)
+    if support["row_end"]:
+        yield from _describe_end_of_row(support["row_end"])
+
+
+def _describe_panel(panel: dict[str, Any], language: Language) -> Iterator[Message]:
+    for name in ("lower", "upper"):
+        rope = panel[f"{name}_rope"]
+        shown = render(say(f"panel_view.{name}"), language)
+        yield say("solve.rope", rope=shown, along=rope["H_kN"], tension=rope["T_kN"])
+    drop, lift = panel["mid_head_drop_m"], panel["foot_lift_m"]
+    yield say("solve.mid_panel", drop=drop, lift=lift)
+
+
+def _describe_end_of_row(end: dict[str, Any]) -> Iterator[Message]:
+    yield say("solve.row_end", **end["foot_kN"], along=end["head_along_kN"])
+    if end["end_guy_kN"] is not None:
+        yield say("solve.end_guy", guy=end["end_guy_kN"], post=end["post_kN"])
 
 
 def _describe_plateau(document: dict[str, Any]) -> Message:

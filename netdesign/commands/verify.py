@@ -15,7 +15,12 @@ import click
 
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.language import tell
-from netdesign.commands.options import jobs_option, json_option, language_option
+from netdesign.commands.options import (
+    force_option,
+    jobs_option,
+    json_option,
+    language_option,
+)
 from netdesign.commands.solving import open_run
 from netdesign.commands.stored_study import (
     NO_COMMAND,
@@ -45,6 +50,13 @@ _SHOWN = 20  # differences; more help nobody
 )
 @origin_options
 @jobs_option("Processes of --study [all cores].")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIRECTORY",
+    help="Write the pack as a page with pictures, too.",
+)
+@force_option
 @json_option("cases")
 @language_option("Of what --study prints; the pack speaks English.")
 def verify(
@@ -53,6 +65,8 @@ def verify(
     site_file: Path | None,
     standard: str | None,
     jobs: int | None,
+    out: Path | None,
+    force: bool,
     as_json: bool,
     language: Language,
 ) -> None:
@@ -66,21 +80,28 @@ def verify(
     \b
     netdesign verify
     netdesign verify --json
+    netdesign verify --out verification
     netdesign verify --study reports/study.json --site site.xlsx
     """
     if study_file is None:
         if site_file or standard or jobs:
             raise UsageRefusal(say("usage.only_with_study"))
-        sys.exit(_run_pack(as_json=as_json))
+        sys.exit(_run_pack(as_json=as_json, out=out, force=force))
+    if out is not None:
+        raise UsageRefusal(say("usage.out_not_with_study"))
     if as_json:
         raise UsageRefusal(say("usage.json_not_with_study"))
     sys.exit(_verify_study(study_file, site_file, standard, jobs, language))
 
 
-def _run_pack(*, as_json: bool) -> int:
+def _run_pack(*, as_json: bool, out: Path | None, force: bool) -> int:
+    from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_progress
+    from netdesign.evidence.validation.gather import gather, list_pages, write_page
     from netdesign.evidence.verification.pack import GROUPS, run_pack, write_pack
 
+    if out is not None:
+        require_free(list_pages(out), overwrite=force)
     with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
         cases = run_pack(advance)
     if as_json:
@@ -91,6 +112,8 @@ def _run_pack(*, as_json: bool) -> int:
         from netdesign.evidence.verification.verification_table import print_cases
 
         print_cases(cases, Console())
+    if out is not None:
+        write_page(gather((), cases=cases), out, force=force)
     return 0 if all(case.passes for case in cases) else _FAIL
 
 
@@ -120,13 +143,12 @@ def _verify_study(
     if not all(hashes):
         tell(say("verify.not_its_inputs"), language)
         return _FAIL
+    arithmetic = audit_study(study, profile, site)
     told = [
         show.digest(study),
         show.contradictions(say("verify.its_command"), contradict_command(study)),
         show.contradictions(say("verify.its_time"), _contradict_time(study)),
-        show.contradictions(
-            say("verify.its_arithmetic"), audit_study(study, profile, site)
-        ),
+        show.contradictions(say("verify.its_arithmetic"), arithmetic),
     ]
     with open_run(
         site, run, executor="", cache=False, quiet=False, language=language

@@ -10,6 +10,7 @@ import numpy as np
 from netdesign.coupling.moments import History
 from netdesign.coupling.refine import Estimate
 from netdesign.coupling.scene import Scene
+from netdesign.fault import Fault
 from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.outcome import Outcome
 from netdesign.snow.mesh import MeshTemplate
@@ -261,10 +262,14 @@ class WallSolution:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FailedSolution:
-    """A solve that gave no number that may be used."""
+    """A solve that gave no number that may be used.
+
+    ``fault`` is what failed in the program, where it was the program.
+    """
 
     outcome: Outcome
     reason: Message
+    fault: Fault | None = None
 
 
 def triangle_density(scene: Scene, template: MeshTemplate) -> Floats:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import errno
+import os
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
+from netdesign.edge.open_elsewhere import is_held
 from netdesign.errors import ContentError, NetDesignError
 from netdesign.words.message import Message, say
 
@@ -58,6 +61,9 @@ def explain_with_file(error: OSError) -> Message | str:
     """Cause of a failure, with the file that the system names."""
     if error.filename is None:
         return explain(error)
+    path = Path(os.fsdecode(error.filename))
+    if is_held(error, path):
+        return say("os_error.open_elsewhere", file=repr(str(path)))
     return say("os_error.at_file", cause=explain(error), file=repr(error.filename))
 
 

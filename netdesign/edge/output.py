@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from netdesign.edge.causes import explain_system, explain_with_file
+from netdesign.edge.locks import lock_folder
+from netdesign.edge.open_elsewhere import is_open_elsewhere
 from netdesign.errors import OutputError
 from netdesign.words.message import say
 
@@ -60,6 +61,10 @@ def _require_free(paths: list[Path], *, overwrite: bool, may_force: bool) -> Non
         raise OutputError(say("output.exists_force", paths=taken))
     if taken and not overwrite:
         raise OutputError(say("output.exists", paths=taken))
+    there = [path for path in paths if path.exists()]
+    busy = tuple(str(path) for path in there if is_open_elsewhere(path))
+    if busy:
+        raise OutputError(say("output.open_elsewhere", paths=busy))
     for folder in {path.parent for path in paths}:
         nearest = next(p for p in (folder, *folder.absolute().parents) if p.exists())
         if not nearest.is_dir():
@@ -100,22 +105,7 @@ def write_files(contents: Mapping[Path, bytes], *, overwrite: bool) -> None:
 def _alone_in(folders: Iterable[Path]) -> Iterator[bool]:
     """Hold back other runs that write there; False where no lock is to be had."""
     with ExitStack() as held:
-        yield all([_lock(folder, held) for folder in sorted(folders)])
-
-
-def _lock(folder: Path, held: ExitStack) -> bool:
-    """Lock a folder until the stack closes, or the process ends however it does."""
-    if sys.platform == "win32":
-        return False
-    import fcntl
-
-    handle = os.open(folder, os.O_RDONLY)
-    held.callback(os.close, handle)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-    except OSError:  # some file systems of networks have no locks
-        return False
-    return True
+        yield all([lock_folder(folder, held) for folder in sorted(folders)])
 
 
 def _remove_leftovers(paths: Iterable[Path]) -> None:

@@ -123,7 +123,7 @@ def merge_history(steady: CaseResult, history: CaseResult) -> CaseResult:
         member: _take_demand(compared, member) for member in history.member_forces
     }
     raised = any(compared.exceeds(member) for member in forces)
-    if raised:  # then nothing is known of the panel: its forces are of a state at rest
+    if raised:  # of the panel, too, its own forces count, if it has some
         return replace(history, member_forces=forces, compared=compared)
     return replace(
         steady, member_forces=steady.member_forces | forces, compared=compared

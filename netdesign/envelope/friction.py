@@ -25,7 +25,7 @@ class FrictionSkip:
         """Take the names of the search's axes."""
         self._axis = axes.index(_AXIS) if _AXIS in axes else None
         # by the other coordinates: least friction known to stick, and its end
-        self._sticking: dict[Point, tuple[float, CaseEnd]] = {}
+        self._sticking: dict[Point, tuple[float, SolvedState]] = {}
         self._agrees = True
         self._recalled: set[Point] = set()
         self.tested = 0
@@ -59,15 +59,13 @@ class FrictionSkip:
     def learn(self, point: Point, end: CaseEnd) -> None:
         """Take the end of a case that was solved."""
         self._recalled.discard(point)
-        if self._axis is None or end.state is None:
+        if self._axis is None or not isinstance(end, SolvedState):
             return
         if self._is_chance(point):
             self.tested += 1
-            known = self._sticking[self._line(point)][1].state
-            self._agrees = (
-                self._agrees and known is not None and _agree(known, end.state)
-            )
-        elif end.state.sticks:
+            known = self._sticking[self._line(point)][1]
+            self._agrees = self._agrees and _agree(known, end)
+        elif end.sticks:
             known_friction, _ = self._sticking.get(self._line(point), (2.0, end))
             if self._friction(point) < known_friction:
                 self._sticking[self._line(point)] = (self._friction(point), end)
@@ -77,7 +75,7 @@ class FrictionSkip:
         for point in points:
             self._sticking.pop(self._line(point), None)
 
-    def recall(self, point: Point) -> CaseEnd:
+    def recall(self, point: Point) -> SolvedState:
         """End of a case that was not solved."""
         self._recalled.add(point)
         return self._sticking[self._line(point)][1]

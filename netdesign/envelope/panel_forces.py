@@ -14,11 +14,12 @@ from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.solution import EndPull
 from netdesign.envelope.support_bands import resolve_pulls, spread_out
+from netdesign.errors import SolveError
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel
 from netdesign.panel.solution import FailedPanel, PanelSolution, RopeForces
 from netdesign.panel.solve import solve_strips
-from netdesign.panel.strips import build_strip
+from netdesign.panel.strips import Strip, build_strip, build_strip_at_end
 from netdesign.solving.state import SolvedState
 from netdesign.structure.anchors import AnchorForces
 from netdesign.structure.head import FailedSupport
@@ -34,6 +35,8 @@ from netdesign.words.message import say
 # Error of six stations over the panel's load, without and with anchors in mid-panel:
 # panel/THEORY.md, section 3.
 _STATIONS, _STATIONS_MID = 3e-4, 2e-3
+# Error of a history's few corners over the load: envelope/THEORY.md.
+_CORNERS = 0.01
 
 # In the order in which a search has them.
 PANEL_QUANTITIES = (*map(name_in_panel, CARRYING_MEMBERS), *RopeForce)
@@ -62,6 +65,12 @@ class PanelForces:
     foot: EndPull
     head: EndPull
 
+    def is_mid_largest(self, member: str) -> bool:
+        """The anchor in mid-panel is the more loaded one of a member's."""
+        mid_foot = math.hypot(*self.solution.mid_foot)
+        beside = self.anchors.member_forces[Member.FOOT_ANCHOR]
+        return member == Member.FOOT_ANCHOR and mid_foot > beside
+
 
 def resolve_panel(
     panel: Panel, net: Net, points: SupportPoints, state: SolvedState
@@ -82,21 +91,21 @@ def resolve_panel(
     Returns
     -------
     PanelForces or FailedPanel
-        Outcome ``out_of_validity`` also of a history, which has no panel.
+        Outcome ``out_of_validity`` also of a history that went on beyond its largest
+        pulls, and of a staggered one.
 
     Verified by
     -----------
     tests/envelope/test_panel_forces.py
     """
-    if state.method != "steady":
-        reason = say("panel.steady_only")
-        return FailedPanel(outcome=Outcome.OUT_OF_VALIDITY, reason=reason)
-    solved = solve_strips(
-        build_strip(net, state.net_curve, state.net_forces, state.foot), panel
-    )
+    try:
+        strip, doubt = _build_strip(net, state)
+    except SolveError as failure:
+        return FailedPanel(outcome=failure.outcome, reason=failure.reason)
+    solved = solve_strips(strip, panel)
     if isinstance(solved, FailedPanel):
         return solved
-    foot, head = _find_pulls(solved, state)
+    foot, head = _find_pulls(solved, state, doubt)
     found = resolve_pulls(points, panel.post_spacing, foot, head)
     if isinstance(found, FailedSupport):
         return FailedPanel(outcome=found.outcome, reason=found.reason)
@@ -115,16 +124,32 @@ def resolve_panel(
     )
 
 
-def _find_pulls(solved: PanelSolution, state: SolvedState) -> tuple[EndPull, EndPull]:
+def _build_strip(net: Net, state: SolvedState) -> tuple[Strip, float]:
+    """Strip at the post, and the doubt about its load over that [-]."""
+    if state.method == "steady":
+        curve, forces = state.net_curve, state.net_forces
+        return build_strip(net, curve, forces, state.foot), 0.0
+    if state.method != "transient":
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.not_staggered"))
+    strip, distance = build_strip_at_end(
+        net, state.net_curve, state.net_forces, (state.foot, state.head)
+    )
+    return strip, distance + _CORNERS
+
+
+def _find_pulls(
+    solved: PanelSolution, state: SolvedState, doubt: float
+) -> tuple[EndPull, EndPull]:
     """Mean pulls of a bay on foot and head, with their errors [N/m].
 
     A panel answers less to its load than the net at the post, whose error counts;
-    that of the stations comes on top.
+    that of the stations comes on top, and the doubt about a history's load.
     """
     width = solved.panel.post_spacing
     load = np.sum([solved.foot, solved.mid_foot, solved.head], axis=0)
     share = _STATIONS_MID if solved.panel.has_mid_anchors else _STATIONS
     error = max(state.foot.error, state.head.error)
+    error += doubt * float(np.hypot(*load)) / width
     error += share * float(np.hypot(*load)) / width
     foot, head = (_divide(one, width, error) for one in (solved.foot, solved.head))
     return foot, head

@@ -9,6 +9,7 @@ from functools import partial
 from netdesign.cable.net import Net
 from netdesign.checks.result import Band
 from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.panel_forces import PanelForces, resolve_panel
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.support_bands import resolve_pulls
@@ -109,7 +110,7 @@ class Compared:
     def exceeds(self, member: str) -> bool:
         """The history's force is larger by more than both state as their errors.
 
-        A force by the panel between posts is of a state at rest.
+        A history may have no forces by the panel between posts.
         """
         if member not in self.history.member_forces:
             return False
@@ -144,12 +145,12 @@ def resolve_case(task: CaseTask, end: CaseEnd | None) -> CaseResult:
     """Forces of a case from the end of its solve; failures stay outcomes."""
     if end is None or task.job is None:
         return _failed(task, Outcome.OUT_OF_VALIDITY, task.refusal)
-    if end.state is None:
+    if isinstance(end, FailedSolution):
         return replace(_failed(task, end.outcome, end.reason), fault=end.fault)
     if task.layout is None:
-        return replace(_resolve_net(task, end.state), reason=end.reason)
+        return replace(_resolve_net(task, end), reason=end.reason)
     found = catch_fault(
-        partial(_resolve_support, task, task.layout, end.state),
+        partial(_resolve_support, task, task.layout, end),
         describe_case(task.job.scene, task.job.settings),
     )
     if not isinstance(found, Fault):

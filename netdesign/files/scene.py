@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,6 +16,12 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.edge.causes import explain, explain_shape
 from netdesign.edge.given_files import list_faults, read_toml
 from netdesign.errors import ModelError, SceneFileError
+from netdesign.files.support_tables import (
+    GivenSupport,
+    PanelTable,
+    SupportTable,
+    build_support,
+)
 from netdesign.snow.creep_law import (
     CREEP_LAWS,
     DENSEST_SNOW,
@@ -144,10 +150,27 @@ class SceneFile(_Table):
     net: NetTable
     gravity: GravityTable = GravityTable()
     solve: SolveTable = SolveTable()
+    support: SupportTable | None = None
+    panel: PanelTable | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GivenScene:
+    """All that a scene file gives; ``support`` is None without such a table."""
+
+    scene: Scene
+    settings: Settings
+    support: GivenSupport | None
 
 
 def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Settings]:
-    """Scene and settings from a TOML file; ``method`` overrules the file's.
+    """Scene and settings of a scene file, as ``read_scene_file`` gives them."""
+    given = read_scene_file(path, method)
+    return given.scene, given.settings
+
+
+def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
+    """Content of a scene file (TOML); ``method`` overrules the file's.
 
     Raises
     ------
@@ -161,7 +184,7 @@ def read_scene(path: Path, method: Method | None = None) -> tuple[Scene, Setting
             say("file.no_toml", file=str(path), cause=explain(error))
         ) from None
     try:
-        return build_scene(SceneFile.model_validate(tables), method)
+        return build_given(SceneFile.model_validate(tables), method)
     except ValidationError as error:
         lines = [
             say("text.at_place", place=str(path), text=_describe(fault))
@@ -178,6 +201,12 @@ def build_scene(
     file: SceneFile, method: Method | None = None
 ) -> tuple[Scene, Settings]:
     """Scene and settings in SI units; ``method`` overrules the file's."""
+    given = build_given(file, method)
+    return given.scene, given.settings
+
+
+def build_given(file: SceneFile, method: Method | None = None) -> GivenScene:
+    """Scene, settings and support in SI units; ``method`` overrules the file's."""
     snowpack = _snowpack(file)
     creep_law = _creep_law(file.snow)
     scene = Scene(
@@ -189,7 +218,12 @@ def build_scene(
         ground_contact=file.ground.contact,
         net_contact=file.net.contact,
     )
-    return scene, _settings(file.solve, method or file.solve.method, scene)
+    height = scene.net.height_normal if isinstance(scene.net, Net) else None
+    return GivenScene(
+        scene=scene,
+        settings=_settings(file.solve, method or file.solve.method, scene),
+        support=build_support(file.support, file.panel, height),
+    )
 
 
 def _settings(table: SolveTable, method: Method, scene: Scene) -> Settings:

@@ -19,6 +19,7 @@ from netdesign.coupling.solution import (
     WallSolution,
 )
 from netdesign.coupling.steady.bound import PullBound
+from netdesign.files.solved_support import SolvedSupport, write_support
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.fluidity import FLUIDITY_EXPONENT, PAPER_FLUIDITY
 from netdesign.solving.solve import Settings
@@ -36,11 +37,12 @@ def write_solution_document(
     wall_s: float,
     bound: PullBound | None = None,
     language: Language = "en",
+    support: SolvedSupport | None = None,
 ) -> dict[str, Any]:
     """Solution as plain values in the form ``netdesign.solution/1``.
 
-    ``bound`` is that of a failed solution, where there is one; reasons and remarks are
-    in ``language``.
+    ``bound`` is that of a failed solution, ``support`` of a net's, where there is one;
+    reasons and remarks are in ``language``.
     """
     if isinstance(solution, FailedSolution):
         return {
@@ -59,6 +61,7 @@ def write_solution_document(
         "outcome": solution.outcome.value,
         "method": solution.method if isinstance(solution, Solution) else "steady",
         **held,
+        **({} if support is None else {"support": write_support(support, language)}),
         "balance": _write_balance(solution.balance),
         "largest_velocity_mm_per_day": _write_velocity(solution),
         **_write_history(solution, language),

@@ -5,21 +5,14 @@ Theory: panel/THEORY.md, (P1) to (P3).
 
 from __future__ import annotations
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.cable.closed_form import compute_parabola_sag
-from netdesign.errors import SolveError
 from netdesign.numerics.arrays import Floats
-from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Rope
 from netdesign.panel.stations import ROPE_POINTS, ROPE_WEIGHTS
-from netdesign.words.message import say
-
-_STILL = 1e-12  # last step of log H
-_LONGEST_STEP = 2.0  # of log H
-_MOST_STEPS = 100
 
 
 def compute_excess_length(sag: float) -> float:
@@ -66,59 +59,49 @@ def estimate_force_along(load: float, span: float, rope: Rope) -> tuple[float, f
     return load * span**2 / (8.0 * sag), sag
 
 
-def solve_force_along(shear: Floats, rope: Rope, start: float) -> float:
-    """Force along the row for which the rope has its unstressed length, (P2).
+class RopeLengths(NamedTuple):
+    """Unstressed lengths of ropes over their spans, less 1, and their derivatives.
+
+    Attributes
+    ----------
+    excess : ndarray, shape (2,)
+        Left side of (P2) over the span, less 1 [-].
+    by_log_along : ndarray, shape (2,)
+        By log H: negative [-].
+    by_shear : ndarray, shape (2, 2, 24)
+        By V at ``ROPE_POINTS`` [1/N].
+    """
+
+    excess: Floats
+    by_log_along: Floats
+    by_shear: Floats
+
+
+def measure_lengths(shear: Floats, stiffness: Floats, along: Floats) -> RopeLengths:
+    """Lengths that ropes would have without their tension, (P2).
 
     Parameters
     ----------
-    shear : ndarray, shape (2, 24)
-        V at ``ROPE_POINTS`` [N].
-    rope : Rope
-        Its stiffness and as-built sag.
-    start : float
-        Guess, above 0 [N].
-
-    Returns
-    -------
-    float
-        H [N].
-
-    Raises
-    ------
-    SolveError
-        If nothing pulls on the rope, or what pulls is no number.
+    shear : ndarray, shape (2, 2, 24)
+        V of each rope, (x, y) at ``ROPE_POINTS`` [N].
+    stiffness, along : ndarray, shape (2,)
+        EA and H of each [N].
 
     Verified by
     -----------
-    tests/verification/test_panel.py
+    tests/panel/test_ropes.py
     """
-    across = np.einsum("ij,ij->j", shear, shear)
-    wanted = compute_excess_length(rope.sag)
-    point, low, high = math.log(start), -math.inf, math.inf
-    for _ in range(_MOST_STEPS):
-        gap, slope = _measure_length(across, rope.stiffness, math.exp(point))
-        gap -= wanted
-        low, high = (point, high) if gap > 0.0 else (low, point)
-        step = min(max(-gap / slope, -_LONGEST_STEP), _LONGEST_STEP)
-        if abs(step) <= _STILL:
-            return math.exp(point + step)
-        point += step
-        if not low < point < high:
-            point = (low + high) / 2.0
-    raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.rope_not_found"))
-
-
-def _measure_length(
-    across: Floats, stiffness: float, along: float
-) -> tuple[float, float]:
-    """Left side of (P2) over the span, less 1, and its derivative by log H."""
-    ratio = across / along**2
-    excess = _exceed(ratio)  # w - 1
-    strain = along / stiffness * (1.0 + excess)
+    square = np.einsum("rcg,rcg->rg", shear, shear) / along[:, None] ** 2
+    excess = _exceed(square)  # w - 1
+    strain = (along / stiffness)[:, None] * (1.0 + excess)
     give = 1.0 + strain
-    slope = -(ratio / (1.0 + excess) + strain * (1.0 + excess)) / give**2
-    length = (excess - strain) / give
-    return float(ROPE_WEIGHTS @ length), float(ROPE_WEIGHTS @ slope)
+    slope = (square / (1.0 + excess) + strain * (1.0 + excess)) / give**2
+    each = ROPE_WEIGHTS / ((along**2)[:, None] * (1.0 + excess) * give**2)
+    return RopeLengths(
+        excess=((excess - strain) / give) @ ROPE_WEIGHTS,
+        by_log_along=-slope @ ROPE_WEIGHTS,
+        by_shear=shear * each[:, None],
+    )
 
 
 def _exceed(ratio: Floats) -> Floats:

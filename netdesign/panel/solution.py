@@ -76,8 +76,8 @@ class PanelSolution:
         Their nodes in the axes of the section [m].
     balance : PanelBalance
         What is missing in it.
-    rounds : int
-        Until strips and ropes agreed.
+    steps : int
+        Of Newton's method.
     """
 
     panel: Panel
@@ -89,7 +89,7 @@ class PanelSolution:
     stations: Floats
     curves: Floats
     balance: PanelBalance
-    rounds: int
+    steps: int
 
     @property
     def outcome(self) -> Outcome:

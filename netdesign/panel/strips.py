@@ -6,11 +6,11 @@ keep their sum. Theory: panel/THEORY.md, section 1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.cable.alike import AlikeCables, build_alike, draw_curves, find_pulls
+from netdesign.cable.alike import AlikeCables, build_alike, draw_curves
 from netdesign.cable.funicular import tension_offsets
 from netdesign.cable.net import Net
 from netdesign.coupling.solution import EndPull, Solution
@@ -23,6 +23,8 @@ from netdesign.words.message import say
 
 # Share of the chord that a cut must leave between two ropes; choice of this program.
 LEAST_NET = 0.1
+# The pulls at a history's end over its largest, less 1, at most: later snow is denser.
+FURTHEST = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -121,6 +123,70 @@ def build_strip(net: Net, curve: Floats, forces: Floats, foot: EndPull) -> Strip
     )
 
 
+def build_strip_at_end(
+    net: Net, curve: Floats, forces: Floats, pulls: tuple[EndPull, EndPull]
+) -> tuple[Strip, float]:
+    """Strip of a net that was followed in time, under its largest pulls.
+
+    The net is a polygon with the snow's forces at its corners, in equilibrium at the
+    end of the history. These forces are scaled so that the larger growth of both pulls,
+    from that end to their largest, is in them.
+
+    Parameters
+    ----------
+    net : Net
+        Its stiffness and slack.
+    curve, forces : ndarray, shape (2, n) and (2, m)
+        Its corners [m], and the forces on those that the snow reaches [N/m].
+    pulls : tuple of EndPull, shape (2,)
+        Largest ones on foot and head [N/m].
+
+    Returns
+    -------
+    Strip, float
+        And the distance between the growths of both pulls [-].
+
+    Raises
+    ------
+    SolveError
+        If one of them was further from its end than ``FURTHEST``.
+    """
+    above = np.zeros((2, curve.shape[1] - forces.shape[1]))  # of a free end
+    at_corners = np.concatenate([forces, above], axis=1)
+    foot, head = _pull_ends(curve, at_corners)
+    growths = [
+        pull.size / float(np.hypot(*end))
+        for pull, end in zip(pulls, (foot, head), strict=True)
+    ]
+    if not max(abs(one - 1.0) for one in growths) <= FURTHEST:
+        raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.history_went_on"))
+    nodes, on_nodes = np.zeros((2, 2, 2 * curve.shape[1] - 1))
+    nodes[:, ::2], on_nodes[:, ::2] = curve, at_corners
+    nodes[:, 1::2] = (curve[:, 1:] + curve[:, :-1]) / 2.0
+    end = EndPull(x=float(foot[0]), y=float(foot[1]), error=0.0)
+    strip = build_strip(net, nodes, on_nodes, end)
+    grown = max(growths) * on_nodes
+    scaled = replace(
+        strip,
+        forces=grown,
+        foot_pull=max(growths) * foot,
+        alike=build_alike(grown, strip.shares, strip.stiffness),
+    )
+    return scaled, abs(growths[0] - growths[1])
+
+
+def _pull_ends(curve: Floats, forces: Floats) -> tuple[Floats, Floats]:
+    """Pulls of a polygon in equilibrium on its foot and its head (2,) [N/m].
+
+    They point along its first and last side, and hold all that pulls between.
+    """
+    sides = np.diff(curve)[:, [0, -1]] * [1.0, -1.0]
+    sides /= np.hypot(*sides)
+    sizes = np.linalg.solve(sides, forces[:, 1:-1].sum(axis=1))
+    foot, head = (sizes * sides).T
+    return foot + forces[:, 0], head + forces[:, -1]
+
+
 def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     """Unstressed length of the strip at each station and in mid-panel, (P4).
 
@@ -152,43 +218,6 @@ def cut_lengths(panel: Panel, strip: Strip, stations: Stations) -> Floats:
     if not lengths.min() > LEAST_NET * strip.chord:
         raise SolveError(Outcome.OUT_OF_VALIDITY, say("panel.no_net_left"))
     return np.asarray((1.0 + strip.slack) * lengths)
-
-
-def pull_strips(
-    strip: Strip, lengths: Floats, displacements: Floats, start: Floats
-) -> Floats:
-    """Pulls of the strips between displaced ropes.
-
-    Parameters
-    ----------
-    strip : Strip
-        Forces and shares of the length.
-    lengths : ndarray, shape (K,)
-        Unstressed [m].
-    displacements : ndarray, shape (2, 2, K)
-        Of the lower and the upper rope, (x, y) at each station [m].
-    start : ndarray, shape (2, K)
-        What each pulled with on the lower rope last [N/m].
-
-    Returns
-    -------
-    ndarray, shape (2, 2, K)
-        On the lower and the upper rope [N/m].
-
-    Raises
-    ------
-    SolveError
-        If one of them finds no equilibrium.
-    """
-    cables = strip.alike
-    ends = strip.head[:, None] + displacements[1] - displacements[0]
-    to_foot = cables.to_foot[:, None]
-    with np.errstate(divide="ignore", invalid="ignore"):  # then nothing is found
-        pulls = find_pulls(cables, ends / lengths, start - to_foot)
-    if pulls is None:
-        raise SolveError(Outcome.NO_EQUILIBRIUM, say("panel.strip_not_found"))
-    foot = pulls + to_foot
-    return np.array([foot, cables.load[:, None] - foot])
 
 
 def draw_strips(

@@ -10,10 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from netdesign.guards import require_positive, require_within
+from netdesign.haefeli.slab import Slab, find_linear_slip
 from netdesign.planview.free_gap import find_isolated_excess, solve_free_gap
 from netdesign.planview.gap import GapFlow, find_excess_within
 from netdesign.planview.pulled_gap import ISOLATED_EXCESS, solve_pulled_gap
-from netdesign.planview.scales import Scales, Slab, compute_scales, find_linear_slip
+from netdesign.planview.scales import Scales, compute_scales
 from netdesign.planview.waves import WIDEST_HALF
 
 # What waves left out cost at most, over l_z; the widest gap solved has it.

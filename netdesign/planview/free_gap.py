@@ -13,11 +13,11 @@ from scipy.special import erf, erfc
 from netdesign.numerics.arrays import Floats
 from netdesign.planview.gap import GapFlow
 from netdesign.planview.waves import (
-    FEWER,
     FUNCTIONS,
     load_bessel,
     load_waves,
     require_opening,
+    solve_expansion,
 )
 
 _PLACES = 400  # in the gap
@@ -43,9 +43,7 @@ def solve_free_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
     tests/verification/test_plan_view.py
     """
     require_opening(half, functions)
-    matrix = _build_matrix(half, functions)
-    coefficients = _solve(matrix, half)
-    coarse = _solve(matrix[:-FEWER, :-FEWER], half)
+    coefficients, error = solve_expansion(_build_matrix(half, functions), half / 2.0)
     angles = math.pi * np.arange(1, _PLACES + 1) / (_PLACES + 1)
     return GapFlow(
         half=half,
@@ -53,7 +51,7 @@ def solve_free_gap(half: float, *, functions: int = FUNCTIONS) -> GapFlow:
         velocities=_find_velocities(coefficients, angles),
         weights=half * math.pi / (_PLACES + 1) * np.sin(angles),
         excess=_find_excess(half, coefficients),
-        error=half * math.pi / 4.0 * abs(float(coefficients[0] - coarse[0])),
+        error=half * math.pi / 4.0 * error,
     )
 
 
@@ -63,12 +61,6 @@ def _build_matrix(half: float, functions: int) -> Floats:
     rest = np.hypot(waves.numbers, half) - waves.numbers
     smooth = (each * (waves.weights * rest / waves.numbers**2)) @ each.T
     return smooth + np.diag(0.5 / (2.0 * np.arange(functions) + 1.0))
-
-
-def _solve(matrix: Floats, half: float) -> Floats:
-    drive = np.zeros(len(matrix))
-    drive[0] = half / 2.0
-    return np.asarray(np.linalg.solve(matrix, drive))
 
 
 def _find_velocities(coefficients: Floats, angles: Floats) -> Floats:

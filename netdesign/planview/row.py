@@ -13,11 +13,11 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats
 from netdesign.planview.waves import (
-    FEWER,
     FUNCTIONS,
     load_bessel,
     load_waves,
     require_opening,
+    solve_expansion,
 )
 
 
@@ -63,14 +63,12 @@ def solve_row(half: float, *, functions: int = FUNCTIONS) -> RowLoad:
     tests/verification/test_plan_view.py
     """
     require_opening(half, functions)
-    matrix = _build_matrix(half, functions)
-    coefficients = _solve(matrix, half)
-    coarse = _solve(matrix[:-FEWER, :-FEWER], half)
+    coefficients, error = solve_expansion(_build_matrix(half, functions), 1.0 / half)
     return RowLoad(
         half=half,
         coefficients=coefficients,
         total=half * math.pi * float(coefficients[0]),
-        error=half * math.pi * abs(float(coefficients[0] - coarse[0])),
+        error=half * math.pi * error,
     )
 
 
@@ -102,9 +100,3 @@ def _build_matrix(half: float, functions: int) -> Floats:
     ends = waves.weights[is_long] @ (1.0 / waves.numbers[is_long])
     matrix[0, 0] += math.log(2.0) - np.euler_gamma + ends
     return matrix
-
-
-def _solve(matrix: Floats, half: float) -> Floats:
-    drive = np.zeros(len(matrix))
-    drive[0] = 1.0 / half
-    return np.asarray(np.linalg.solve(matrix, drive))

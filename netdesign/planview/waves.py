@@ -86,6 +86,30 @@ def integrate_root(first: Floats, second: Floats) -> Floats:
     return np.asarray(gamma(0.5) / 2.0**0.5 * gamma(half + 0.25) * below)
 
 
+def solve_expansion(matrix: Floats, drive: float) -> tuple[Floats, float]:
+    """Coefficients under a drive of the first function, and the error of the first.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+        Power of each pair of functions [-].
+    drive : float
+        Power of the first one [-].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Coefficients [-].
+    float
+        How much the first one differs with ``FEWER`` functions less [-].
+    """
+    drives = np.zeros(len(matrix))
+    drives[0] = drive
+    coefficients = np.asarray(np.linalg.solve(matrix, drives))
+    fewer = np.linalg.solve(matrix[:-FEWER, :-FEWER], drives[:-FEWER])
+    return coefficients, abs(float(coefficients[0] - fewer[0]))
+
+
 def require_opening(half: float, functions: int) -> None:
     """Refuse an opening, or a count of functions, that the expansion does not reach.
 

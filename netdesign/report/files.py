@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING
 
 from netdesign.study.document import write_document
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
+
+if TYPE_CHECKING:
+    from netdesign.report.view.whole import Detail, ReportView
 
 STUDY_FILE = "study.json"
 
@@ -19,7 +22,7 @@ class ReportStyle:
     """Language and detail of the reports; the numbers do not depend on them."""
 
     language: Language = "en"
-    detail: Literal["summary", "full"] = "full"
+    detail: Detail = "full"
 
 
 def list_reports(*, html: bool, excel: bool, csv: bool, pdf: bool = False) -> list[str]:
@@ -53,20 +56,27 @@ def render_files(
     studies: Sequence[Study],
     paths: Sequence[Sequence[Path]],
     style: ReportStyle | None = None,
+    views: Sequence[ReportView] = (),
 ) -> dict[Path, bytes]:
-    """Contents of all files; the suffix says what each of them is."""
+    """Contents of all files; the suffix says what each of them is.
+
+    ``views`` are those of the studies in the language of the style, if they are known.
+    """
     contents: dict[Path, bytes] = {}
-    for study, of_study in zip(studies, paths, strict=True):
+    known: Sequence[ReportView | None] = views or [None] * len(studies)
+    for study, of_study, view in zip(studies, paths, known, strict=True):
         wanted = {path.suffix for path in of_study}
-        rendered = _render(study, wanted, style or ReportStyle())
+        rendered = _render(study, wanted, style or ReportStyle(), view)
         contents |= {path: rendered[path.suffix] for path in of_study}
     return contents
 
 
-def _render(study: Study, wanted: Set[str], style: ReportStyle) -> dict[str, bytes]:
+def _render(
+    study: Study, wanted: Set[str], style: ReportStyle, view: ReportView | None
+) -> dict[str, bytes]:
     """Wanted formats of a study; modules of the others are not imported."""
     rendered: dict[str, bytes] = {}
-    if wanted & {".html", ".pdf", ".xlsx"}:
+    if view is None and wanted & {".html", ".pdf", ".xlsx"}:
         from netdesign.report.view.whole import build_view
 
         view = build_view(study, style.language)

@@ -11,7 +11,6 @@ from netdesign.report.words import (
     MISSING,
     VerdictWords,
     Words,
-    name_heading,
     show_check,
     show_text,
 )
@@ -42,11 +41,16 @@ def open_console() -> Console:
     return console
 
 
-def print_summary(study: Study, console: Console, language: Language = "en") -> None:
+def print_summary(
+    study: Study,
+    console: Console,
+    language: Language = "en",
+    view: ReportView | None = None,
+) -> None:
     """Print one line per net row, then reasons and assumed values.
 
     Colour, width and destination are those of ``console``; texts of the site
-    are never read as markup.
+    are never read as markup. ``view`` is that of the study, if it is known.
 
     Raises
     ------
@@ -56,7 +60,7 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
     from rich.table import Table
     from rich.text import Text
 
-    words, view = Words(language), build_view(study, language)
+    words, view = Words(language), view or build_view(study, language)
     is_narrow = console.width < _NARROW
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(words("heading.net_row"), overflow="fold", min_width=4)
@@ -73,7 +77,7 @@ def print_summary(study: Study, console: Console, language: Language = "en") -> 
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
     if view.rows:
         console.print(table)
-        legend = Text(_explain_cases(study, words))
+        legend = Text(view.legend)
         console.print(legend, style="dim", soft_wrap=True)
     for line in _list_lines(view, words):
         console.print(Text(line), soft_wrap=True)
@@ -115,18 +119,6 @@ def _describe_change(change: ChangeRecord, words: Words) -> str:
     if change.note is None:
         return text
     return words("show.with_note", text=text, note=words.show(change.note))
-
-
-def _explain_cases(study: Study, words: Words) -> str:
-    """Legend of the numbers of a case, in their order."""
-    points = [case.case for row in study.rows for case in row.cases[:1]]
-    names = (
-        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
-    )
-    legend = words("show.legend")
-    if not names:
-        return legend
-    return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
 def _list_cells(row: RowView, none: str, *, is_narrow: bool) -> list[Text]:

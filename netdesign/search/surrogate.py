@@ -118,7 +118,9 @@ class Surrogate:
 def _fade_scores(distances: Floats, scores: Floats, far_shares: Floats) -> Floats:
     """Largest held-out score around each place, faded with distance."""
     share = np.maximum(np.exp(-((distances / REACH) ** 2)), far_shares)
-    return np.stack([np.max(share * column, axis=1) for column in scores.T], axis=1)
+    by_case = np.ascontiguousarray(share.T)  # largest over rows: half the time
+    each = [np.max(by_case * column[:, None], axis=0) for column in scores.T]
+    return np.stack(each, axis=1)
 
 
 def fit_surrogate(

@@ -4,33 +4,40 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import islice
 
 from netdesign.site.cells.cells import Cell, MergedRange, Sheet, name_column
-from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.cells.findings import Finding, Refusal, Severity, quote
 from netdesign.site.cells.numbers import parse_number
+from netdesign.site.cells.typed_units import find_typed_unit
 from netdesign.site.columns.fields import (
-    LANGUAGES,
     Field,
     Language,
     SheetPlan,
     normalise,
     split_heading,
 )
+from netdesign.site.columns.heading_text import fold
+from netdesign.site.columns.lexicon import Lexicon
 from netdesign.site.columns.unit_names import (
     KNOWN_UNITS,
     UNCLEAR_UNITS,
     convert_unit,
     normalise_unit,
 )
-from netdesign.site.readings import refuse_stored
+from netdesign.site.readings import IN_CELLS, refuse_stored
+from netdesign.site.titles import Meaning, Title, is_asked, list_titles, understand
 from netdesign.words.message import Message, say
 
 _LAST_HEADING_ROW = 20  # a title block may stand above the headings
 _UNITS_WORDS = ("", "unit", "units", "unite", "unites", "einheit", "einheiten")
 # How alike a heading must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
+_LIKELY = 0.55
+_EXAMPLES = 3  # cells that show how a column is written
+_LEAST_NUMBERED = 4  # columns, to be a row of their numbers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,25 +76,24 @@ class Headings:
     group_rows: frozenset[int] = frozenset()
 
 
+Titles = list[tuple[Title, Meaning]]
+
+
 @dataclass(frozen=True, slots=True)
-class _Title:
-    """One heading: the cell that holds it and the group that it belongs to."""
+class _Found:
+    """Headings of a sheet with what they mean, and the rows around them."""
 
-    cell: Cell
-    group: str
+    sheet: Sheet
+    plan: SheetPlan
+    titles: Titles
+    units_row: int | None
+    first_data_row: int
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Possible names, those with its group first: ``anchor | foot``, ``foot``."""
-        own, _ = split_heading(str(self.cell.value))
-        group, _ = split_heading(self.group)
-        grouped = (group + own, own + group) if group else ()
-        return (*grouped, own)
-
-    @property
-    def unit(self) -> str:
-        """Unit in its brackets, or in those of its group."""
-        return split_heading(str(self.cell.value))[1] or split_heading(self.group)[1]
+    def below(self, column: int) -> list[Cell]:
+        """The first filled cells of a column below its heading."""
+        rows = (row for row in self.sheet.rows if row >= self.first_data_row)
+        cells = (self.sheet.cell(row, column) for row in rows)
+        return list(islice((one for one in cells if not one.is_blank), _EXAMPLES))
 
 
 def find_headings(
@@ -109,22 +115,29 @@ def find_headings(
     Headings or None
         None if there is no row of headings; that is a finding.
     """
-    row = _find_row(sheet, plan)
+    lexicon = Lexicon.of(plan.fields, plan)
+    row = _find_row(sheet, lexicon)
     if row is None:
         wanted = tuple(quote_title(field) for field in plan.fields[:3])
         accepted = say("heading.such_as", headings=wanted)
         refusal = Refusal(say("heading.no_row"), accepted)
         findings.append(sheet.finding(refusal))
         return None
-    units_row = _find_units_row(sheet, plan, row, findings)
+    titles = [
+        (title, understand(title, lexicon, sheet.answers))
+        for title in list_titles(sheet, row)
+    ]
+    units_row = _find_units_row(sheet, titles, row, findings)
     merged_to = [
         merged.last_row
         for merged in sheet.merged
         if merged.row <= row <= merged.last_row and not sheet.rows.get(row + 1)
     ]
     first_data_row = max(row, units_row or row, *merged_to, row) + 1
-    columns = _find_columns(sheet, plan, row, units_row, first_data_row, findings)
-    names = {name for title in _list_titles(sheet, row) for name in title.names}
+    first_data_row += _is_numbering(sheet.row(first_data_row))
+    found = _Found(sheet, plan, titles, units_row, first_data_row)
+    columns = _find_columns(found, findings)
+    names = {split_heading(title.text)[0] for title, _ in titles}
     return Headings(
         row=row,
         first_data_row=first_data_row,
@@ -139,50 +152,31 @@ def find_headings(
     )
 
 
-def _list_titles(sheet: Sheet, row: int) -> list[_Title]:
-    """Headings of a row; a cell merged downwards into it counts as in the row."""
-    cells = {cell.column: cell for cell in sheet.row(row)}
-    for merged in sheet.merged:
-        if merged.row < row <= merged.last_row and merged.column == merged.last_column:
-            cell = sheet.cell(merged.row, merged.column)
-            if not cell.is_blank:
-                cells.setdefault(merged.column, cell)
-    return [
-        _Title(cells[column], _find_group(sheet, row, column))
-        for column in sorted(cells)
-    ]
+def count_known(sheet: Sheet, plan: SheetPlan) -> int:
+    """Most headings of a plan that one row of a sheet holds, whatever its name."""
+    return max(_count_known(sheet, Lexicon.of(plan.fields, plan)).values(), default=0)
 
 
-def _find_group(sheet: Sheet, row: int, column: int) -> str:
-    """Text of a cell just above that is merged across this column and others."""
-    for merged in sheet.merged:
-        is_wide = merged.last_column > merged.column and merged.last_row == row - 1
-        if is_wide and merged.covers(row - 1, column):
-            return str(sheet.cell(merged.row, merged.column).value or "")
-    return ""
-
-
-def _match_field(title: _Title, plan: SheetPlan) -> Field | None:
-    for name in title.names:
-        for field in plan.fields:
-            if name in field.names:
-                return field
-    return None
-
-
-def _find_row(sheet: Sheet, plan: SheetPlan) -> int | None:
+def _find_row(sheet: Sheet, lexicon: Lexicon) -> int | None:
     """Row with the most known headings; one alone may be a title by chance."""
-    known = {name for field in plan.fields for name in field.names} | {
-        normalise(name) for name in plan.unclear
-    }
-    counts = {
-        row: sum(
-            not known.isdisjoint(title.names) for title in _list_titles(sheet, row)
-        )
-        for row in range(1, _last_row(sheet) + 1)
-    }
+    counts = _count_known(sheet, lexicon)
     best = max(counts, key=lambda row: counts[row], default=0)
     return best if best and counts[best] >= 2 else None
+
+
+def _count_known(sheet: Sheet, lexicon: Lexicon) -> dict[int, int]:
+    return {
+        row: sum(_is_known(title, lexicon, sheet) for title in list_titles(sheet, row))
+        for row in range(1, _last_row(sheet) + 1)
+    }
+
+
+def _is_known(title: Title, lexicon: Lexicon, sheet: Sheet) -> bool:
+    """A cell holds a heading, or what may be one; a lone symbol is none."""
+    if not isinstance(title.cell.value, str):
+        return False
+    meaning = understand(title, lexicon, sheet.answers)
+    return bool(meaning.field or meaning.match.readings or meaning.answer)
 
 
 def _last_row(sheet: Sheet) -> int:
@@ -192,25 +186,25 @@ def _last_row(sheet: Sheet) -> int:
 
 
 def _find_units_row(
-    sheet: Sheet, plan: SheetPlan, heading_row: int, findings: list[Finding]
+    sheet: Sheet, titles: Titles, heading_row: int, findings: list[Finding]
 ) -> int | None:
     """Row below the headings if it holds units; other texts in it are findings.
 
     One unit that nobody knows does not make it a line of the table, which would have
     a number somewhere.
     """
-    titles = {title.cell.column: title for title in _list_titles(sheet, heading_row)}
-    fields = {column: _match_field(title, plan) for column, title in titles.items()}
+    by_column = {title.cell.column: (title, one.field) for title, one in titles}
+    below = sheet.row(heading_row + 1)
     cells = [
         (cell, field)
-        for cell in sheet.row(heading_row + 1)
-        if (field := fields.get(cell.column))
+        for cell in (() if _is_numbering(below) else below)
+        if (field := by_column.get(cell.column, (None, None))[1])
     ]
     measured = [(cell, field) for cell, field in cells if field.units]
     others = [one for one in cells if one not in measured]
     known = sum(_is_unit(*one) for one in measured)
     strangers = [cell for cell, field in others if not _is_unit(cell, field)]
-    has_units_above = any(titles[cell.column].unit for cell, _ in measured)
+    has_units_above = any(by_column[cell.column][0].unit for cell, _ in measured)
     is_row = 2 * known > len(measured) or not (strangers or has_units_above)
     if not measured or not is_row or any(_is_number(*one) for one in cells):
         return None
@@ -220,6 +214,14 @@ def _find_units_row(
             refusal = Refusal(rule, say("heading.units_or_empty"))
             findings.append(cell.finding(refusal))
     return heading_row + 1
+
+
+def _is_numbering(cells: tuple[Cell, ...]) -> bool:
+    """A row numbers the columns: (1), (2), (3) and so on."""
+    numbers = [str(cell.value).strip(" ()") for cell in cells]
+    return len(cells) >= _LEAST_NUMBERED and numbers == [
+        str(number) for number in range(1, len(cells) + 1)
+    ]
 
 
 def _is_unit(cell: Cell, field: Field) -> bool:
@@ -241,57 +243,109 @@ def _read_unit(cell: Cell) -> tuple[str, bool]:
     return normalise_unit(bracketed[1] if bracketed else text), bracketed is not None
 
 
-def _find_columns(
-    sheet: Sheet,
-    plan: SheetPlan,
-    row: int,
-    units_row: int | None,
-    first_data_row: int,
-    findings: list[Finding],
-) -> dict[str, Column]:
+def _find_columns(found: _Found, findings: list[Finding]) -> dict[str, Column]:
     columns: dict[str, Column] = {}
     claimed: set[str] = set()  # by headings that are refused as unclear
-    unknown: list[Cell] = []
-    for title in _list_titles(sheet, row):
-        cell, field = title.cell, _match_field(title, plan)
-        unclear = plan.find_unclear(title.names[-1])
-        if field is None and unclear:
-            readings = tuple(quote_title(one) for one in unclear)
-            rule = say("heading.ambiguous", readings=readings)
-            refusal = Refusal(rule, say("heading.one_of_these"))
-            findings.append(cell.finding(refusal))
-            claimed |= {one.key for one in unclear}
-        elif field is None:
-            unknown.append(cell)
+    unknown: list[Title] = []
+    for title, meaning in found.titles:
+        cell, field = title.cell, meaning.field
+        if field is None:
+            claimed |= {one.key for one in meaning.match.readings}
+            refusal = _explain(meaning, found.sheet)
+            if refusal:
+                severity: Severity = "note" if meaning.is_ignored else "error"
+                findings.append(cell.finding(refusal, severity=severity))
+            else:
+                unknown.append(title)
         elif field.key in columns:
             first = name_column(columns[field.key].number)
             rule = say("heading.twice", name=field.name, column=first)
             refusal = Refusal(rule, say("heading.one_column"))
             findings.append(cell.finding(refusal))
         else:
-            below = sheet.cell(units_row, cell.column) if units_row else None
-            example = sheet.cell(first_data_row, cell.column)
-            unit = _find_unit(title, below, example, field, findings)
+            unit = _find_unit(found, title, meaning, field, findings)
             columns[field.key] = Column(number=cell.column, unit=unit)
+            if meaning.answer:
+                file = found.sheet.answered_in
+                rule = say("heading.answered", name=field.name, file=file)
+                findings.append(cell.finding(Refusal(rule), severity="note"))
+    plan = found.plan
     missing = [field for field in plan.fields if field.key not in columns]
-    findings.extend(_judge_unknown(cell, plan, missing) for cell in unknown)
-    _report_missing(sheet, plan, {*columns, *claimed}, findings)
+    judged = _judge_all_unknown(unknown, missing)
+    findings.extend(finding for finding, _ in judged)
+    claimed |= {field.key for _, field in judged if field}
+    _report_missing(found, unknown, {*columns, *claimed}, findings)
+    findings.extend(_refuse_unused_answers(found))
     return columns
 
 
-def _judge_unknown(cell: Cell, plan: SheetPlan, missing: list[Field]) -> Finding:
+def _explain(meaning: Meaning, sheet: Sheet) -> Refusal | None:
+    """Reason why a heading is not read; None where nobody knows it."""
+    if meaning.is_ignored:
+        return Refusal(say("heading.ignored", file=sheet.answered_in))
+    if meaning.is_wrong_answer:
+        rule = say("heading.wrong_answer", answer=quote(meaning.answer))
+        return Refusal(rule, say("heading.answer_wanted", file=sheet.answered_in))
+    if not meaning.match.is_unclear:
+        return None
+    readings = tuple(quote_title(one) for one in meaning.match.readings)
+    rule = say("heading.ambiguous", readings=readings)
+    if meaning.match.contrary:
+        says = quote(meaning.match.contrary)
+        rule = say("heading.contrary", readings=readings, contrary=says)
+    return Refusal(rule, say("heading.one_of_these"))
+
+
+def _refuse_unused_answers(found: _Found) -> Iterator[Finding]:
+    """Answers to headings that the sheet does not have: it has changed since."""
+    titles = [title for title, _ in found.titles]
+    for key in found.sheet.answers:
+        is_used = any(is_asked(title, key) for title in titles)
+        if not is_used and not found.plan.items:
+            rule = say("heading.unused_answer", file=found.sheet.answered_in)
+            yield found.sheet.finding(Refusal(rule, quote(key)))
+
+
+def _judge_all_unknown(
+    unknown: list[Title], missing: list[Field]
+) -> list[tuple[Finding, Field | None]]:
+    """Judge columns that are not read, each with the missing field it may be.
+
+    The headings that the sheet may have are told once.
+    """
+    judged = [_judge_unknown(title.cell, missing) for title in unknown]
+    first = next((n for n, (one, _) in enumerate(judged) if one.severity == "note"), -1)
+    if first >= 0 and missing:
+        names = tuple(quote_title(field) for field in missing)
+        known = say("heading.known", headings=names)
+        judged[first] = replace(judged[first][0], accepted=known), None
+    return judged
+
+
+def _judge_unknown(cell: Cell, missing: list[Field]) -> tuple[Finding, Field | None]:
     """Note a column that is not read; refuse one that seems a missing one, misspelt."""
     if stored := refuse_stored(cell):
-        return cell.finding(stored)
-    name, _ = split_heading(str(cell.value))
-    names = {known: field for field in missing for known in field.names}
-    close = difflib.get_close_matches(name, names, n=1, cutoff=_MISSPELT)
-    if close:
-        meant = quote_title(names[close[0]])
-        rule = say("heading.close_to_missing", meant=meant)
-        return cell.finding(Refusal(rule, say("heading.or_unlike", meant=meant)))
-    refusal = Refusal(say("heading.unknown"), _name_nearest(str(cell.value), plan))
-    return cell.finding(refusal, severity="note")
+        return cell.finding(stored), None
+    near = find_near(str(cell.value), missing)
+    if near:
+        rule = say("heading.close_to_missing", meant=quote_title(near[0]))
+        accepted = say("heading.or_unlike", meant=quote_title(near[0]))
+        return cell.finding(Refusal(rule, accepted)), near[0]
+    refusal = Refusal(say("heading.unknown"))
+    return cell.finding(refusal, severity="note"), None
+
+
+def find_near(text: str, fields: Iterable[Field]) -> list[Field]:
+    """Fields with a heading so like a text that the text may be that, misspelt."""
+    own = {split_heading(text)[0], fold(text.partition("[")[0])}
+    names = {name: one for one in fields for name in one.names}
+    names |= {fold(name): one for one in fields for name in one.raw_names}
+    close = [
+        match
+        for name in own
+        for match in difflib.get_close_matches(name, names, n=2, cutoff=_MISSPELT)
+    ]
+    return list({names[one].key: names[one] for one in close}.values())
 
 
 def quote_title(field: Field) -> Message:
@@ -299,32 +353,21 @@ def quote_title(field: Field) -> Message:
     return say("finding.in_quotes", text=field.title)
 
 
-def _name_nearest(text: str, plan: SheetPlan) -> Message:
-    """A known heading, with those whose names in any language are near to a text."""
-    known = {
-        field.heading_for(language): field
-        for language in LANGUAGES
-        for field in plan.fields
-    }
-    near = difflib.get_close_matches(text, known, n=3)
-    titles = {known[name].key: quote_title(known[name]) for name in near}
-    accepted = say("heading.known")
-    if not titles:
-        return accepted
-    return say("finding.nearest", accepted=accepted, near=tuple(titles.values()))
-
-
 def _find_unit(
-    title: _Title,
-    below: Cell | None,
-    example: Cell,
+    found: _Found,
+    title: Title,
+    meaning: Meaning,
     field: Field,
     findings: list[Finding],
 ) -> str | None:
-    """Take the unit of a column from its heading or from the row of units."""
+    """Take the unit of a column from its heading, the row of units, or its answer."""
     if not field.units:
+        if title.unit in KNOWN_UNITS and title.unit != "-":  # a number of another field
+            rule = say("heading.unit_not_wanted", unit=title.unit, name=field.name)
+            findings.append(title.cell.finding(Refusal(rule, field.name)))
         return ""
-    unit, cell = title.unit, title.cell
+    column, unit, cell = title.cell.column, title.unit, title.cell
+    below = found.sheet.cell(found.units_row, column) if found.units_row else None
     if below is not None and not below.is_blank:
         unit_below, _ = _read_unit(below)
         if unit not in ("", unit_below):
@@ -332,11 +375,31 @@ def _find_unit(
             findings.append(below.finding(Refusal(rule, say("accepted.one_unit"))))
             return None
         unit, cell = unit_below, below
+    if meaning.unit and unit in ("", *UNCLEAR_UNITS):
+        unit = meaning.unit
+    elif meaning.unit and meaning.unit != unit:
+        rule = say("heading.other_unit", heading=quote(meaning.answer))
+        findings.append(cell.finding(Refusal(rule, say("accepted.one_unit"))))
+        return None
     if not unit and "-" in field.units:
         return "-"
     if unit in field.units:
         return unit
-    rule = _describe_missing_unit(example, field)
+    if not unit and _have_units(found.below(column), field):
+        return IN_CELLS
+    refusal = _refuse_unit(unit, found.below(column), field)
+    findings.append(cell.finding(refusal, field.name))
+    return None
+
+
+def _have_units(cells: list[Cell], field: Field) -> bool:
+    """The first numbers of a column have their units in their cells."""
+    units = [normalise_unit(find_typed_unit(cell)) for cell in cells]
+    return any(unit in field.units for unit in units)
+
+
+def _refuse_unit(unit: str, cells: list[Cell], field: Field) -> Refusal:
+    rule = _describe_missing_unit(cells, field)
     if unit:
         unclear = UNCLEAR_UNITS.get(unit)
         rule = (
@@ -344,9 +407,7 @@ def _find_unit(
             if unclear
             else say("heading.unknown_unit")
         )
-    refusal = Refusal(rule, name_units(field))
-    findings.append(cell.finding(refusal, field.name))
-    return None
+    return Refusal(rule, name_units(field))
 
 
 def name_units(field: Field) -> Message:
@@ -355,8 +416,11 @@ def name_units(field: Field) -> Message:
     return say("accepted.units", units=units)
 
 
-def _describe_missing_unit(example: Cell, field: Field) -> Message:
+def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     """Say that a column has no unit, and what its first number could be in each."""
+    if not cells:
+        return say("heading.no_unit")
+    example = cells[0]
     number = parse_number(example.value, example.decimal_mark)
     if isinstance(number, Refusal):
         return say("heading.no_unit")
@@ -374,18 +438,45 @@ def _describe_missing_unit(example: Cell, field: Field) -> Message:
 
 
 def _report_missing(
-    sheet: Sheet, plan: SheetPlan, found: set[str], findings: list[Finding]
+    found: _Found, unknown: list[Title], known: set[str], findings: list[Finding]
 ) -> None:
-    missing = [
-        say("heading.lacks", heading=field.title)
-        for field in plan.fields
-        if field.required and field.key not in found
-    ]
-    if plan.one_of and found.isdisjoint(plan.one_of):
+    plan = found.plan
+    for field in plan.fields:
+        is_given = field.key in known or _has_instead(field, known)
+        if field.required and not is_given:
+            rule = say("heading.lacks", heading=field.title)
+            accepted = _name_likely(unknown, field)
+            findings.append(found.sheet.finding(Refusal(rule, accepted)))
+    if plan.one_of and known.isdisjoint(plan.one_of):
         fields = [field for field in plan.fields if field.key in plan.one_of]
-        headings = tuple(map(quote_title, fields))
-        missing.append(say("heading.lacks_one_of", headings=headings))
-    findings.extend(sheet.finding(Refusal(rule)) for rule in missing)
+        rule = say("heading.lacks_one_of", headings=tuple(map(quote_title, fields)))
+        likely = (_name_likely(unknown, field) for field in fields)
+        accepted = next((one for one in likely if one), "")
+        findings.append(found.sheet.finding(Refusal(rule, accepted)))
+
+
+def _name_likely(unknown: list[Title], field: Field) -> Message | str:
+    """The column that may hold a missing field under another name, if one may."""
+    ranked = sorted(unknown, key=lambda title: -compute_likeness(title.text, field))
+    if not ranked or compute_likeness(ranked[0].text, field) < _LIKELY:
+        return ""
+    cell = ranked[0].cell
+    return say("heading.perhaps", cell=cell.address, text=quote(cell.text))
+
+
+def compute_likeness(text: str, field: Field) -> float:
+    """Share of letters that a text has in common with a field's likest heading."""
+    own = fold(text)
+    ratios = (
+        difflib.SequenceMatcher(None, own, fold(name)).ratio()
+        for name in field.raw_names
+    )
+    return max(ratios, default=0.0)
+
+
+def _has_instead(field: Field, found: set[str]) -> bool:
+    """Another column gives what a missing one would: a range both of its ends."""
+    return field.key in ("low", "high") and "span" in found
 
 
 def find_cover(sheet: Sheet, row: int, column: int) -> MergedRange | None:

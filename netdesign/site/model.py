@@ -388,6 +388,8 @@ class Site:
     project_cells: Mapping[str, str] = field(default_factory=dict)
     monitoring: tuple[MonitoringSeries, ...] = ()
     declared: tuple[Declaration, ...] = ()
+    map_file: str = ""  # answers to headings, where there are any
+    map_sha256: str = ""
     winter: StationWinter | None = None
 
     def find_declaration(

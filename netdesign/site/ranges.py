@@ -9,8 +9,11 @@ from dataclasses import field as of_dataclass
 from netdesign.envelope.parameters import ONE_QUANTITY
 from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.search.maxima import MOST_PARAMETERS
+from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, quote
+from netdesign.site.cells.typed_units import find_typed_unit, split_range
 from netdesign.site.columns.fields import Field, split_heading
+from netdesign.site.columns.heading_text import find_unit
 from netdesign.site.columns.range_quantities import (
     DEFAULT_INCLINATION_DEG,
     FURTHER_QUANTITIES,
@@ -19,13 +22,15 @@ from netdesign.site.columns.range_quantities import (
 )
 from netdesign.site.columns.unit_names import UNCLEAR_UNITS, normalise_unit
 from netdesign.site.headings import name_units, quote_title
-from netdesign.site.items import match_item
+from netdesign.site.items import match_item, refuse_unused_answers
 from netdesign.site.model import InputEcho
 from netdesign.site.readings import Reading, read_cell, refuse
 from netdesign.site.tables import Table, read_field
+from netdesign.site.titles import Meaning
 from netdesign.words.message import say
 
 _Line = tuple[Reading, Reading, Reading]  # low, high, samples
+_Ends = tuple[Cell | None, Cell | None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,6 +82,7 @@ def build_ranges(table: Table, findings: list[Finding]) -> RangesSheet:
     names: dict[str, Reading] = {}
     for row in table.rows:
         _read_line(table, row, found, names, findings)
+    refuse_unused_answers(table, "quantity", findings)
     for one in USUAL_QUANTITIES:
         if one.key in found:
             continue
@@ -152,18 +158,22 @@ def _read_line(
     why = read_field(table, "justification", row, findings)
     if name.state != "given":
         return
-    field = match_item(name, table, "quantity", findings)
+    meaning = match_item(name, table, "quantity", findings)
+    field = meaning.field
     if field is None:
         return
     if field.key in names:
         refuse(name, say("range.twice"), say("range.one_line"), findings)
         return
     names[field.key], found[field.key] = name, None
-    settled = _settle_unit(name, unit, field, findings)
-    if not settled:
+    ends = _find_ends(table, row, findings)
+    settled = _settle_unit(name, unit, field, _find_typed(ends, meaning), findings)
+    if not settled or ends is None:
         return
+    span = table.cell(row, "span")
     low, high = (
-        _read_end(table, row, key, field, settled, findings) for key in ("low", "high")
+        _read_end(cell, key, field, settled, findings, span)
+        for key, cell in zip(("low", "high"), ends, strict=True)
     )
     if field in FURTHER_QUANTITIES and _is_empty(low, high):
         del names[field.key], found[field.key]  # a line of a form, not filled in
@@ -181,17 +191,48 @@ def _justify(built: _Range | None, field: Field, why: Reading) -> _Range | None:
     return replace(built, inputs=(*built.inputs, labelled.echo()))
 
 
+def _find_ends(table: Table, row: int, findings: list[Finding]) -> _Ends | None:
+    """Cells of both ends of a line, or one cut in two; None if that is refused."""
+    low, high, span = (table.cell(row, key) for key in ("low", "high", "span"))
+    if span is None or span.is_blank:
+        return low or span, high or span
+    beside = next((one for one in (low, high) if one and not one.is_blank), None)
+    if beside is not None:
+        rule = say("range.twice_in_line", place=beside.place)
+        findings.append(span.finding(Refusal(rule, say("range.one_or_both"))))
+        return None
+    if not isinstance(span.value, str):
+        return span, span  # a single number, or what is refused as none
+    cut = split_range(span.value)
+    if cut is None:
+        return span, span
+    return tuple(replace(span, value=f"{end} {cut[2]}".rstrip()) for end in cut[:2])  # type: ignore[return-value]
+
+
+def _find_typed(ends: _Ends | None, meaning: Meaning) -> str:
+    """Unit that both ends have in their cells, or that was answered; else none."""
+    filled = [one for one in ends or () if one and not one.is_blank]
+    units = {normalise_unit(find_typed_unit(one)) for one in filled}
+    return meaning.unit or (units.pop() if len(units) == 1 else "")
+
+
 def _is_empty(low: Reading | None, high: Reading | None) -> bool:
     return low is not None and high is not None and low.state == high.state == "blank"
 
 
 def _settle_unit(
-    name: Reading, unit: Reading, field: Field, findings: list[Finding]
+    name: Reading, unit: Reading, field: Field, typed: str, findings: list[Finding]
 ) -> str:
-    """Unit of a line, in brackets or in a column; empty if a finding refused it."""
-    _, in_brackets = split_heading(name.word)
+    """Unit of a line, in brackets or in a column; empty if a finding refused it.
+
+    ``typed`` is what the cells of its ends have, or what was answered; it decides where
+    nothing else is clear.
+    """
+    in_brackets = find_unit(name.word) or split_heading(name.word)[1]
     in_column = normalise_unit(unit.word.strip(" []()"))
     given, place = (in_column, unit) if in_column else (in_brackets, name)
+    if typed in field.units and given in ("", *UNCLEAR_UNITS):
+        return typed
     accepted = name_units(field)
     if in_column and in_brackets and in_column != in_brackets:
         rule = say("range.other_unit", name=quote(name.word))
@@ -237,18 +278,22 @@ def _read_range(
 
 
 def _read_end(
-    table: Table,
-    row: int,
+    cell: Cell | None,
     key: str,
     field: Field,
     unit: str,
     findings: list[Finding],
+    span: Cell | None,
 ) -> Reading | None:
-    cell = table.cell(row, key)
+    """Reading of one end; where one cell holds both, it shows that cell."""
     if cell is None:  # the missing heading is a finding already
         return None
-    end = _name_end(field, key)
-    return read_cell(cell, end, unit, findings)
+    count = len(findings)
+    reading = read_cell(cell, _name_end(field, key), unit, findings)
+    if span is None or span.is_blank:
+        return reading
+    findings[count:] = [replace(one, text=span.text) for one in findings[count:]]
+    return replace(reading, text=span.text, cell=span)
 
 
 def _name_end(field: Field, key: str) -> Field:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from dataclasses import replace
+from functools import lru_cache, partial
 from pathlib import Path
 
 from netdesign.errors import SiteDataError
-from netdesign.site.cells.cells import UNDECLARED, TextFormat, Workbook
-from netdesign.site.cells.findings import Finding, note_file
+from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
+from netdesign.site.cells.findings import Finding, fold_findings, note_file
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.all_tables import (
     ANCHORS,
@@ -22,11 +23,17 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.net_columns import ENDS, NETS
-from netdesign.site.columns.range_quantities import RANGES
+from netdesign.site.columns.range_quantities import RANGES, RANGES_AS_TYPED
 from netdesign.site.columns.winter_columns import WINTER
 from netdesign.site.declared_sheet import read_declared
 from netdesign.site.end_supports import read_ends
-from netdesign.site.items import match_item
+from netdesign.site.items import match_item, refuse_unused_answers
+from netdesign.site.mapping import (
+    give_answers,
+    is_meant,
+    judge_answers,
+    read_answers,
+)
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
 from netdesign.site.net_rows import build_net_rows, index_by_id
@@ -75,9 +82,10 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         With all findings of all sheets, if any of them is an error.
     """
     workbook = read_cells(path, text_format)
-    findings = list(workbook.remarks)
-    ranged = _read_ranges(find_table(workbook, RANGES, []), []).ends
-    plans = [free_columns(plan, ranged) if plan is NETS else plan for plan in SHEETS]
+    findings = [*workbook.remarks, *judge_answers(workbook)]
+    ranged = _read_ranges(find_table(workbook, RANGES_AS_TYPED, []), []).ends
+    as_typed = {NETS.name: free_columns(NETS, ranged), RANGES.name: RANGES_AS_TYPED}
+    plans = [as_typed.get(plan.name, plan) for plan in SHEETS]
     tables = {plan.name: find_table(workbook, plan, findings) for plan in plans}
     project, project_cells = _read_project(tables[PROJECT.name], findings)
     type_sheets = {
@@ -101,26 +109,34 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     declared = read_declared(tables[DECLARED.name], ids, findings)
     findings.extend(_note_unread(workbook, findings))
     if built.ranges is None or any(finding.severity == "error" for finding in findings):
-        raise SiteDataError(findings)
+        raise SiteDataError(findings, fold_findings(findings))
     return Site(
         project=project,
         ranges=built.ranges,
         rows=net_rows,
         file_name=workbook.file,
         sha256=workbook.sha256,
-        notes=tuple(finding.message for finding in findings),
+        notes=fold_findings([_shorten(one) for one in findings]),
         findings=tuple(findings),
         range_inputs=built.inputs,
         project_cells=project_cells,
         monitoring=monitoring,
         winter=winter,
         declared=declared,
+        map_file=workbook.answers.file,
+        map_sha256=workbook.answers.sha256,
     )
 
 
 def read_cells(path: Path, text_format: TextFormat = UNDECLARED) -> Workbook:
     """Cells of the sheets that a site workbook has; nothing is understood yet."""
-    return read_workbook(path, _is_wanted, _is_name, is_heading, text_format)
+    answers = read_answers(path)
+    if not text_format.decimal_mark:
+        text_format = replace(text_format, decimal_mark=answers.decimal_mark)
+    is_wanted = partial(_is_wanted, answers=answers)
+    is_name = partial(_is_name, answers=answers)
+    workbook = read_workbook(path, is_wanted, is_name, is_heading, text_format)
+    return give_answers(workbook, answers)
 
 
 def is_heading(text: str) -> bool:
@@ -134,12 +150,18 @@ def _known_headings() -> frozenset[str]:
     return frozenset(name for field in fields for name in field.names)
 
 
-def _is_wanted(sheet_name: str) -> bool:
-    return any(plan.matches(sheet_name) for plan in SHEETS)
+def _shorten(finding: Finding) -> Finding:
+    """Remark without the list of headings, which helps only where one is sought."""
+    is_long = finding.rule.key == "heading.unknown"
+    return replace(finding, accepted="") if is_long else finding
 
 
-def _is_name(text: str) -> bool:
-    return _is_wanted(text) or any(is_near(text, plan) for plan in SHEETS)
+def _is_wanted(sheet_name: str, answers: Answers) -> bool:
+    return any(is_meant(sheet_name, plan, answers) for plan in SHEETS)
+
+
+def _is_name(text: str, answers: Answers) -> bool:
+    return _is_wanted(text, answers) or any(is_near(text, plan) for plan in SHEETS)
 
 
 def _note_unread(workbook: Workbook, findings: list[Finding]) -> list[Finding]:
@@ -162,7 +184,9 @@ def _read_project(
         return Project(), cells
     for row in read_rows(table, findings):
         item, value = row["item"], row["value"]
-        field = match_item(item, table, "item", findings) if item.word else None
+        if not item.word:
+            continue
+        field = match_item(item, table, "item", findings).field
         if field is None or value.state != "given":
             continue
         if field.key in values:
@@ -174,6 +198,7 @@ def _read_project(
             )
         else:
             values[field.key], cells[field.key] = value.word, value.place
+    refuse_unused_answers(table, "item", findings)
     return Project(**values), cells
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -10,15 +11,23 @@ from typing import Literal
 from netdesign.errors import ModelError
 from netdesign.site.cells.cells import Cell
 from netdesign.site.cells.findings import Finding, Refusal, Severity, add_nearest
-from netdesign.site.cells.numbers import parse_number
+from netdesign.site.cells.numbers import DecimalMark, parse_number
+from netdesign.site.cells.typed_units import find_typed_unit, split_unit
 from netdesign.site.columns.fields import Field, normalise
-from netdesign.site.columns.unit_names import convert_unit, normalise_unit, to_si
+from netdesign.site.columns.unit_names import (
+    KNOWN_UNITS,
+    UNCLEAR_UNITS,
+    convert_unit,
+    normalise_unit,
+    to_si,
+)
 from netdesign.site.model import InputEcho
 from netdesign.words.message import Message, say
 
 State = Literal["given", "blank", "default", "faulty"]
 
 _LONGEST_TEXT = 200
+IN_CELLS = "in cells"  # unit of a column whose numbers have one each
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,7 +109,7 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     field : Field
         What it should hold.
     unit : str
-        Unit of the column; one of ``field.units``, or empty for words.
+        Unit of the column; one of ``field.units``, `IN_CELLS`, or empty for words.
     findings : list of Finding
         Appended to.
 
@@ -109,6 +118,8 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     Reading
         Its value in the field's first unit.
     """
+    if unit == IN_CELLS:
+        return _read_with_own_unit(cell, field, findings)
     understood = _understand(cell, field, unit)
     if isinstance(understood, Refusal):
         findings.append(cell.finding(understood, field.title_in(unit)))
@@ -124,9 +135,24 @@ def read_cell(cell: Cell, field: Field, unit: str, findings: list[Finding]) -> R
     )
 
 
+def _read_with_own_unit(cell: Cell, field: Field, findings: list[Finding]) -> Reading:
+    """Read a cell below a heading without unit, whose neighbours have one each."""
+    unit = normalise_unit(find_typed_unit(cell))
+    if cell.is_blank or refuse_stored(cell):
+        return read_cell(cell, field, field.unit, findings)
+    if unit in field.units:
+        return read_cell(cell, field, unit, findings)
+    rule = say("heading.unknown_unit") if unit else say("heading.no_unit")
+    if unit in UNCLEAR_UNITS:
+        rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
+    units = say("accepted.units", units=tuple(f"[{one}]" for one in field.units))
+    findings.append(cell.finding(Refusal(rule, units), field.name))
+    return Reading(field=field, state="faulty", text=cell.text, cell=cell)
+
+
 def _describe_typed(cell: Cell, field: Field, unit: str) -> str:
     """Text as typed; with its unit where that is another than the field's."""
-    if unit == field.unit:
+    if unit == field.unit or (isinstance(cell.value, str) and find_typed_unit(cell)):
         return cell.text
     shown = _take_number(cell, unit) if _is_percentage(cell) else cell.text
     return f"{shown:g} {unit}" if isinstance(shown, float) else f"{cell.text} {unit}"
@@ -175,7 +201,12 @@ def read_without_unit(cell: Cell, field: Field, findings: list[Finding]) -> Read
         refusal = _refuse_blank(field)
     else:
         # a percentage is a number, whether or not it can be one in this column
-        number = refuse_stored(cell) or _take_number(replace(cell, shown_unit=""), "%")
+        value = cell.value
+        own = normalise_unit(find_typed_unit(cell))
+        if isinstance(value, str) and own in KNOWN_UNITS and own != "%":
+            value = split_unit(value)[0]
+        plain = replace(cell, shown_unit="", value=value)
+        number = refuse_stored(cell) or _take_number(plain, "%")
         refusal = number if isinstance(number, Refusal) else None
     if refusal:
         findings.append(cell.finding(refusal, field.name))
@@ -223,6 +254,8 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
     """Read a number as the column's unit has it; refuse one shown in another unit."""
     if isinstance(cell.value, str) and _is_percentage(cell):
         return _take_typed_percentage(cell, unit)
+    if isinstance(cell.value, str):
+        return _take_typed_number(cell.value, cell.decimal_mark, unit)
     number = _parse(cell)
     if isinstance(number, Refusal):
         return number
@@ -238,6 +271,21 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
     rule = say("cell.format_ambiguous", shown=shown, number=number)
     if unit:
         rule = say("cell.format_other_unit", shown=shown, number=number, unit=unit)
+    return Refusal(rule, say("accepted.plain_number"))
+
+
+def _take_typed_number(text: str, mark: DecimalMark, unit: str) -> float | Refusal:
+    """Read a text such as ``3,0 m``, whose unit must be that of the column."""
+    typed, typed_unit = split_unit(text)
+    own = normalise_unit(typed_unit)
+    if not typed_unit or own not in KNOWN_UNITS:
+        return parse_number(text, mark)
+    number = parse_number(typed, mark)
+    if own == unit or isinstance(number, Refusal):
+        return number
+    rule = say("cell.other_unit", typed=typed_unit, unit=unit)
+    if not unit:
+        rule = say("cell.unit_not_wanted", typed=typed_unit)
     return Refusal(rule, say("accepted.plain_number"))
 
 
@@ -268,6 +316,10 @@ def _shift(number: float, digits: int) -> float:
 def _understand_word(cell: Cell, field: Field) -> str | Refusal:
     spellings = {normalise(name): word for name, word in field.spellings.items()}
     word = spellings.get(normalise(str(cell.value)))
+    if word is None:  # perhaps in two languages: "ruvido / rauh"
+        parts = re.split(r"[/\n|]", str(cell.value))
+        words = {spellings.get(normalise(part)) for part in parts}
+        word = words.pop() if len(words) == 1 else None
     if word is None:
         accepted = add_nearest(field.accepted, str(cell.value), field.spellings)
         return Refusal(say("cell.unknown_word"), accepted)

@@ -11,7 +11,11 @@ from collections.abc import Mapping
 
 from netdesign.errors import ModelError
 from netdesign.resistance.catalogue import find_imperfection, load_catalogue
-from netdesign.resistance.post import PostSection, compute_buckling_resistance
+from netdesign.resistance.post import (
+    BucklingResistance,
+    PostSection,
+    compute_buckling_resistance,
+)
 from netdesign.resistance.steel import RoundSection
 from netdesign.site.cells.findings import Finding
 from netdesign.site.model import AnchorType, BaseFriction, Resistance
@@ -133,16 +137,7 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
         names = tuple(line[key].field.name for key in blank)
         lack = say("check.bent_post_needs", names=names)
         return _open(named, Member.POST, mode, None, lack)
-    buckling = compute_buckling_resistance(
-        area=line["area"].si,
-        second_moment=line["second_moment"].si,
-        length=line["buckling_length"].si,
-        yield_strength=line["yield_strength"].si,
-        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
-        imperfection=find_imperfection(
-            line["buckling_curve"].word or _DEFAULT_CURVE
-        ).value,
-    )
+    buckling = compute_buckling(line)
     section = PostSection(
         width=line["post_width"].si,
         length=line["buckling_length"].si,
@@ -153,6 +148,23 @@ def _read_bent_post(named: Reading, line: Row | None) -> Resistance:
     )
     place = line["post_width"].place
     return _open(named, Member.POST, mode, section, source=place)
+
+
+def compute_buckling(line: Row) -> BucklingResistance:
+    """Buckling resistance of a post by its dimensions, all of them given."""
+    return compute_buckling_resistance(
+        area=line["area"].si,
+        second_moment=line["second_moment"].si,
+        length=line["buckling_length"].si,
+        yield_strength=line["yield_strength"].si,
+        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
+        imperfection=find_imperfection(name_curve(line)).value,
+    )
+
+
+def name_curve(line: Row) -> str:
+    """Buckling curve of a post; the lowest where none is given."""
+    return line["buckling_curve"].word or _DEFAULT_CURVE
 
 
 def _read_sliding(named: Reading, line: Row | None) -> Resistance:

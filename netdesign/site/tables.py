@@ -6,7 +6,6 @@ import difflib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 from netdesign.site.cells.cells import Cell, Sheet, Workbook
 from netdesign.site.cells.findings import Finding, Refusal
@@ -18,6 +17,7 @@ from netdesign.site.columns.fields import (
     normalise,
 )
 from netdesign.site.headings import Column, Headings, find_cover, find_headings
+from netdesign.site.mapping import is_meant
 from netdesign.site.readings import (
     Reading,
     Row,
@@ -25,17 +25,9 @@ from netdesign.site.readings import (
     read_nothing,
     read_without_unit,
 )
+from netdesign.site.table_lines import find_data_rows
 from netdesign.words.message import say
 
-# What makes a single text below a table a note and not the start of another line.
-_NOTE_WORD = (
-    r"(notes?|nota|nb|n\.b|remarks?|remarques?|sources?|anm|anmerkung|bemerkung|hinweis"
-    r"|quelle)\b"
-)
-_NOTE = re.compile(_NOTE_WORD, re.IGNORECASE)
-_MARKED_NOTE = re.compile(rf"\*|{_NOTE_WORD}\s*[.:]", re.IGNORECASE)
-_NOTE_WORDS = 4
-_CUTS = (";", ",", "\t", "|")  # one of them may be the delimiter of a line
 # How alike the name of a sheet must be to a missing one to count as that, misspelt.
 _MISSPELT = 0.8
 
@@ -49,6 +41,7 @@ class Table:
     columns: Mapping[str, Column]  # by field key; absent headings are absent
     rows: tuple[int, ...]  # numbers of the lines that hold something
     language: Language  # of its headings
+    heading_row: int = 1
 
     def cell(self, row: int, key: str) -> Cell | None:
         """Cell of a field in a row; None without such a heading."""
@@ -86,8 +79,9 @@ def find_table(
         sheet=sheet,
         plan=plan,
         columns=headings.columns,
-        rows=_find_data_rows(sheet, plan, headings, findings),
+        rows=find_data_rows(sheet, plan, headings, findings),
         language=headings.language,
+        heading_row=headings.row,
     )
     _inspect_layout(table, headings, findings)
     return table
@@ -125,7 +119,11 @@ def _read_field(
 def _find_sheet(
     workbook: Workbook, plan: SheetPlan, findings: list[Finding]
 ) -> Sheet | None:
-    sheets = [sheet for sheet in workbook.sheets if plan.matches(sheet.name)]
+    sheets = [
+        sheet
+        for sheet in workbook.sheets
+        if is_meant(sheet.name, plan, workbook.answers)
+    ]
     if not sheets:
         findings.extend(_judge_missing(workbook, plan))
     for double in sheets[1:]:
@@ -148,14 +146,18 @@ def is_near(name: str, plan: SheetPlan) -> bool:
 
 def is_absent(workbook: Workbook, plan: SheetPlan) -> bool:
     """A workbook has no sheet of the plan's name, nor of a name near to it."""
-    return not any(plan.matches(sheet.name) for sheet in workbook.sheets) and not any(
-        is_near(name, plan) for name in workbook.unread
+    answers = workbook.answers
+    return not any(
+        is_meant(sheet.name, plan, answers) for sheet in workbook.sheets
+    ) and not any(
+        is_near(name, plan) for name in workbook.unread if name not in answers.sheets
     )
 
 
 def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     """Refuse a sheet that seems the missing one, misspelt; or the lack of it."""
-    near = [name for name in workbook.unread if is_near(name, plan)]
+    unread = (name for name in workbook.unread if name not in workbook.answers.sheets)
+    near = [name for name in unread if is_near(name, plan)]
     wanted = say("finding.in_quotes", text=plan.title)
     if near:
         rule = say("table.close_to_missing", wanted=wanted)
@@ -170,47 +172,16 @@ def _judge_missing(workbook: Workbook, plan: SheetPlan) -> list[Finding]:
     return [Finding(file=workbook.file, rule=rule, accepted=accepted)]
 
 
-def _find_data_rows(
-    sheet: Sheet, plan: SheetPlan, headings: Headings, findings: list[Finding]
-) -> tuple[int, ...]:
-    first_row = headings.first_data_row
-    # no line of a table of items may be taken for a note: its value would be lost
-    width = 0 if plan.items else len(headings.columns)
-    filled = sorted(row for row in sheet.rows if row >= first_row and sheet.row(row))
-    while filled and _is_note(sheet.row(filled[-1]), width):
-        refusal = Refusal(say("table.note_below"))
-        cell = sheet.row(filled.pop())[0]
-        findings.append(cell.finding(refusal, severity="note"))
-    for above, row in pairwise((first_row - 1, *filled)):
-        if row > above + 1:
-            refusal = Refusal(say("table.empty_row"), say("table.without_gaps"))
-            findings.append(sheet.cell(above + 1, 1).finding(refusal))
-    return tuple(filled)
-
-
-def _is_note(cells: tuple[Cell, ...], width: int) -> bool:
-    """A row holds a note: a single text of so many words that it begins no line.
-
-    A text that another delimiter would cut into a line of the table of ``width``
-    columns is that line; without a width only a text marked as a note is one.
-    """
-    if len(cells) != 1 or not isinstance(cells[0].value, str) or cells[0].formula:
-        return False
-    text = cells[0].value.strip()
-    if _MARKED_NOTE.match(text):
-        return True
-    parts = 1 + max(text.count(mark) for mark in _CUTS)
-    if not width or (parts > 1 and 2 * parts >= width):
-        return False
-    return bool(_NOTE.match(text)) or len(text.split()) >= _NOTE_WORDS
-
-
 def _inspect_layout(table: Table, headings: Headings, findings: list[Finding]) -> None:
     """Refuse merged cells in the table; note what a reader does not see."""
     sheet = table.sheet
-    last_row = max(table.rows, default=0)
+    read = [column.number for column in table.columns.values()]
     for merged in sheet.merged:
-        if headings.first_data_row <= merged.last_row and merged.row <= last_row:
+        columns = range(merged.column, merged.last_column + 1)
+        rows = range(merged.row, merged.last_row + 1)
+        if any(one in columns for one in read) and any(
+            one in rows for one in table.rows
+        ):
             cell = sheet.cell(merged.row, merged.column)
             rule = say("table.merged", range=merged.text)
             refusal = Refusal(rule, say("accepted.single_cells"))

@@ -14,20 +14,17 @@ from netdesign.resistance.catalogue import (
     find_termination,
     load_catalogue,
 )
-from netdesign.resistance.post import (
-    compute_bearing_resistance,
-    compute_buckling_resistance,
-)
+from netdesign.resistance.post import compute_bearing_resistance
 from netdesign.resistance.pull_out import PullOutTests, compute_pull_out_from_bond
 from netdesign.resistance.steel import compute_bar_resistance, compute_rope_resistance
 from netdesign.site.cells.findings import Finding
 from netdesign.site.readings import Row, refuse
-from netdesign.site.support_types import read_inner
+from netdesign.site.support_types import compute_buckling, name_curve, read_inner
 from netdesign.units import kilonewton_from_newton
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
-_DEFAULT_GROUTING, _DEFAULT_TERMINATION, _DEFAULT_CURVE = "A", "clips", "d"
+_DEFAULT_GROUTING, _DEFAULT_TERMINATION = "A", "clips"
 TEST_COLUMNS = ("test_count", "test_least", "test_mean")
 
 
@@ -199,16 +196,8 @@ def _rope(row: Row) -> tuple[float, Message]:
 
 
 def _buckling(row: Row) -> tuple[float, Message]:
-    curve = _word(row, "buckling_curve", _DEFAULT_CURVE)
+    curve, found = name_curve(row), compute_buckling(row)
     imperfection = find_imperfection(curve)
-    found = compute_buckling_resistance(
-        area=row["area"].si,
-        second_moment=row["second_moment"].si,
-        length=row["buckling_length"].si,
-        yield_strength=row["yield_strength"].si,
-        modulus=1e6 * load_catalogue()["buckling"]["E_MPa"],
-        imperfection=imperfection.value,
-    )
     return found.value, say(
         "derivation.buckling",
         reduction=found.reduction,

@@ -86,6 +86,16 @@ class CreepLaw:
         low, high = self.calibrated
         return low <= relative_density <= high
 
+    def is_below_branch(self, density: float) -> bool:
+        """The exponential fits hold for this density.
+
+        Parameters
+        ----------
+        density : float
+            [kg/m3].
+        """
+        return density / ICE_DENSITY < self.branch
+
 
 def compute_shear_factor(law: CreepLaw, relative_density: float) -> float:
     """Coefficient a(D) of the creep law [-].

@@ -389,7 +389,7 @@ def _make_linear(problem: FlowProblem) -> FlowProblem:
         replace(layer, fluidity_ratio=layer.fluidity_ratio ** (1.0 / problem.exponent))
         for layer in problem.layers
     )
-    return replace(problem, exponent=1.0, layers=layers)
+    return replace(problem, exponent=1.0, slip_exponent=None, layers=layers)
 
 
 def _advance(

@@ -7,7 +7,7 @@ snow/THEORY.md, section 2.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -71,6 +71,8 @@ class FlowProblem:
         Kind of base law.
     slip_ratio : float
         Slip length over thickness [-]; 0 unless the ground is sliding.
+    slip_exponent : float or None
+        Of the stress in the law of a sliding ground [-]; None is ``exponent``.
     friction : float
         tan phi of snow on net [-]; infinite where the snow adheres.
     element : str
@@ -88,6 +90,7 @@ class FlowProblem:
     gravity: tuple[float, float]
     ground: GroundKind = "free"
     slip_ratio: float = 0.0
+    slip_exponent: float | None = None
     friction: float = 0.0
     element: Element = "velocity"
     ground_contact: Sides = "two-sided"
@@ -226,6 +229,8 @@ def linearise_sliding(
     Tangent
         Modulus and intercept, shape (n_edges, n_points) each.
     """
+    if problem.slip_exponent is not None:
+        problem = replace(problem, exponent=problem.slip_exponent)
     viscosity, _, share = _scalars(problem, shear**2, shear**2)
     slip = problem.slip_ratio * (
         problem.layers[0].fluidity_ratio if fluidity_ratio is None else fluidity_ratio

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import lapack
 
 from netdesign.numerics.arrays import Floats, Mask, gather
-from netdesign.snow.ordering import Blocks, Ordering
+from netdesign.snow.ordering import Blocks, Ordering, list_entries
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse
@@ -242,17 +242,13 @@ def _sum_anew(_: Ordering, parts: Sequence[Blocks], held: Mask) -> sparse.csc_ma
     """The same in scipy's order, on which last digits of uniform snow hang."""
     import scipy.sparse as sparse
 
-    rows, columns, values = [], [], []
-    for part in parts:
-        count = part.dofs.shape[1]
-        rows.append(np.repeat(part.dofs, count, axis=1).ravel())
-        columns.append(np.tile(part.dofs, (1, count)).ravel())
-        values.append(part.values.ravel())
+    rows, columns = list_entries([part.dofs for part in parts])
+    values = np.concatenate([part.values.ravel() for part in parts])
     fixed = np.flatnonzero(held)
-    diagonal = np.full(fixed.size, _scale_of(np.concatenate(values)))
+    diagonal = np.full(fixed.size, _scale_of(values))
     entries = (
-        np.concatenate([*values, diagonal]),
-        (np.concatenate([*rows, fixed]), np.concatenate([*columns, fixed])),
+        np.concatenate([values, diagonal]),
+        (np.concatenate([rows, fixed]), np.concatenate([columns, fixed])),
     )
     return sparse.csc_matrix(entries, shape=(held.size, held.size))
 

@@ -57,11 +57,8 @@ class Blocks(NamedTuple):
         """
         import scipy.sparse as sparse
 
-        count = self.dofs.shape[1]
-        rows = np.repeat(self.dofs, count, axis=1).ravel()
-        columns = np.tile(self.dofs, (1, count)).ravel()
         return sparse.csr_matrix(
-            (self.values.ravel(), (rows, columns)), shape=(size, size)
+            (self.values.ravel(), list_entries([self.dofs])), shape=(size, size)
         )
 
     def multiply(self, unknowns: Floats) -> Floats:
@@ -79,6 +76,13 @@ class Blocks(NamedTuple):
         """
         parts = self.values @ unknowns[self.dofs][..., None]
         return gather(self.dofs, parts, unknowns.size)
+
+
+def list_entries(groups: Sequence[Ints]) -> tuple[Ints, Ints]:
+    """Row and column of each entry of blocks of these unknowns, block by block."""
+    rows = [np.repeat(dofs, dofs.shape[1], axis=1).ravel() for dofs in groups]
+    columns = [np.tile(dofs, (1, dofs.shape[1])).ravel() for dofs in groups]
+    return np.concatenate(rows), np.concatenate(columns)
 
 
 class Pattern(NamedTuple):
@@ -104,10 +108,8 @@ class Pattern(NamedTuple):
 
 def _build_pattern(groups: Sequence[Ints], size: int) -> Pattern:
     """Pattern of blocks of these unknowns."""
-    keys = np.concatenate(
-        [(dofs[:, None] * size + dofs[..., None]).ravel() for dofs in groups]
-    )
-    stored, slots = np.unique(keys, return_inverse=True)
+    rows, columns = list_entries(groups)
+    stored, slots = np.unique(columns * size + rows, return_inverse=True)
     each = np.arange(size + 1)
     return Pattern(
         slots=slots,
@@ -237,8 +239,7 @@ def _build_ordering(
     groups = [template.triangles.T]
     if couples_net:
         groups.append(template.net[None, ::2])
-    rows = np.concatenate([np.repeat(g, g.shape[1], axis=1).ravel() for g in groups])
-    columns = np.concatenate([np.tile(g, (1, g.shape[1])).ravel() for g in groups])
+    rows, columns = list_entries(groups)
     graph = sparse.csr_matrix((np.ones(rows.size), (rows, columns)), (n_nodes, n_nodes))
     size = np.full(n_nodes, 2)
     if has_pressures:

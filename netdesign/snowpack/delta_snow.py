@@ -26,7 +26,7 @@ _AT_LIMIT = 1e-10
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ageing:
-    """Largest density that grows with the age of a layer, eq. (H5).
+    """Largest density that grows with the age of a layer, eq. (D5).
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class DeltaSnow:
         return np.full(ages.size, self.largest_density)
 
     def _settle(self, pack: DayPack, limits: Floats) -> Floats:
-        """Heights [m] after a day of dry settling, eq. (H1)."""
+        """Heights [m] after a day of dry settling, eq. (D1)."""
         stress = GRAVITY * sum_overlying(pack.masses)
         viscosity = self.viscosity * np.exp(self.stiffening * pack.densities)
         settled = pack.heights / (1.0 + DAY * stress / viscosity)
@@ -126,7 +126,7 @@ class DeltaSnow:
     def _snow(
         self, before: DayPack, settled: Floats, limits: Floats, height: float
     ) -> DayPack:
-        """Snowfall that presses what lies below it, eq. (H2)."""
+        """Snowfall that presses what lies below it, eq. (D2)."""
         densities = before.masses / settled
         room = limits - densities
         soft = room > _AT_LIMIT
@@ -146,7 +146,7 @@ class DeltaSnow:
 
 
 def _scale(before: DayPack, limits: Floats, height: float) -> DayPack:
-    """Yesterday's layers in proportion to the height, eq. (H3).
+    """Yesterday's layers in proportion to the height, eq. (D3).
 
     Mass beyond the largest density goes to layers with room, from the top down.
     """
@@ -165,7 +165,7 @@ def _scale(before: DayPack, limits: Floats, height: float) -> DayPack:
 
 
 def _drench(before: DayPack, settled: Floats, limits: Floats, height: float) -> DayPack:
-    """Wet snow at its largest density, from the top down, eq. (H4)."""
+    """Wet snow at its largest density, from the top down, eq. (D4)."""
     heights, dense = settled.copy(), before.masses / limits
     surplus = float(settled.sum()) - height
     for layer in range(heights.size - 1, -1, -1):

@@ -81,7 +81,7 @@ class Hs2swe:
         return DayPack(heights=settled, masses=before.masses, ages=before.ages + 1)
 
     def _find_rates(self, pack: DayPack) -> Floats:
-        """Rates of settling [1/s], (n_layers,), eq. (H6)."""
+        """Rates of settling [1/s], (n_layers,), eq. (D6)."""
         overlying = sum_overlying(pack.masses) - pack.masses
         densities = pack.densities
         pressed = (
@@ -99,7 +99,7 @@ class Hs2swe:
     def _match(
         self, pack: DayPack, rise: Floats, height: float, *, slower: bool
     ) -> Floats:
-        """Heights [m] with the first rate that reaches the height, eq. (H7)."""
+        """Heights [m] with the first rate that reaches the height, eq. (D7)."""
         settled = self._settle(pack, rise)
         for count in range(1, self.rate_steps + 1):
             if (settled.sum() >= height) == slower or self._is_dense(pack, settled):
@@ -122,7 +122,7 @@ class Hs2swe:
 
 
 def _melt(before: DayPack, settled: Floats, height: float) -> DayPack:
-    """Snowpack cut off at a height, eq. (H8)."""
+    """Snowpack cut off at a height, eq. (D8)."""
     tops = settled.cumsum()
     kept = int(np.searchsorted(tops, height)) + 1
     heights, masses = settled[:kept].copy(), before.masses[:kept].copy()

@@ -6,10 +6,10 @@ import sqlite3
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from netdesign.coupling.solution import FailedSolution
 from netdesign.fault import Fault
-from netdesign.outcome import Outcome
 from netdesign.search.known_search import KnownSearch
-from netdesign.solving.state import CaseEnd
+from netdesign.solving.state import CaseEnd, is_stuck
 from netdesign.solving.store import CaseStore, name_case, name_search
 from netdesign.solving.workers import Batch, Ends, Job, OwnProcess, Workers
 from netdesign.words.message import Message, say
@@ -92,8 +92,9 @@ class Runner:
     def _note(self, name: str, end: CaseEnd) -> None:
         self._keep(name, end)
         self.counts.solved += 1
-        self.counts.failed += end.outcome is not Outcome.CONVERGED
-        self.keep_fault(end.fault)
+        if isinstance(end, FailedSolution):
+            self.counts.failed += 1
+            self.keep_fault(end.fault)
         self.on_done(end)
 
     def keep_fault(self, fault: Fault | None, row_id: str = "") -> None:
@@ -155,7 +156,7 @@ def _follow(batch: _Named, known: dict[str, CaseEnd]) -> Ends:
     ends: Ends = []
     for name, _ in batch:
         ends.append(known[name])
-        if ends[-1].sticks:
+        if is_stuck(ends[-1]):
             break
     return ends
 
@@ -172,7 +173,7 @@ def _list_missing(
     for batch in batches:
         missing: dict[str, Job] = {}
         for name, job in batch:
-            if name in claimed or (name in known and known[name].sticks):
+            if name in claimed or (name in known and is_stuck(known[name])):
                 break
             if name not in known:
                 missing[name] = job

@@ -11,8 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from netdesign.coupling.solution import Balance, EndPull, Solution
-from netdesign.fault import Fault
+from netdesign.coupling.solution import (
+    RELEASED,
+    Balance,
+    EndPull,
+    FailedSolution,
+    Solution,
+)
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.outcome import Outcome
 from netdesign.words.message import Message, dump, restore
@@ -45,7 +50,7 @@ class SolvedState:
         Tests that it passed.
     elements, linear_solves : int
         What it took.
-    net_curve, net_forces, net_slides, mesh_nodes, mesh_edges
+    net_curve, net_forces, net_slides, mesh_nodes, mesh_edges, is_released
         As in ``Solution``.
     """
 
@@ -61,6 +66,17 @@ class SolvedState:
     net_slides: Mask
     mesh_nodes: Floats
     mesh_edges: NDArray[np.uint32]
+    is_released: bool = False
+
+    @property
+    def outcome(self) -> Outcome:
+        """Always converged: anything else is a ``FailedSolution``."""
+        return Outcome.CONVERGED
+
+    @property
+    def reason(self) -> Message | None:
+        """What a reader must know of it; None of what was solved as asked."""
+        return RELEASED if self.is_released else None
 
     @property
     def head_point(self) -> tuple[float, float]:
@@ -98,22 +114,12 @@ class SolvedState:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class CaseEnd:
-    """End of one solve.
+CaseEnd = SolvedState | FailedSolution  # end of one solve
 
-    ``state`` exists only if it converged, ``fault`` only if the program failed.
-    """
 
-    outcome: Outcome
-    reason: Message | None = None
-    state: SolvedState | None = None
-    fault: Fault | None = None
-
-    @property
-    def sticks(self) -> bool:
-        """More friction would change nothing."""
-        return self.state is not None and self.state.sticks
+def is_stuck(end: CaseEnd) -> bool:
+    """More friction would change nothing."""
+    return isinstance(end, SolvedState) and end.sticks
 
 
 def keep_state(solution: Solution) -> SolvedState:
@@ -131,26 +137,26 @@ def keep_state(solution: Solution) -> SolvedState:
         net_slides=np.asarray(solution.net_slides, dtype="|b1"),
         mesh_nodes=np.asarray(solution.mesh_nodes, dtype="<f8"),
         mesh_edges=np.asarray(solution.mesh_edges, dtype="<u4"),
+        is_released=solution.is_released,
     )
 
 
 def encode_end(end: CaseEnd) -> tuple[str, bytes]:
     """Text and bytes from which ``decode_end`` makes the very same value."""
     reason = None if end.reason is None else dump(end.reason)
-    if end.state is None:
+    if isinstance(end, FailedSolution):
         return json.dumps({"outcome": end.outcome.value, "reason": reason}), b""
-    state = end.state
-    arrays = [np.ascontiguousarray(getattr(state, name)) for name, _ in _SHAPE_ARRAYS]
+    arrays = [np.ascontiguousarray(getattr(end, name)) for name, _ in _SHAPE_ARRAYS]
     numbers = {
         "outcome": end.outcome.value,
         "reason": reason,
-        "method": state.method,
-        "foot": asdict(state.foot),
-        "head": asdict(state.head),
-        "tension_max": state.tension_max,
-        "balance": asdict(state.balance),
-        "elements": state.elements,
-        "linear_solves": state.linear_solves,
+        "method": end.method,
+        "foot": asdict(end.foot),
+        "head": asdict(end.head),
+        "tension_max": end.tension_max,
+        "balance": asdict(end.balance),
+        "elements": end.elements,
+        "linear_solves": end.linear_solves,
         "shapes": [array.shape for array in arrays],
     }
     shape = b"".join(
@@ -172,7 +178,9 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
     outcome, given = Outcome(numbers["outcome"]), numbers["reason"]
     reason = None if given is None else restore(given)
     if outcome is not Outcome.CONVERGED:
-        return CaseEnd(outcome=outcome, reason=reason)
+        if reason is None:
+            raise ValueError("a failure without a reason")
+        return FailedSolution(outcome=outcome, reason=reason)
     state = SolvedState(
         method=numbers["method"],
         foot=EndPull(**numbers["foot"]),
@@ -181,11 +189,12 @@ def decode_end(text: str, shape: bytes) -> CaseEnd:
         balance=Balance(**numbers["balance"]),
         elements=numbers["elements"],
         linear_solves=numbers["linear_solves"],
+        is_released=reason is not None,
         **_decode_arrays(zlib.decompress(shape), numbers["shapes"]),
     )
     if not state.is_finite:
         raise ValueError("a force is no number")
-    return CaseEnd(outcome=outcome, reason=reason, state=state)
+    return state
 
 
 def _decode_arrays(content: bytes, shapes: list[list[int]]) -> dict[str, Any]:

@@ -23,13 +23,13 @@ from functools import partial
 from typing import Any, Protocol
 
 from netdesign.coupling.scene import Scene
-from netdesign.coupling.solution import RELEASED, FailedSolution, WallSolution
+from netdesign.coupling.solution import FailedSolution, WallSolution
 from netdesign.errors import ModelError, NetDesignError, SolveError
 from netdesign.fault import SENTENCE, Fault, catch_fault
 from netdesign.outcome import Outcome
 from netdesign.solving.describe import describe_case
 from netdesign.solving.solve import Settings, solve_scene
-from netdesign.solving.state import CaseEnd, keep_state
+from netdesign.solving.state import CaseEnd, is_stuck, keep_state
 from netdesign.solving.store import identify_solver
 from netdesign.words.message import say
 
@@ -79,36 +79,37 @@ def solve_job(job: Job) -> CaseEnd:
     try:
         end = catch_fault(partial(_solve, job), describe_case(job.scene, job.settings))
     except SolveError as error:
-        return CaseEnd(outcome=error.outcome, reason=error.reason)
+        return FailedSolution(outcome=error.outcome, reason=error.reason)
     except ModelError as error:
-        return CaseEnd(outcome=Outcome.OUT_OF_VALIDITY, reason=error.message)
+        return FailedSolution(outcome=Outcome.OUT_OF_VALIDITY, reason=error.message)
     except MemoryError:
-        return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=NO_MEMORY)
+        return FailedSolution(outcome=Outcome.WORKER_FAILED, reason=NO_MEMORY)
     if isinstance(end, Fault):
-        return CaseEnd(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE, fault=end)
+        return FailedSolution(outcome=Outcome.PROGRAM_FAULT, reason=SENTENCE, fault=end)
     return end
 
 
 def _solve(job: Job) -> CaseEnd:
     solution = solve_scene(job.scene, job.settings)
     if isinstance(solution, FailedSolution):
-        return CaseEnd(outcome=solution.outcome, reason=solution.reason)
+        return solution
     if isinstance(solution, WallSolution):
-        return CaseEnd(
+        return FailedSolution(
             outcome=Outcome.OUT_OF_VALIDITY,
             reason=say("worker.wall"),
         )
     history = solution.history
     if history is not None and not history.plateau.reached:
-        return CaseEnd(
+        return FailedSolution(
             outcome=Outcome.PLATEAU_NOT_REACHED,
             reason=history.ended or Outcome.PLATEAU_NOT_REACHED.message,
         )
     state = keep_state(solution)
     if not state.is_finite:
-        return CaseEnd(outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.message)
-    reason = RELEASED if solution.is_released else None
-    return CaseEnd(outcome=Outcome.CONVERGED, reason=reason, state=state)
+        return FailedSolution(
+            outcome=Outcome.NONFINITE, reason=Outcome.NONFINITE.message
+        )
+    return state
 
 
 def solve_batch(batch: Batch) -> Ends:
@@ -120,7 +121,7 @@ def _solve_in_turn(batch: Batch, solve: Callable[[Job], CaseEnd]) -> Ends:
     ends: Ends = []
     for job in batch:
         ends.append(solve(job))
-        if ends[-1].sticks:
+        if is_stuck(ends[-1]):
             break
     return ends
 
@@ -263,7 +264,7 @@ class DaskCluster:
         try:
             end: CaseEnd = next(follow_futures(self._client, arriving)).result()
         except KilledWorker:
-            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+            return FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED)
         return end
 
     def close(self) -> None:
@@ -368,7 +369,7 @@ def _try_job_by_job(suspects: Sequence[tuple[int, Batch]]) -> Iterator[Arrival]:
         except BrokenProcessPool:
             _stop(pool)
             pool = None
-            return CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED)
+            return FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED)
 
     try:
         for place, batch in suspects:

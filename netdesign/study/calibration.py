@@ -9,7 +9,9 @@ from netdesign.words.message import Message, say
 
 def is_calibrated(law: CreepLaw, row: NetRow, density: float) -> bool:
     """The law is given for the density of a case [kg/m3], and of each layer."""
-    return all(law.is_calibrated(one / ICE_DENSITY) for one in _list(row, density))
+    return all(
+        law.is_calibrated(one / ICE_DENSITY) for one in list_densities(row, density)
+    )
 
 
 def find_doubt(
@@ -30,7 +32,7 @@ def find_doubt(
     if is_accepted or largest == 0.0 or is_calibrated(law, row, density):
         return None
     low, high = (bound * ICE_DENSITY for bound in law.calibrated)
-    snow = _list(row, density)
+    snow = list_densities(row, density)
     if len(snow) == 1:
         return say(
             "check.outside_law", density=snow[0], low=low, high=high, law=law.name
@@ -45,6 +47,6 @@ def find_doubt(
     )
 
 
-def _list(row: NetRow, density: float) -> tuple[float, ...]:
+def list_densities(row: NetRow, density: float) -> tuple[float, ...]:
     """Densities of the layers, or of uniform snow [kg/m3]."""
     return tuple(layer.density for layer in row.layers_at(density)) or (density,)

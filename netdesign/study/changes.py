@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -17,8 +17,9 @@ from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.outcome import Verdict
 from netdesign.site.model import BaseFriction, Resistance
-from netdesign.structure.members import name_in_panel
+from netdesign.structure.members import RopeForce, name_in_panel
 from netdesign.study.calibration import find_doubt
+from netdesign.study.demand import Demand
 from netdesign.study.effects import RowEffects, find_effects
 from netdesign.study.flips import (
     CLOSE,
@@ -34,9 +35,10 @@ from netdesign.study.records import (
     CheckRecord,
     HoldRecord,
 )
+from netdesign.study.row_end import EndLoads, compute_end_factor
 from netdesign.study.sideways import MemberLoad
 from netdesign.study.stronger_types import find_type_change
-from netdesign.study.target import Target
+from netdesign.study.target import Push, Target
 from netdesign.units import (
     kilonewton_from_newton,
     kilonewton_if_known,
@@ -45,11 +47,15 @@ from netdesign.words.message import Message, say
 
 
 def find_row_holds(
-    task: RowCheck, judged: Sequence[MemberCheck], checks: Sequence[CheckRecord]
+    task: RowCheck,
+    judged: Sequence[MemberCheck],
+    checks: Sequence[CheckRecord],
+    ends: Mapping[str, Target],
 ) -> dict[str, list[HoldRecord]]:
     """Limits of single values for the checks that follow from forces, by their ids.
 
     At the support that uses a member most: where that holds, the other one does.
+    ``ends`` are the checks of what holds the row along itself.
     """
     if task.probe is None or task.solved.gap or task.row.is_overtopped:
         return {}
@@ -58,7 +64,54 @@ def find_row_holds(
         for one, check in zip(judged, checks, strict=True)
         if one.ratio > 0.0 and _has_target(one) and is_worst(one, judged)
     }
-    return find_holds(held, task.probe)
+    return find_holds(held | dict(ends), task.probe)
+
+
+def build_end_target(
+    task: RowCheck, given: Resistance, end: EndLoads, result: CheckResult
+) -> Target | None:
+    """Check of a member that holds the row along itself as a function of a case.
+
+    None where a solve tells nothing of it.
+    """
+    factor, design = result.action_factor, result.design_resistance
+    is_open = task.probe is None or task.solved.gap or task.row.is_overtopped
+    if is_open or given.dimensions or not (factor and design):
+        return None
+    extreme = end.find_extreme(given.member)
+    if not extreme.widened.high > 0.0:
+        return None
+    use = factor / design * end.share(given.member) * end.factor
+    return Target(
+        row=task.row,
+        ranges=task.site.ranges,
+        member=extreme.member,
+        scale=use * _widen(extreme.member, extreme.widened, task.solved.results),
+        governing=extreme.governing.case,
+        results=task.solved.results,
+        widen=partial(_find_end_factor, task),
+    )
+
+
+def list_end_changes(
+    task: RowCheck, given: Resistance, result: CheckResult, target: Target | None
+) -> list[ChangeRecord]:
+    """Changes that flip a failing, unproven or close check of such a member."""
+    used = result.utilisation
+    if result.demand is None or result.demand.high == 0.0 or task.row.is_overtopped:
+        return []
+    is_close = used is not None and used.high >= CLOSE
+    if not is_close and (result.verdict is Verdict.PASS or used is not None):
+        return []
+    changes = _list_resistance_changes(task, given, result)
+    return changes + (_list_solved_changes(task, target) if target else [])
+
+
+def _find_end_factor(task: RowCheck, ranges: Ranges) -> float:
+    """Factor of the end effect on a rope's pull, over some ranges [-]."""
+    effects = find_effects(task.row, task.standard, ranges)
+    edge = effects.find_support("edge")
+    return compute_end_factor(edge, effects.post_spacing)
 
 
 def list_changes(
@@ -90,13 +143,19 @@ def list_changes(
         return [replace(change, note=note) for change in changes]
     if task.probe is None or not is_worst or not _has_target(one):
         return changes
-    target = _build_target(task, one)
+    return changes + _list_solved_changes(task, _build_target(task, one))
+
+
+def _list_solved_changes(task: RowCheck, target: Target) -> list[ChangeRecord]:
+    """Changes of snow and friction, each found by solves."""
+    if task.probe is None:
+        return []
     found = (
         _doubt_density(task, find_density_change(target, task.probe)),
         find_height_change(target, task.probe),
         find_friction_change(target, task.probe),
     )
-    return [*changes, *(change for change in found if change is not None)]
+    return [change for change in found if change is not None]
 
 
 def _has_target(one: MemberCheck) -> bool:
@@ -106,8 +165,6 @@ def _has_target(one: MemberCheck) -> bool:
     """
     demand = one.demand
     if demand is None or one.given.dimensions or one.use is None:
-        return False
-    if demand.along.high > 0.0:  # by another force, of the ropes
         return False
     return demand.largest.high > 0.0 or demand.load.added.high == 0.0
 
@@ -150,7 +207,31 @@ def _build_target(task: RowCheck, one: MemberCheck) -> Target:
         governing=extreme.governing.case,
         results=task.solved.results,
         use_floor=use_floor,
-        widen=partial(_find_width, task, one),
+        widen=partial(_find_load if demand.along.high else _find_width, task, one),
+        push=_find_push(task, one, demand),
+    )
+
+
+def _find_push(task: RowCheck, one: MemberCheck, demand: Demand) -> Push | None:
+    """Part of the panel's force that the end guy brings; None of any other member."""
+    if demand.panel is None or not demand.along.high:
+        return None
+    name, rope = name_in_panel(one.given.member), RopeForce.UPPER_ALONG
+    results = task.solved.results
+    inside = demand.on_support * demand.load.share * _widen(name, demand.panel, results)
+    pull = find_extreme(rope, results).force.high
+    return Push(force=name, rope=rope, ratio=demand.along.high / pull / inside)
+
+
+def _find_load(task: RowCheck, one: MemberCheck, ranges: Ranges) -> float:
+    """Load of an end post over some ranges, at most, over that of the row as is [-].
+
+    The larger growth of width and ropes' pull counts for both.
+    """
+    now = task.site.ranges
+    return max(
+        _find_width(task, one, ranges) / _find_width(task, one, now),
+        _find_end_factor(task, ranges) / _find_end_factor(task, now),
     )
 
 

@@ -18,19 +18,22 @@ from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
 from netdesign.study.case_records import ExtremeRecord
 from netdesign.study.cases import CheckRun
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
 from netdesign.study.member_loads import find_loads
+from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
     list_case_notes,
     list_history_notes,
+    list_one_anchor_notes,
     list_reasons,
     list_row_notes,
     list_site_notes,
     list_test_notes,
 )
+from netdesign.study.opinion_records import ModelFormRecord
 from netdesign.study.probe import Probe
 from netdesign.study.pulls import record_pulls
 from netdesign.study.record_cases import record_case, record_extreme
@@ -39,6 +42,7 @@ from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
 from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
+from netdesign.study.record_slab import record_slab
 from netdesign.study.record_statics import record_held_sideways, record_statics
 from netdesign.study.record_support import record_anchors, record_drawing, record_head
 from netdesign.study.records import (
@@ -132,7 +136,8 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     )
     checks = check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
-    governing = _governing_result(checks, extremes)
+    worst = _find_worst(checks)
+    governing = _governing_result(worst, extremes)
     foot = extremes.get(Member.FOOT_ANCHOR)
     head = record_head(row, governing)
     independent = record_independent(governing, head)
@@ -151,15 +156,21 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         independent=independent,
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
+        slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
+        model_form=_find_model_form(task, worst, governing),
         panel=record_panel(row, solved.results, extremes, governing),
         notes=[
             *list_row_notes(row, loads.effects, loads.pulls),
             *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
             *list_test_notes(checks, task.standard),
+            *list_one_anchor_notes(checks),
             *list_case_notes(cases),
             *list_history_notes(extremes),
         ],
         statics=record_statics(row, solved.results, extremes, floor),
+        end_effects=record_end_effects(
+            row, task.site.ranges, run.creep_law, task.standard
+        ),
         held_sideways=record_held_sideways(
             row, solved.results, extremes, loads.sideways, floor
         ),
@@ -216,13 +227,26 @@ def _name_largest(check: CheckRecord) -> str:
     return name_in_panel(check.member) if is_by_panel else check.member
 
 
-def _governing_result(
-    checks: Sequence[CheckRecord], extremes: Mapping[str, Extreme]
-) -> CaseResult | None:
-    """Case of the largest utilisation; without any, of the largest foot force."""
+def _find_worst(checks: Sequence[CheckRecord]) -> CheckRecord | None:
+    """Check of the largest utilisation by a solved case; None without any."""
     rated = [c for c in checks if c.utilisation is not None and c.case]
-    if rated:
-        worst = max(rated, key=lambda check: check.utilisation or 0.0)
+    return max(rated, key=lambda check: check.utilisation or 0.0, default=None)
+
+
+def _governing_result(
+    worst: CheckRecord | None, extremes: Mapping[str, Extreme]
+) -> CaseResult | None:
+    """Case of the worst check; without any, of the largest foot force."""
+    if worst is not None:
         return extremes[_name_largest(worst)].governing
     foot = extremes.get(Member.FOOT_ANCHOR)
     return foot.governing if foot else None
+
+
+def _find_model_form(
+    task: RowCheck, worst: CheckRecord | None, governing: CaseResult | None
+) -> ModelFormRecord | None:
+    if task.probe is None or worst is None or governing is None:
+        return None
+    member = _name_largest(worst)
+    return record_model_form(task.probe, task.row, governing, member, worst)

@@ -131,6 +131,8 @@ def add_parts(record: ActionRecord, governing: CaseResult, member: str) -> Actio
     if record.is_by_panel:  # parts of that force, in its own case
         panel = governing.panel
         anchors = panel.anchors if isinstance(panel, PanelForces) else None
+        if isinstance(panel, PanelForces) and panel.is_mid_largest(member):
+            return record
     both = (Member.FOOT_ANCHOR, Member.UPHILL_ANCHOR)
     if anchors is None or not anchors.is_foot_shared or member not in both:
         return record

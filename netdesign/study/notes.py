@@ -12,7 +12,7 @@ from netdesign.envelope.extremes import Extreme
 from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
-from netdesign.structure.members import REPORTED_MEMBERS
+from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.effects import RowEffects, list_assumed
 from netdesign.study.pulls import AnchorPull
@@ -140,6 +140,38 @@ def list_test_notes(checks: Sequence[CheckRecord], standard: Standard) -> list[M
         )
         for check in checks
         if check.mode == "pull_out" and check.demand_high_kN
+    ]
+
+
+def list_one_anchor_notes(checks: Sequence[CheckRecord]) -> list[Message]:
+    """Force on one anchor in the place of an end's foot anchor and lateral anchor.
+
+    The two act across each other: the section's force, and a rope's along the row.
+    """
+    foot, along = (
+        max(
+            (
+                check.action_kN
+                for check in checks
+                if check.member == member
+                and check.action_kN is not None
+                and check.action is not None
+                and check.action.position == "edge"
+            ),
+            default=None,
+        )
+        for member in (Member.FOOT_ANCHOR, EndMember.LATERAL_ANCHOR)
+    )
+    if foot is None or along is None:
+        return []
+    return [
+        say(
+            "row.one_anchor",
+            foot=foot,
+            along=along,
+            both=math.hypot(foot, along),
+            turned=math.degrees(math.atan2(along, foot)),
+        )
     ]
 
 

@@ -10,11 +10,14 @@ from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import CaseResult, CaseTask, build_task, run_cases
 from netdesign.site.model import NetRow
 from netdesign.snow.creep_law import CreepLaw
+from netdesign.snow.law import Sides
 from netdesign.snow.snowpack import Snowpack
 from netdesign.solving.runner import Runner
 
 
-def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
+def build_scene(
+    row: NetRow, case: Case, law: CreepLaw, ground_contact: Sides = "two-sided"
+) -> Scene:
     """Scene of one case of a net row, with what ranges as the case has it.
 
     Raises
@@ -40,6 +43,7 @@ def build_scene(row: NetRow, case: Case, law: CreepLaw) -> Scene:
             friction_angle=case.friction_angle,
         ),
         creep_law=law,
+        ground_contact=ground_contact,
     )
 
 
@@ -59,7 +63,7 @@ class Probe:
         self.faults = 0  # of the program, in what was asked for
         self._settings = settings
         self._runner = runner or Runner()
-        self._known: dict[tuple[NetRow, Case, str], CaseResult] = {}
+        self._known: dict[tuple[NetRow, Case, str, Sides], CaseResult] = {}
 
     def solve(self, row: NetRow, case: Case, law: CreepLaw | None = None) -> CaseResult:
         """Result of one case; a failed one is a result too."""
@@ -67,12 +71,22 @@ class Probe:
         return result
 
     def solve_all(
-        self, wanted: Sequence[tuple[NetRow, Case, CreepLaw]]
+        self,
+        wanted: Sequence[tuple[NetRow, Case, CreepLaw]],
+        contacts: Sequence[Sides] = (),
     ) -> list[CaseResult]:
-        """Results of some cases in their order, the unknown ones solved together."""
-        keys = [(row, case, law.name) for row, case, law in wanted]
+        """Results of some cases in their order, the unknown ones solved together.
+
+        ``contacts`` are those of their grounds; two-sided unless told.
+        """
+        two_sided: Sides = "two-sided"
+        sides = contacts or (two_sided,) * len(wanted)
+        keys: list[tuple[NetRow, Case, str, Sides]] = [
+            (row, case, law.name, side)
+            for (row, case, law), side in zip(wanted, sides, strict=True)
+        ]
         unknown = {
-            key: self._build_task(*one)
+            key: self._build_task(*one, key[-1])
             for key, one in zip(keys, wanted, strict=True)
             if key not in self._known
         }
@@ -80,15 +94,17 @@ class Probe:
         results = run_cases(list(unknown.values()), self._runner)
         self._known |= zip(unknown, results, strict=True)
         found = [self._known[key] for key in keys]
-        for (row, _, _), result in zip(keys, found, strict=True):
+        for (row, *_), result in zip(keys, found, strict=True):
             self._runner.keep_fault(result.fault, row.id)
             self.faults += result.fault is not None
         return found
 
-    def _build_task(self, row: NetRow, case: Case, law: CreepLaw) -> CaseTask:
+    def _build_task(
+        self, row: NetRow, case: Case, law: CreepLaw, contact: Sides
+    ) -> CaseTask:
         return build_task(
             case,
-            lambda c: build_scene(row, c, law),
+            lambda c: build_scene(row, c, law, contact),
             row.layout,
             self._settings,
             row.panel.panel if row.panel else None,

@@ -65,6 +65,36 @@ def record_panel(
     )
 
 
+def record_solved_panel(result: CaseResult) -> PanelRecord | None:
+    """Panel of one case alone, without types of ropes; None where it has none."""
+    if not isinstance(result.panel, PanelForces):
+        return None
+    solved = result.panel.solution
+    panel = solved.panel
+    return PanelRecord(
+        cut=panel.cut,
+        has_mid_anchors=panel.has_mid_anchors,
+        ropes=[
+            RopeRecord(
+                rope=name,
+                type="",
+                stiffness_kN=kilonewton_from_newton(rope.stiffness),
+                sag=rope.sag,
+                along_kN=kilonewton_from_newton(forces.along),
+                tension_kN=kilonewton_from_newton(forces.tension),
+                breaking_kN=None,
+                cell="",
+            )
+            for name, rope, forces in (
+                ("lower", panel.lower, solved.lower),
+                ("upper", panel.upper, solved.upper),
+            )
+        ],
+        extremes=[],
+        drawing=_draw(result),
+    )
+
+
 def _find_guy_angle(row: NetRow) -> float | None:
     angle = row.row_end.guy_angle if row.row_end else None
     return None if angle is None else degree_from_radian(angle)

@@ -82,12 +82,20 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
             "stress_tolerance": f"{settings.stress_tolerance:g}",
             "shape_tolerance": f"{settings.shape_tolerance:g}",
             "balance_tolerance": f"{settings.balance_tolerance:g}",
+            **_list_map(site),
         },
         libraries={
             "python": platform.python_version(),
             **{name: importlib.metadata.version(name) for name in _LIBRARIES},
         },
     )
+
+
+def _list_map(site: Site) -> dict[str, str]:
+    """File that says what headings of the workbook mean, and its digest."""
+    if not site.map_file:
+        return {}
+    return {"map": f"{site.map_file}, sha256 {site.map_sha256}"}
 
 
 def name_law(law: CreepLaw) -> str:

@@ -15,9 +15,11 @@ from netdesign.site.model import InputEcho, Project
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
+from netdesign.study.opinion_records import ModelFormRecord, SlabRecord
 from netdesign.study.support_records import (
     AnchorRecord,
     Drawing,
+    EndEffectRecord,
     HeadForce,
     HeldSidewaysRecord,
     PanelRecord,
@@ -104,6 +106,11 @@ class ActionRecord:
     def is_by_panel(self) -> bool:
         """The force by the panel between posts is larger than that of the section."""
         return (self.panel_support_kN or 0.0) > self.coupled_kN
+
+    @property
+    def larger_force(self) -> float:
+        """Larger one of both inside the row, whose parts are told [kN]."""
+        return (self.panel_kN or 0.0) if self.is_by_panel else self.solved_kN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -268,6 +275,9 @@ class RowStudy:
     panel: PanelRecord | None = None  # None: a metre of net times the post spacing
     statics: list[StaticsRecord] = field(default_factory=list)  # of governing cases
     held_sideways: HeldSidewaysRecord | None = None  # None where nothing holds it
+    slab: SlabRecord | None = None  # closed form, for comparison
+    model_form: ModelFormRecord | None = None  # None where nothing governs
+    end_effects: list[EndEffectRecord] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

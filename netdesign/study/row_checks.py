@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from netdesign.checks import check_member
+from netdesign.checks import CheckResult, check_member
 from netdesign.envelope.extremes import Extreme
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.calibration import find_doubt
-from netdesign.study.changes import find_row_holds, list_changes
+from netdesign.study.changes import (
+    build_end_target,
+    find_row_holds,
+    list_changes,
+    list_end_changes,
+)
 from netdesign.study.demand import tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects
@@ -19,9 +24,7 @@ from netdesign.study.member_check import MemberCheck, RowCheck, is_worst
 from netdesign.study.member_loads import RowLoads, add_parts
 from netdesign.study.pulls import check_directions, find_pull
 from netdesign.study.record_cases import record_point
-from netdesign.study.records import (
-    CheckRecord,
-)
+from netdesign.study.records import CheckRecord, HoldRecord
 from netdesign.study.row_end import find_lack
 from netdesign.study.settle import (
     find_gap,
@@ -34,6 +37,7 @@ from netdesign.study.settle import (
 )
 from netdesign.study.sideways import check_sideways
 from netdesign.study.spreads import list_end_spreads, list_spreads
+from netdesign.study.target import Target
 from netdesign.words.message import Message, say
 from netdesign.words.names import name
 
@@ -59,14 +63,18 @@ def check_row(
         )
         task.on_check()
     before = task.probe.faults if task.probe else 0
-    holds = find_row_holds(task, judged, checks)
+    ends = [_judge_end(task, given, loads) for given in list_end_members(task.row)]
+    targets = {one.id: one.target for one in ends if one.target}
+    holds = find_row_holds(task, judged, checks, targets)
     checks = [replace(one, holds=holds.get(one.id, [])) for one in checks]
-    if task.probe and task.probe.faults > before:
+    is_faulty = task.probe is not None and task.probe.faults > before
+    if is_faulty:
         told = zip(judged, checks, strict=True)
         checks = [_distrust(task, one, check) for one, check in told]
+        ends = [_judge_end(task, one.given, loads, _FAULT_BESIDE) for one in ends]
     return [
         *checks,
-        *_check_end(task, loads),
+        *(_record_end(task, one, loads, holds.get(one.id, [])) for one in ends),
         *_check_directions(task, loads, find_open(task.row, judged)),
         *record_geometry(task.site, task.row, task.standard),
     ]
@@ -84,27 +92,61 @@ def find_open(row: NetRow, judged: Sequence[MemberCheck]) -> Message | None:
     return next((one for one in points if one is not None), None)
 
 
-def _check_end(task: RowCheck, loads: RowLoads) -> list[CheckRecord]:
-    """Checks of what holds the ropes' pull along the row, at its end."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EndCheck:
+    """A member that holds the row along itself, judged; ``id`` is that of its check."""
+
+    id: str
+    given: Resistance
+    result: CheckResult
+    target: Target | None
+
+
+def list_end_members(row: NetRow) -> tuple[Resistance, ...]:
+    """Resistances of what holds the ropes' pull along the row, at its end."""
+    return row.row_end.resistances if row.row_end else ()
+
+
+def _judge_end(
+    task: RowCheck, given: Resistance, loads: RowLoads, fault: Message | None = None
+) -> EndCheck:
+    """Check of such a member; a ``fault`` beside its cases leaves it open."""
     end, row = loads.end, task.row
-    checks = []
-    for given in row.row_end.resistances if row.row_end else ():
-        extreme = end.find_extreme(given.member) if end else None
-        gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme)
-        doubt = _find_doubt(task, extreme) if extreme else None
-        action = end.demand(given.member) if end else None
-        result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
-        settled = settle_check(task.site, row, result, "edge")
-        check = place_check(record_result(settled, given), "edge")
-        if end is not None and extreme is not None:
-            check = replace(
-                check,
-                case=record_point(extreme.governing.case),
-                action=end.record(given.member, loads.effects.post_spacing),
-                spreads=list_end_spreads(result, extreme),
-            )
-        checks.append(check)
-    return checks
+    extreme = end.find_extreme(given.member) if end else None
+    gap = task.solved.gap or find_lack(row, given) or _find_unseen(extreme) or fault
+    doubt = _find_doubt(task, extreme) if extreme else None
+    action = end.demand(given.member) if end else None
+    result = check_member(action, given, task.standard, gap=gap, doubt=doubt)
+    is_known = end is not None and not (gap or doubt)
+    return EndCheck(
+        id=place_check(record_result(result, given), "edge").id,
+        given=given,
+        result=result,
+        target=build_end_target(task, given, end, result) if end and is_known else None,
+    )
+
+
+def _record_end(
+    task: RowCheck, one: EndCheck, loads: RowLoads, holds: list[HoldRecord]
+) -> CheckRecord:
+    end, given = loads.end, one.given
+    before = task.probe.faults if task.probe else 0
+    changes = list_end_changes(task, given, one.result, one.target)
+    if task.probe and task.probe.faults > before:
+        one = _judge_end(task, given, loads, _FAULT_BESIDE)
+    settled = settle_check(task.site, task.row, one.result, "edge")
+    check = place_check(record_result(settled, given), "edge")
+    if end is None:
+        return check
+    extreme = end.find_extreme(given.member)
+    return replace(
+        check,
+        case=record_point(extreme.governing.case),
+        action=end.record(given.member, loads.effects.post_spacing),
+        spreads=list_end_spreads(one.result, extreme),
+        changes=changes,
+        holds=holds,
+    )
 
 
 def _check_directions(

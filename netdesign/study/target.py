@@ -34,6 +34,23 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Push:
+    """A rope's pull along the row that adds to a force, by the guy of its end.
+
+    Attributes
+    ----------
+    force, rope : str
+        What it adds to, and whose pull it is.
+    ratio : float
+        Of what it adds to the rope's pull [-].
+    """
+
+    force: str
+    rope: str
+    ratio: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
     """One check as a function of a solved case.
 
@@ -60,8 +77,10 @@ class Target:
         Utilisation by the guideline's load alone, over some ranges of the row, on a
         support as wide as now, 0 without a floor [-].
     widen : callable
-        Width that loads the support over some ranges of the row [m]: the end effect
+        Load of the support over some ranges of the row, in any unit: the end effect
         grows with the glide factor.
+    push : Push or None
+        What a rope adds to one of the forces.
     """
 
     row: NetRow
@@ -75,6 +94,7 @@ class Target:
     added: float = 0.0
     rise: float = 0.0
     beside: tuple[tuple[str, float], ...] = ()
+    push: Push | None = None
 
     @property
     def largest(self) -> float:
@@ -83,12 +103,21 @@ class Target:
 
     def has_result(self, result: CaseResult) -> bool:
         """All forces are known that the check follows."""
-        names = (self.member, *(name for name, _ in self.beside))
+        names = [self.member, *(name for name, _ in self.beside)]
+        if self.push is not None:
+            names.append(self.push.rope)
         return all(name in result.member_forces for name in names)
 
     def force(self, result: CaseResult) -> float:
         """Upper end of the member's force in a case [N]."""
-        return result.member_forces[self.member].high
+        return self._read(result, self.member)
+
+    def _read(self, result: CaseResult, name: str) -> float:
+        """Upper end of a force in a case, with what a rope adds to it [N]."""
+        force, push = result.member_forces[name].high, self.push
+        if push is None or push.force != name:
+            return force
+        return force + push.ratio * result.member_forces[push.rope].high
 
     @property
     def is_slack(self) -> bool:
@@ -111,7 +140,7 @@ class Target:
             return None
         used = self.use(self.force(result))
         for name, scale in self.beside:
-            used = max(used, scale * result.member_forces[name].high + self.added)
+            used = max(used, scale * self._read(result, name) + self.added)
         return used * self._compare_width(move)
 
     def use_least(self, move: Move | None = None) -> float:
@@ -127,7 +156,7 @@ class Target:
         return self.scale * force + added
 
     def _compare_width(self, move: Move | None) -> float:
-        """Width that loads the support of the moved row over that of the row as is."""
+        """Load of the moved row's support by its end over that of the row as is."""
         if move is None or move.name not in ON_GLIDE:
             return 1.0
         return self.widen(move.on(self.ranges)) / self.widen(self.ranges)

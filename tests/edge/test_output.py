@@ -158,6 +158,7 @@ def list_commands(group=cli.cli, prefix=()):
 # What makes each command write to a place that is taken; {} is that place.
 WRITING = {
     ("init",): "init {}/site.xlsx",
+    ("map",): "map {}/site.xlsx",
     ("check",): "check --example --out {}",
     ("check", "annotate"): "check {}/site.xlsx --annotate {}/copy.xlsx",
     ("solve",): "solve {}/scene.toml --out {}",
@@ -170,6 +171,7 @@ WRITING = {
 
 
 TAKEN = (
+    "site.map.toml",
     *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
     *("paper.html", "index.html", "mine/document.toml"),
 )

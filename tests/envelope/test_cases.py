@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
-from netdesign.coupling.solution import EndPull
+from netdesign.coupling.solution import EndPull, FailedSolution
 from netdesign.envelope.cases import FirstCases
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.envelope.ranges import Case, Interval, Ranges
@@ -18,7 +18,6 @@ from netdesign.envelope.signed import read_signed, read_signed_errors
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
-from netdesign.solving.state import CaseEnd
 from netdesign.words.message import say
 from tests.solving.made_up_workers import Recording, Spoiling
 from tests.solving.small_scene import LAYOUT, build_scene, solve_case
@@ -126,7 +125,7 @@ def test_what_fails_roughly_is_solved_again():
         if job.settings == SETTINGS or job.scene.snowpack.density > 260.0:
             return end
         reason = say("text.as_given", text="too coarse")
-        return CaseEnd(outcome=Outcome.MAX_ITERATIONS, reason=reason)
+        return FailedSolution(outcome=Outcome.MAX_ITERATIONS, reason=reason)
 
     (found,) = search_rows([TASK], Runner(workers=Spoiling(spoil)))
     assert found.gap is None

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.solution import EndPull
+from netdesign.coupling.solution import EndPull, FailedSolution
 from netdesign.envelope.friction import FrictionSkip
 from netdesign.outcome import Outcome
-from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import solve_job
 from netdesign.words.message import say
 
@@ -25,13 +24,10 @@ def end():
 
 
 def sticking(end, *, sticks=True, foot=1e5):
-    slides = end.state.net_slides.copy()
+    slides = end.net_slides.copy()
     slides[:] = not sticks
     pull = EndPull(x=foot, y=0.0, error=1.0)
-    return CaseEnd(
-        outcome=Outcome.CONVERGED,
-        state=replace(end.state, net_slides=slides, foot=pull),
-    )
+    return replace(end, net_slides=slides, foot=pull)
 
 
 @pytest.mark.parametrize(("place", "sticks"), [(0.0049, True), (0.0051, False)])
@@ -39,7 +35,7 @@ def test_slip_by_the_very_foot_is_no_slip(end, place, sticks):
     """By the foot some snow slips at any friction; the places are shares of the net."""
     curve = np.outer([0.6, 0.8], [0.0, place, 0.5, 1.0])
     slides = np.array([False, True, False, False])
-    state = replace(end.state, net_curve=curve, net_slides=slides)
+    state = replace(end, net_curve=curve, net_slides=slides)
     assert state.sticks == sticks
 
 
@@ -62,7 +58,7 @@ def test_nothing_is_skipped_before_two_tests(end):
     assert skip.tested == 2
     skip.learn(LOW, sticking(end))
     assert not needs_solve(skip, HIGH)
-    assert skip.recall(HIGH).state.sticks
+    assert skip.recall(HIGH).sticks
     assert skip.skipped == 1
 
 
@@ -85,7 +81,9 @@ def test_another_line_and_a_failed_case_answer_for_nothing(end):
     skip = after_two_tests(end)
     skip.learn(
         LOW,
-        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")),
+        FailedSolution(
+            outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")
+        ),
     )
     skip.learn((0.4, 0.0), sticking(end))
     assert needs_solve(skip, HIGH)
@@ -130,8 +128,8 @@ def test_the_solver_does_not_feel_friction_where_snow_sticks(a_scene):
         solve_job(Job(scene=a_scene(friction_deg=phi, slack=0.05), settings=settings))
         for phi in (30.0, 45.0)
     ]
-    assert all(end.state.sticks for end in ends)
-    low, high = (end.state for end in ends)
+    assert all(end.sticks for end in ends)
+    low, high = (end for end in ends)
     assert (low.foot, low.head) == (high.foot, high.head)
 
 
@@ -141,7 +139,7 @@ def test_friction_hardly_matters_where_snow_slips_by_the_foot_only(a_scene):
 
     scenes = [a_scene(inclination_deg=30.0, friction_deg=phi) for phi in (36.0, 45.0)]
     low, high = (
-        solve_job(Job(scene=scene, settings=SolverSettings())).state for scene in scenes
+        solve_job(Job(scene=scene, settings=SolverSettings())) for scene in scenes
     )
     assert low.net_slides.any()
     assert low.sticks

@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 
 import pytest
 
+from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import search as search_module
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask
@@ -14,7 +15,6 @@ from netdesign.outcome import Outcome
 from netdesign.search.maxima import MaximaSearch, SearchSettings
 from netdesign.solving import store as store_module
 from netdesign.solving.runner import Runner
-from netdesign.solving.state import CaseEnd
 from netdesign.solving.store import CaseStore, name_search
 from netdesign.solving.workers import OwnProcess
 from netdesign.words.message import say
@@ -172,7 +172,7 @@ def test_an_open_gap_stays_open(row):
 
 
 def lose_rough(job, end):
-    lost = CaseEnd(
+    lost = FailedSolution(
         outcome=Outcome.WORKER_FAILED, reason=say("text.as_given", text="lost")
     )
     return lost if job.scene.net.friction_angle > 0.7 else end

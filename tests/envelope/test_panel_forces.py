@@ -6,12 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.envelope import run as running
-from netdesign.envelope.confirm import merge_history
+from netdesign.envelope.confirm import build_history_settings, merge_history
 from netdesign.envelope.extremes import describe_gap, find_extremes
-from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
+from netdesign.envelope.panel_forces import (
+    PANEL_QUANTITIES,
+    PanelForces,
+    resolve_panel,
+)
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowGrid, RowTask, refine_settings
 from netdesign.envelope.run import build_task, run_cases
@@ -20,6 +23,7 @@ from netdesign.outcome import Outcome
 from netdesign.panel.solution import FailedPanel
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
+from netdesign.structure.layout import place_support
 from netdesign.structure.members import CARRYING_MEMBERS, RopeForce, name_in_panel
 from netdesign.words.message import say
 from tests.solving.small_scene import COARSE, LAYOUT, PANEL, build_scene
@@ -186,11 +190,56 @@ def test_a_panel_that_fails_leaves_a_gap_in_a_grid(failing):
     assert counted.extremes["panel_post"].governing.case.density < 397.0
 
 
-def test_a_history_has_no_panel(found):
+@pytest.fixture(scope="module")
+def at_rest_and_followed():
     case = draw_case(np.random.default_rng(8))
-    history = solve(case, settings=TransientSettings(accuracy=0.1, horizon=3600.0))
-    assert isinstance(history.panel, FailedPanel)
-    assert history.lack.key == "panel.steady_only"
+    return solve(case), solve(case, settings=build_history_settings(COARSE))
+
+
+def test_panel_of_a_history_is_that_at_rest_under_its_own_load(at_rest_and_followed):
+    """Both carry the larger growth of their pulls; few corners cost little."""
+    steady, history = at_rest_and_followed
+    assert isinstance(history.panel, PanelForces)
+    pairs = [
+        (one.solution.foot.size, one.solution.head.size) for one in (history, steady)
+    ]
+    grown = [after / before for after, before in zip(*pairs, strict=True)]
+    for name in PANEL_QUANTITIES:
+        before = steady.member_forces[name].value
+        if before == 0.0:
+            continue
+        ratio = history.member_forces[name].value / before
+        assert 0.95 * min(grown) < ratio < 1.05 * max(grown), name
+    solution = history.panel.solution
+    assert solution.balance.largest < 1e-8
+
+
+def test_history_that_went_on_has_no_panel(at_rest_and_followed):
+    _, history = at_rest_and_followed
+    state = history.solution
+    scene = build_scene(history.case)
+    points = place_support(LAYOUT, state.head_point)
+    loaded = replace(state, foot=replace(state.foot, x=1.2 * state.foot.x))
+    failed = resolve_panel(PANEL, scene.net, points, loaded)
+    assert isinstance(failed, FailedPanel)
+    assert failed.reason.key == "panel.history_went_on"
+    odd = replace(state, method="staggered")
+    assert resolve_panel(PANEL, scene.net, points, odd).reason.key == (
+        "panel.not_staggered"
+    )
+
+
+@pytest.mark.parametrize("share", [0.5, 1.5])
+def test_larger_forces_of_a_history_s_panel_count(at_rest_and_followed, share):
+    steady, history = at_rest_and_followed
+    forces = {n: one.times(share) for n, one in history.member_forces.items()}
+    merged = merge_history(steady, replace(history, member_forces=forces))
+    assert RowGrid(results=[merged]).gap is None
+    for name in PANEL_QUANTITIES:
+        band, before = merged.member_forces[name], steady.member_forces[name]
+        assert band.high >= before.high
+        if before.value > 0.0:
+            assert (band.value > 1.2 * before.value) is (share > 1.0)
 
 
 @pytest.mark.parametrize("share", [0.5, 1.5])

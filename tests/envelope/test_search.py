@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
+from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope import rows
 from netdesign.envelope.ranges import Case, Interval, Ranges
 from netdesign.envelope.rows import RowTask, build_point_task, refine_settings
@@ -15,7 +16,6 @@ from netdesign.errors import ModelError
 from netdesign.outcome import Outcome
 from netdesign.search.maxima import SearchSettings
 from netdesign.solving.runner import Runner
-from netdesign.solving.state import CaseEnd
 from netdesign.solving.workers import ProcessPool
 from netdesign.words.message import say
 from netdesign.words.names import name_member
@@ -158,7 +158,9 @@ def test_rows_together_end_as_each_alone(found):
 def spoil_rough_dense(job, end):
     spoilt = job.scene.net.friction_angle > 0.7 and job.scene.snowpack.density > 390.0
     return (
-        CaseEnd(outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt"))
+        FailedSolution(
+            outcome=Outcome.DIVERGED, reason=say("text.as_given", text="spoilt")
+        )
         if spoilt
         else end
     )

@@ -33,6 +33,7 @@ from hypothesis import strategies as st
 
 from netdesign import cli
 from netdesign.checks import load_standard
+from netdesign.coupling.solution import FailedSolution
 from netdesign.edge.resources import find_resource
 from netdesign.errors import NetDesignError, SiteDataError
 from netdesign.files.scene import read_scene
@@ -41,7 +42,6 @@ from netdesign.site.columns.all_tables import SHEETS
 from netdesign.site.reader import read_site
 from netdesign.site.template.annotate import annotate_workbook
 from netdesign.site.template.workbook import write_site_workbook
-from netdesign.solving.state import CaseEnd
 from netdesign.solving.store import CaseStore, StoreError
 from netdesign.study.document import read_document, write_document
 from netdesign.words.message import say
@@ -555,7 +555,7 @@ def try_config(content: bytes) -> None:
     assert is_shown_only(err), err
 
 
-END = CaseEnd(
+END = FailedSolution(
     outcome=Outcome.DIVERGED, reason=say("text.as_given", text="residual grew")
 )
 

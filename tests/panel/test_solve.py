@@ -106,7 +106,7 @@ def test_cut_without_net_is_a_result(section):
 
 
 def test_soft_ropes_that_pass_each_other_on_the_way(solved):
-    """A strip then hangs from nothing; half the way brings the rounds to their end."""
+    """A strip then hangs from nothing; shorter steps find the way."""
     low = solved(thickness_m=1.7, inclination_deg=3.0, slack=0.06, slope_deg=47.0)
     panel = Panel(
         post_spacing=5.9,
@@ -131,15 +131,26 @@ def test_number_of_stations_at_its_bounds(section, stations):
     assert solved.stations.shape == (stations + 1,)
 
 
-def test_rounds_that_do_not_end_are_a_reason(section, monkeypatch):
-    monkeypatch.setattr(solving, "_MOST_ROUNDS", 3)
+def test_steps_that_do_not_end_are_a_reason(section, monkeypatch):
+    monkeypatch.setattr(solving, "_MOST_STEPS", 2)
     failed = solve_panel(section, PANEL)
     assert isinstance(failed, FailedPanel)
     assert failed.outcome is Outcome.MAX_ITERATIONS
 
 
+@pytest.mark.parametrize("spoiled", [0.0, math.nan])
+def test_panel_that_finds_no_forces_is_a_reason(section, monkeypatch, spoiled):
+    """Derivatives that tell nothing."""
+    derive = solving.derive_missing
+    monkeypatch.setattr(solving, "derive_missing", lambda *a: spoiled * derive(*a))
+    failed = solve_panel(section, PANEL)
+    assert isinstance(failed, FailedPanel)
+    assert failed.outcome is Outcome.NO_EQUILIBRIUM
+    assert "are not found" in str(failed.reason)
+
+
 def test_panel_out_of_balance_is_refused(section, monkeypatch):
-    """A loose end of the rounds shows in the moments."""
+    """A loose end of the steps shows in the moments."""
     monkeypatch.setattr(solving, "_STILL", 1e-3)
     failed = solve_panel(section, PANEL)
     assert isinstance(failed, FailedPanel)

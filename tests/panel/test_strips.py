@@ -6,13 +6,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from netdesign.cable.alike import reach_ends
+from netdesign.cable.net import Net
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
+from netdesign.coupling.solution import EndPull
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
 from netdesign.outcome import Outcome
 from netdesign.panel.inputs import Panel, Rope
 from netdesign.panel.stations import build_stations
-from netdesign.panel.strips import cut_lengths, draw_strips, pull_strips, take_strip
+from netdesign.panel.strips import (
+    build_strip_at_end,
+    cut_lengths,
+    draw_strips,
+    take_strip,
+)
 from netdesign.snow.snowpack import Layer, Snowpack
 
 QUICK = SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2])
@@ -50,40 +58,35 @@ def test_strip_hangs_as_the_section_does(a_scene, kind):
         else solve_steady(scene, QUICK, on_failure="raise")
     )
     strip = take_strip(solution)
-    length = scene.net.unstressed_length
-    still = np.zeros((2, 2, 1))
-    pulls = pull_strips(strip, np.array([length]), still, np.ones((2, 1)))
-    (curve,) = draw_strips(strip, np.array([length]), still, pulls[0])
+    length = np.array([scene.net.unstressed_length])
+    pull = strip.foot_pull[:, None]
+    (curve,) = draw_strips(strip, length, np.zeros((2, 2, 1)), pull)
     scale = solution.foot.size
     foot = [solution.foot.x, solution.foot.y]
     head = [solution.head.x, solution.head.y]
-    np.testing.assert_allclose(pulls[0, :, 0], foot, atol=1e-8 * scale)
-    np.testing.assert_allclose(pulls[1, :, 0], head, atol=1e-8 * scale)
+    np.testing.assert_array_equal(strip.foot_pull, foot)
     np.testing.assert_allclose(curve, solution.net_curve, atol=1e-8)
     assert strip.shares.sum() == pytest.approx(1.0, abs=1e-14)
     np.testing.assert_allclose(strip.load, np.add(foot, head), atol=1e-8 * scale)
 
 
-def test_pulls_keep_their_sum_between_moved_ropes(solved):
+def test_strips_between_moved_ropes_are_in_balance(solved):
+    """Whatever they pull with: their ends follow, and forces turn nothing."""
     strip = take_strip(solved(inclination_deg=30.0))
-    moved = np.random.default_rng(7).uniform(-0.21, 0.17, (2, 2, 3))
-    lengths = strip.chord * np.array([0.93, 1.02, 1.11])
-    start = np.repeat(strip.foot_pull[:, None], 3, axis=1)
-    pulls = pull_strips(strip, lengths, moved, start)
-    for number in range(lengths.size):
-        both = pulls[..., number].sum(axis=0)
-        np.testing.assert_allclose(both, strip.load, rtol=1e-12)
-        ends = moved[..., number]
-        one = slice(number, number + 1)
-        (curve,) = draw_strips(strip, lengths[one], moved[..., one], pulls[0][:, one])
-        np.testing.assert_allclose(curve[:, 0], ends[0], atol=1e-14)
-        np.testing.assert_allclose(curve[:, -1], strip.head + ends[1], atol=1e-10)
+    rng = np.random.default_rng(7)
+    moved, lengths = np.zeros((2, 2, 3)), strip.chord * np.array([0.93, 1.02, 1.11])
+    moved[0] = rng.uniform(-0.21, 0.17, (2, 3))
+    feet = strip.foot_pull[:, None] * rng.uniform(0.7, 1.3, (2, 3))
+    reached, _ = reach_ends(strip.alike, feet - strip.alike.to_foot[:, None])
+    curves = draw_strips(strip, lengths, moved, feet)
+    for curve, start, foot, end in zip(
+        curves, moved[0].T, feet.T, (lengths * reached).T, strict=True
+    ):
+        np.testing.assert_allclose(curve[:, 0], start, atol=1e-14)
+        np.testing.assert_allclose(curve[:, -1], start + end, atol=1e-12)
         turned = curve[0] * strip.forces[1] - curve[1] * strip.forces[0]
-        places = (ends[0], strip.head + ends[1])
-        held = sum(
-            x * pull[1] - y * pull[0]
-            for (x, y), pull in zip(places, pulls[..., number], strict=True)
-        )
+        pairs = ((start, foot), (start + end, strip.load - foot))
+        held = sum(x * pull[1] - y * pull[0] for (x, y), pull in pairs)
         assert turned.sum() == pytest.approx(held, abs=1e-9 * np.hypot(*strip.load))
 
 
@@ -127,9 +130,32 @@ def test_cut_that_leaves_no_net_is_named(solved):
     assert lengths.min() == pytest.approx(0.11 * strip.chord, rel=1e-9)
 
 
-def test_strip_that_nothing_holds_is_named(solved):
-    """A length at which no number comes out."""
-    strip = take_strip(solved(inclination_deg=30.0))
-    still = np.zeros((2, 2, 1))
-    with pytest.raises(SolveError, match="Nothing holds a strip"):
-        pull_strips(strip, np.array([math.nan]), still, np.ones((2, 1)))
+@pytest.mark.parametrize("seed", [3, 8])
+def test_pulls_of_a_polygon_follow_from_its_shape(seed):
+    """A chain whose corners carry what its tensions leave over."""
+    rng = np.random.default_rng(seed)
+    places = np.array([np.cumsum(rng.uniform(0.1, 0.5, 7)), np.arange(7.0) ** 1.3])
+    sides = np.diff(places) / np.hypot(*np.diff(places))
+    tensions = rng.uniform(3e4, 7e4, 6) * sides
+    own = rng.uniform(-2e3, 2e3, (2, 2))  # straight on both anchors
+    between = tensions[:, :-1] - tensions[:, 1:]
+    forces = np.column_stack([own[:, 0], between, own[:, 1]])
+    net = Net(
+        height_normal=1.0,
+        inclination=0.4,
+        stiffness_per_m=2e7,
+        slack=0.02,
+        friction_angle=0.5,
+    )
+    foot, head = tensions[:, 0] + own[:, 0], own[:, 1] - tensions[:, -1]
+    grown = 1.03
+    pulls = tuple(
+        EndPull(x=share * x, y=share * y, error=0.0)
+        for share, (x, y) in ((grown, foot), (1.01, head))
+    )
+    strip, doubt = build_strip_at_end(net, places, forces, pulls)
+    np.testing.assert_allclose(strip.foot_pull, grown * foot, rtol=1e-9)
+    np.testing.assert_allclose(strip.load, grown * forces.sum(axis=1), rtol=1e-9)
+    assert doubt == pytest.approx(0.02, rel=1e-6)
+    stretch = np.hypot(*np.diff(places)) / (1.0 + np.hypot(*tensions) / 2e7)
+    np.testing.assert_allclose(strip.shares, stretch / stretch.sum(), rtol=1e-9)

@@ -8,8 +8,9 @@ from itertools import pairwise
 import pytest
 
 from netdesign.errors import ModelError
+from netdesign.haefeli.slab import Slab, find_linear_slip
 from netdesign.planview.end_effect import compute_end_effect
-from netdesign.planview.scales import Slab, compute_scales, find_linear_slip
+from netdesign.planview.scales import compute_scales
 from netdesign.planview.waves import WIDEST_HALF
 
 SLAB = Slab(thickness=2.7, slope_angle=math.radians(38.5), density=283.0)

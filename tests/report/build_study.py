@@ -17,6 +17,12 @@ from netdesign.study.guideline_records import (
     GuidelineLoadRecord,
     GuidelineRecord,
 )
+from netdesign.study.opinion_records import (
+    ModelFormRecord,
+    SlabCase,
+    SlabRecord,
+    VariantRecord,
+)
 from netdesign.study.records import (
     SCHEMA,
     ActionRecord,
@@ -183,6 +189,8 @@ def build_row(
         anchors=build_anchors(),
         head=build_head(),
         guideline=build_guideline(extremes[0]),
+        slab=build_slab(extremes[0]),
+        model_form=build_model_form(extremes[0]),
         floor=build_floor(extremes[0]),
         notes=[as_given(f"no gap is given {SCRIPT}")],
         pulls=build_pulls(),
@@ -396,6 +404,81 @@ def build_guideline(extreme: ExtremeRecord) -> GuidelineRecord:
             ),
         ],
         sentence=as_given(f"They differ because {SCRIPT}."),
+    )
+
+
+def build_slab(extreme: ExtremeRecord) -> SlabRecord:
+    """Closed form with numbers, and one whose net has none."""
+    numbers = {
+        "influence_length_m": 3.64,
+        "dynamic_kN_per_m": 26.36,
+        "at_rest_kN_per_m": 5.56,
+        "wedge_kN_per_m": 7.61,
+        "load_kN_per_m": 39.53,
+    }
+    names = ("foot_anchor_kN", "uphill_guy_kN", "post_kN", "foot_difference_percent")
+    return SlabRecord(
+        case=extreme.case,
+        poisson=0.265,
+        solved_load_kN_per_m=15.0,
+        solved_foot_anchor_kN=extreme.max_kN,
+        cases=[
+            SlabCase(
+                name="glide_factor",
+                slip_length_m=0.573,
+                load_difference_percent=-4.1,
+                **numbers,
+                **dict(zip(names, (158.2, 44.1, 140.8, -1.8), strict=True)),
+            ),
+            SlabCase(
+                name="slip_length",
+                slip_length_m=0.77,
+                load_difference_percent=None,
+                **numbers,
+                **dict.fromkeys(names),
+                reason=as_given(f"the support fails {SCRIPT}"),
+            ),
+        ],
+    )
+
+
+def build_model_form(extreme: ExtremeRecord) -> ModelFormRecord:
+    """One variant with a force, one without."""
+    forces = {"foot_anchor_kN": 141.2, "uphill_guy_kN": 37.6, "post_kN": 122.9}
+    return ModelFormRecord(
+        case=extreme.case,
+        member="foot_anchor",
+        force_kN=extreme.max_kN,
+        low_ratio=0.907,
+        high_ratio=1.0,
+        utilisation_low=0.71,
+        utilisation_high=0.83,
+        numerical_low=0.82,
+        numerical_high=0.84,
+        solves=1,
+        variants=[
+            VariantRecord(
+                kind="exponent",
+                creep_law="zwinger-2007-n1.8",
+                exponent=1.8,
+                slip_length_m=0.41,
+                is_stated=False,
+                is_calibrated=True,
+                ratio=0.907,
+                **forces,
+            ),
+            VariantRecord(
+                kind="creep_law",
+                creep_law="gagliardini-1997",
+                exponent=3.0,
+                slip_length_m=None,
+                is_stated=None,
+                is_calibrated=False,
+                ratio=None,
+                **dict.fromkeys(forces),
+                reason=as_given(f"it shrinks {SCRIPT}"),
+            ),
+        ],
     )
 
 

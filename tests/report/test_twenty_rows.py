@@ -99,5 +99,5 @@ def test_twenty_rows_are_quick_and_small(language):
     start = time.process_time()
     page, book = render_html(study, language), render_workbook(study, language)
     assert time.process_time() - start < 3.0
-    assert len(page.encode()) < 2_000_000
+    assert len(page.encode()) < 2_200_000  # 5 kB a row are second opinions
     assert len(book) < 1_000_000

@@ -273,11 +273,10 @@ def test_unknown_columns_sheets_and_hidden_rows_are_noted(sheets, save):
 
 def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
     sheets["Nets"][HEADINGS][1] = "slope angel [deg]"
-    unknown, missing = refused(save(sheets))
+    (unknown,) = refused(save(sheets))  # that it is missing follows from it
     assert str(unknown.rule) == (
         'is no known heading, but close to "slope angle [deg]", which is missing'
     )
-    assert str(missing.rule) == 'lacks the heading "slope angle [deg]"'
 
 
 # What is refused: one fault, one finding
@@ -287,7 +286,8 @@ def test_a_heading_slightly_misspelt_is_suggested(sheets, save, refused):
     ("heading", "value", "rule"),
     [
         ("slope angle", "0,45O", "is not a number"),
-        ("slope angle", "40 deg", "is not a number"),
+        ("slope angle", "40 degs", "is not a number"),
+        ("slope angle", "40 gon", "is in gon, the unit of the column is deg"),
         ("slope angle", "1,234", "is ambiguous: 1.234 or 1234"),
         ("slope angle", True, "is a truth value, not a number"),
         ("slope angle", 9.9, "is out of range"),
@@ -482,10 +482,20 @@ def test_duplicated_headings_are_refused(sheets, save, refused):
     assert str(finding.rule) == 'names "slope angle" again, after column B'
 
 
-def test_a_gap_between_lines_is_refused_once(sheets, save, refused):
+def test_a_gap_before_a_whole_line_is_noted(sheets, save):
     sheets["Nets"][SECOND:SECOND] = [[None], [None]]
-    (finding,) = refused(save(sheets))
-    assert (finding.cell, str(finding.rule)) == ("A3", "is in an empty row")
+    site = read_site(save(sheets))
+    (finding,) = site.findings
+    assert (finding.cell, len(site.rows)) == ("A3", 2)
+    assert str(finding.rule) == "is in an empty row; the lines below it are read"
+
+
+def test_a_gap_before_a_line_with_a_lack_is_refused_once(sheets, save, refused):
+    put(sheets, "net height", None, SECOND)
+    sheets["Nets"][SECOND:SECOND] = [[None], [None]]
+    gap, lack = refused(save(sheets))
+    assert (gap.cell, str(gap.rule)) == ("A3", "is in an empty row")
+    assert str(lack.rule) == "is empty"
 
 
 def test_merged_cells_are_refused_below_the_headings_only(sheets, save, refused):
@@ -578,7 +588,7 @@ def test_eleven_faults_are_eleven_findings_in_one_pass(sheets, save, refused):
     sheets["Ranges"][FIRST][1:3] = [400, 270]
     assert sorted(places_and_rules(refused(save(sheets)))) == [
         ("Anchors!B2", "is ambiguous: 1.234 or 1234"),
-        ("Nets!A3", "is in an empty row"),
+        ("Nets!A3", "is in an empty row; the lines below it are read"),
         ("Nets!A4", "is used twice: also in Nets!A2"),
         ("Nets!B2", "is not a number"),
         ("Nets!C2", "is out of range"),

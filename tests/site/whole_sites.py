@@ -166,7 +166,6 @@ DAMAGED_FINDINGS = {
         "Nets!F1",
         'is no known heading, but close to "net height [m]", which is missing',
     ),
-    ("Nets!", 'lacks the heading "net height [m]"'),
     ("Nets!G2", "is ambiguous: 1.234 or 1234"),
     ("Nets!A3", "is used twice: also in Nets!A2"),
     ("Nets!B3", "is not a number"),

@@ -26,7 +26,7 @@ def a_pack(heights, densities, ages=None):
 
 
 def settled_by_hand(heights, densities):
-    """Eq. (H1), layer after layer."""
+    """Eq. (D1), layer after layer."""
     masses = [h * rho for h, rho in zip(heights, densities, strict=True)]
     found = []
     for place, (h, rho) in enumerate(zip(heights, densities, strict=True)):
@@ -124,7 +124,7 @@ def test_ageing_limit_at_its_middle_and_far_from_it():
 
 
 def test_constant_height_comes_to_rest():
-    """New snow fills what settles, until a day settles less than tau: then (H3)."""
+    """New snow fills what settles, until a day settles less than tau: then (D3)."""
     packs = follow_heights([1.7] * 200)
     means = [pack.density for pack in packs]
     assert all(after >= before - 1e-12 for before, after in pairwise(means))

@@ -22,7 +22,7 @@ def a_pack(heights, densities):
 
 
 def densities_by_hand(heights, densities, factor=1.0):
-    """Eq. (H6) times a factor, layer after layer."""
+    """Eq. (D6) times a factor, layer after layer."""
     masses = [h * rho for h, rho in zip(heights, densities, strict=True)]
     found = []
     for place, rho in enumerate(densities):

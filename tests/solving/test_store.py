@@ -12,6 +12,7 @@ from platformdirs.macos import MacOS
 from platformdirs.unix import Unix
 
 from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Case
 from netdesign.outcome import Outcome
 from netdesign.solving import store as module
@@ -35,7 +36,7 @@ def solve_one() -> CaseEnd:
 def assert_same(one, other):
     assert (one.outcome, one.reason) == (other.outcome, other.reason)
     for field in fields(SolvedState):
-        left, right = (getattr(end.state, field.name) for end in (one, other))
+        left, right = (getattr(end, field.name) for end in (one, other))
         if isinstance(left, np.ndarray):
             assert left.dtype == right.dtype
             assert np.array_equal(left, right)
@@ -60,10 +61,10 @@ def test_an_end_survives_the_way_to_disk_and_back_bit_by_bit():
 
 def test_a_failure_survives_too():
     reason = say("text.as_given", text="the post ü would pull")
-    failed = CaseEnd(outcome=Outcome.NO_EQUILIBRIUM, reason=reason)
+    failed = FailedSolution(outcome=Outcome.NO_EQUILIBRIUM, reason=reason)
     back = decode_end(*encode_end(failed))
     assert (back.outcome, back.reason) == (failed.outcome, failed.reason)
-    assert (back.state, back.fault) == (None, None)
+    assert back.fault is None
 
 
 def test_what_is_kept_is_found_by_a_later_run(opened, said):
@@ -77,7 +78,7 @@ def test_what_is_kept_is_found_by_a_later_run(opened, said):
 
 
 def test_many_names_are_looked_up_at_once(opened):
-    failed = CaseEnd(outcome=Outcome.DIVERGED, reason=say("worker.died"))
+    failed = FailedSolution(outcome=Outcome.DIVERGED, reason=say("worker.died"))
     with opened() as one:
         for k in range(1203):
             one.keep(str(k), failed)
@@ -87,7 +88,7 @@ def test_many_names_are_looked_up_at_once(opened):
 @pytest.mark.parametrize("lost", [Outcome.WORKER_FAILED, Outcome.PROGRAM_FAULT])
 def test_a_case_lost_with_its_worker_or_by_a_fault_is_not_kept(opened, lost):
     with opened() as one:
-        one.keep("a", CaseEnd(outcome=lost, reason=say("worker.died")))
+        one.keep("a", FailedSolution(outcome=lost, reason=say("worker.died")))
         assert one.find(["a"]) == {}
 
 
@@ -167,9 +168,9 @@ def test_a_store_that_does_not_say_whose_it_is_is_set_aside(opened, said, tmp_pa
 
 def test_a_case_that_holds_no_number_is_solved_anew(opened, said):
     end = solve_one()
-    spoilt = replace(end.state, foot=replace(end.state.foot, x=math.nan))
+    spoilt = replace(end, foot=replace(end.foot, x=math.nan))
     with opened() as one:
-        one.keep("a", replace(end, state=spoilt))
+        one.keep("a", spoilt)
         assert one.find(["a"]) == {}
     assert "case a is damaged" in str(said[0])
 

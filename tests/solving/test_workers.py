@@ -11,10 +11,11 @@ from pathlib import Path
 import pytest
 
 from netdesign.coupling.scene import Scene
+from netdesign.coupling.solution import FailedSolution
 from netdesign.envelope.ranges import Case
 from netdesign.fault import SENTENCE
 from netdesign.outcome import Outcome
-from netdesign.solving.state import CaseEnd, encode_end
+from netdesign.solving.state import encode_end
 from netdesign.solving.workers import (
     DIED,
     ClusterError,
@@ -82,7 +83,7 @@ def collect(workers, batches):
     return [[encode_end(end) for end in ends] for _, ends in arrived]
 
 
-LOST = encode_end(CaseEnd(outcome=Outcome.WORKER_FAILED, reason=DIED))
+LOST = encode_end(FailedSolution(outcome=Outcome.WORKER_FAILED, reason=DIED))
 
 
 @pytest.fixture(scope="module")

@@ -215,9 +215,7 @@ def test_a_panel_that_fails_is_not_proven_with_its_reason(monkeypatch):
 
 
 def test_a_weak_member_still_fails_where_the_panel_has_no_result(monkeypatch):
-    lost = FailedPanel(
-        outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.rope_not_found")
-    )
+    lost = FailedPanel(outcome=Outcome.NO_EQUILIBRIUM, reason=say("panel.not_found"))
     monkeypatch.setattr(running, "resolve_panel", lambda *_: lost)
     weak = with_panel(a_panel(), resistances=resist(1e3))
     _, study = judge(weak)

@@ -13,8 +13,9 @@ from netdesign.site.model import END_MODES, BaseFriction
 from netdesign.structure.row_position import LoadedWidth
 from netdesign.study.audit import audit_study
 from netdesign.study.effects import find_effects
+from netdesign.study.probe import Probe
 from netdesign.study.row_end import compute_end_factor
-from tests.small_site import RANGES, build_row, resist
+from tests.small_site import RANGES, RUN, build_row, resist
 from tests.study.test_panel_study import (
     PROFILE,
     a_panel,
@@ -214,3 +215,54 @@ def test_resistances_of_all_members_still_count():
     weak = resist(foot_anchor__tendon=1e3)
     _, study = judge(with_panel(a_panel(), resistances=weak))
     assert checks_of(study)["foot_anchor.tendon"].verdict is Verdict.FAIL
+
+
+def use_nearly(check, share):
+    """Characteristic resistance of which a check uses this share [N]."""
+    return check.demand_high_kN * check.resistance_factor * 1e3 / share
+
+
+@pytest.mark.parametrize(
+    ("member", "share"), [("lateral_anchor.tendon", 0.93), ("post.compression", 0.96)]
+)
+def test_limits_of_end_members_are_where_they_turn(judged, member, share):
+    """Found in a few cases; the whole row with the value tells whether that is true."""
+    name = f"{member}.end"
+    value = use_nearly(checks_of(judged[1])[name], share)
+    if member.startswith("post"):
+        row = with_panel(
+            a_panel(), end=an_end(37.0), resistances=resist(post__compression=value)
+        )
+    else:
+        row = with_panel(a_panel(), end=an_end(37.0, value))
+    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    check = checks_of(study)[name]
+    assert check.verdict is Verdict.PASS
+    (limit,) = (one for one in check.holds if one.quantity == "upslope_length_m")
+    assert limit.least is None
+    assert limit.now < limit.most < limit.high
+    for length, verdict in (
+        (limit.most, Verdict.PASS),
+        (1.08 * limit.most, Verdict.FAIL),
+    ):
+        _, moved = judge(replace(row, upslope_length=length))
+        assert checks_of(moved)[name].verdict is verdict
+
+
+def test_changes_that_mend_an_end_member(judged):
+    """Less snow, or a stronger anchor; the row with that snow passes."""
+    name = "end_guy_anchor.tendon.end"
+    value = use_nearly(checks_of(judged[1])[name], 1.11)
+    row = with_panel(a_panel(), end=an_end(37.0, value))
+    _, study = judge(row, probe=Probe(RUN.settings, RUN.creep_law))
+    check = checks_of(study)[name]
+    assert check.verdict is Verdict.FAIL
+    changes = {one.quantity.key: one for one in check.changes}
+    needed = changes["change.characteristic_resistance"].bound
+    assert needed == pytest.approx(1.11e-3 * value, abs=0.1)
+    thickness = changes["change.snow_thickness"].bound
+    _, moved = judge(replace(row, snow_thickness=thickness))
+    moved = checks_of(moved)[name]  # the margin between samples moves a little, too
+    highest = moved.demand_high_kN / moved.resistance_kN
+    assert moved.utilisation < highest == pytest.approx(1.0, abs=0.01)
+    assert audit_study(study) == []

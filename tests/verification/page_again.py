@@ -47,6 +47,7 @@ class PrintedRow:
     tests: dict
     turns: list
     told: list
+    further: list
 
 
 @dataclass
@@ -86,7 +87,7 @@ def _read_row(reader, row):
             key = "tests" if "n" in head else "resistances"
         found[key] = _turn(table) if first == "Bringsthelargest" else _line_up(table)
     inputs = {one[0]: one[2] for one in reader.tables[f"{row}-inputs"][0][1:]}
-    (checks,) = reader.tables[f"{row}-checks"]
+    checks, *further = reader.tables[f"{row}-checks"]
     return PrintedRow(
         inputs=inputs,
         states=found.get("states", []),
@@ -99,7 +100,8 @@ def _read_row(reader, row):
         resistances={one["No."]: one for one in found["resistances"]},
         tests={one["No."]: one for one in found.get("tests", [])},
         turns=found["turns"],
-        told=checks[1:],
+        told=[cells for cells in checks[1:] if len(cells) > 1],
+        further=[cells for one in further for cells in one[1:]],
     )
 
 
@@ -229,6 +231,8 @@ class RowAgain:
             self.turn(turn)
         for line in self.row.told:
             self.tell(line)
+        for _, title, reason in self.row.further:
+            self.require(title, reason)
 
     # 1. and 2. statics
 
@@ -735,12 +739,17 @@ class RowAgain:
         self.same(f"{anchor} delta'", one["δ'"], turned, 1e-3)
 
     def tell(self, line):
-        """The table of checks says the same, rounded; sentences have their numbers."""
-        title = next((one for one in self.list_titles() if self.is_of(line, one)), "")
+        """The table of checks says the same, rounded."""
+        end = ", end of the row"
+        titles = {one["Check"].removesuffix(end) for one in self.row.checks}
+        title = max((one for one in titles if line[0].startswith(one)), key=len)
         for one in self.row.checks:
-            if one["Check"] == title:
-                self.compare_rounded(line, one)
-        reason = line[5]
+            cell = line[3] if one["Check"].endswith(end) else line[2]
+            if one["Check"].removesuffix(end) == title and cell != "-":
+                self.compare_rounded(line[1], cell, one)
+
+    def require(self, title, reason):
+        """Sentences of the further requirements have their numbers."""
         if "The net height" in reason:
             height, needed = list_numbers(reason)[:2]
             ratio = self.value("Net height over snow thickness")
@@ -749,26 +758,22 @@ class RowAgain:
             self.same("needed", needed, max(1.0, ratio) * thickness)
         if "The pull turns by up to" in reason:
             angle, most = list_numbers(reason)[:2]
-            found = [t["δ'"] for t in self.row.turns if line[0].startswith(t["Anchor"])]
+            found = [t["δ'"] for t in self.row.turns if title.startswith(t["Anchor"])]
             self.holds("direction", any(abs(t - angle) < 6e-3 for t in found), angle)
             limits = (self.value("A rope anchor turns"), self.value("Up to this angle"))
             self.holds("limit of the direction", most in limits, most)
 
-    def list_titles(self):
-        return sorted((one["Check"] for one in self.row.checks), key=len, reverse=True)
-
-    @staticmethod
-    def is_of(line, title):
-        return line[0].startswith(title)
-
-    def compare_rounded(self, line, one):
-        for place, key, digit in ((1, "Ed", 0.0501), (2, "Rd", 0.0501)):
-            shown = read_number(line[place])
-            near = digit + 6e-5 * (one[key] or 0.0)
-            self.same(f"{one['Check']} {key} as shown", shown, one[key], near)
-        used = list_numbers(line[3])[:1]
+    def compare_rounded(self, resistance, cell, one):
+        """A cell reads ``symbol verdict ratio low to high E d demand; ...``."""
+        before, _, after = cell.partition("E d ")
+        demand = after.partition(";")[0]
+        for shown, key in ((demand, "Ed"), (resistance, "Rd")):
+            near = 0.0501 + 6e-5 * (one[key] or 0.0)
+            name = f"{one['Check']} {key} as shown"
+            self.same(name, read_number(shown), one[key], near)
         if one["μ"] is not None:
-            self.same(f"{one['Check']} mu as shown", used[0], one["μ"], 0.00056)
+            used = list_numbers(before)[0]
+            self.same(f"{one['Check']} mu as shown", used, one["μ"], 0.00056)
 
 
 def work_out_bar(told):

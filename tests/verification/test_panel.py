@@ -18,7 +18,7 @@ from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.evidence.verification.net_in_space import solve_net_in_space
 from netdesign.panel.inputs import Panel, Rope
-from netdesign.panel.ropes import estimate_force_along, solve_force_along
+from netdesign.panel.ropes import estimate_force_along
 from netdesign.panel.row_forces import compute_end_forces, compute_interior_forces
 from netdesign.panel.solution import PanelSolution
 from netdesign.panel.solve import STATIONS, solve_panel
@@ -27,6 +27,7 @@ from netdesign.panel.strips import take_strip
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Snowpack
 from netdesign.structure import SupportLayout, place_support
+from tests.panel.one_rope import find_force_along
 
 FACTS = (Path(__file__).parent / "FACTS.md").read_text(encoding="utf-8")
 SECTION = FACTS.partition("## 13 ")[2]
@@ -295,7 +296,7 @@ def test_shallow_rope_under_uniform_load():
     stations = build_stations(4, has_mid_anchors=False)
     pull = np.array([np.zeros(4), np.full(4, load)])
     shear = span / 2 * pull @ stations.upper.shear.T
-    exact = solve_force_along(shear, rope, along)
+    exact = find_force_along(shear, rope)
     assert exact / 1e3 == pytest.approx(109.68, abs=0.005)
     deflection = (span / 2) ** 2 / exact * pull @ stations.upper.deflection.T
     assert deflection[1, -1] == pytest.approx(0.18235, abs=5e-6)
@@ -310,7 +311,7 @@ def test_rope_of_its_own_length_hangs_in_its_parabola(sag):
     load, span = 1e-3, 3.7
     shear = span / 2 * np.full((1, 4), load) @ stations.upper.shear.T
     across = np.concatenate([np.zeros_like(shear), shear])
-    along = solve_force_along(across, rope, 1.0)
+    along = find_force_along(across, rope)
     assert load * span**2 / (8 * along) == pytest.approx(sag * span, rel=1e-9)
 
 

@@ -1,4 +1,4 @@
-"""Every figure of every check follows from report.html alone.
+"""Every figure of every check follows from report.html alone; what it is on paper.
 
 Who reads here has the page and its formulas, nothing of the program. Two sites: the
 example, and one of drawn numbers with what the example lacks.
@@ -18,6 +18,8 @@ from netdesign.site.reader import read_site
 from netdesign.site.template.workbook import write_site_workbook
 from netdesign.study.cases import CheckRun, search_site
 from netdesign.study.judge import judge_site
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.printing import PAPER_PX, PHONE_PX, count_pages, list_too_wide
 from tests.report.reading import PageReader
 from tests.verification.page_again import read_page, work_out, work_out_page
 from tests.verification.untidy_site import PROFILE, write_untidy_site
@@ -126,3 +128,34 @@ def list_numbers(table):
         for j, cell in enumerate(line)
         if re.fullmatch(r"-?[\d.]+(e[+-]\d+)?", cell)
     ]
+
+
+@pytest.fixture(scope="module")
+def twelve(studies):
+    """Twelve rows: the example's, and five of them again under other names."""
+    study = studies["example"]
+    again = [replace(row, id=f"{row.id}b") for row in study.rows[:5]]
+    return replace(study, rows=[*study.rows, *again])
+
+
+@pytest.mark.parametrize(
+    ("detail", "language", "most"),
+    [("full", "en", 47), ("summary", "en", 13), ("summary", "de", 14)],
+)
+def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):
+    """45 and 12 where a font as narrow as Arial is installed; others are wider."""
+    page = render_html(twelve, language, detail)
+    assert count_pages(page, tmp_path) <= most
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_nothing_is_wider_than_the_paper(twelve, tmp_path, language):
+    """A browser would shrink the whole report so that its widest table fits."""
+    assert list_too_wide(render_html(twelve, language), PAPER_PX, tmp_path) == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_on_a_phone_only_tables_are_moved_sideways(twelve, tmp_path, language):
+    page = render_html(twelve, language, "summary")
+    wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
+    assert {one.split()[1] for one in wide} <= {"table", "svg"}

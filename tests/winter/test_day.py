@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from netdesign.coupling.scene import SolverSettings
-from netdesign.coupling.steady.rounds import solve_steady
+from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError
 from netdesign.snow.creep_law import CREEP_LAWS
 from netdesign.snow.snowpack import Layer

@@ -24,6 +24,7 @@ FAMILIES: tuple[str, ...] = (
     "creep_law.",
     *("winter_column.", "winter_outcome.", "day_outcome."),
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
+    *("slab_ground.", "variant."),
     "floor.profile_",
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),

@@ -264,10 +264,6 @@ def _finish(
         equations.motion.offset
         + equations.motion.rate * (velocity[:, : mesh.template.n_vertices])
     )
-    free = equations.free.copy()
-    free[mesh.n_velocities :] = False
-    if equations.top_slips:
-        free[equations.top + 1] = False
     return Instant(
         displaced=state.body.vertices + moved,
         velocity=velocity,
@@ -283,9 +279,18 @@ def _finish(
         on_net=on_net,
         ground_normal=-supports[1, mesh.template.ground[1:]],
         creep_rate=_mean_creep_rate(equations, iterate.stress),
-        residual=float(np.linalg.norm(residual[free])) / equations.weight_size,
+        residual=_measure_residual(equations, residual),
         linear_solves=iterations,
     )
+
+
+def _measure_residual(equations: StepEquations, residual: Floats) -> float:
+    """Force out of balance at what moves freely, over the weight [-]."""
+    free = equations.free.copy()
+    free[equations.mesh.n_velocities :] = False
+    if equations.top_slips:
+        free[equations.top + 1] = False
+    return float(np.linalg.norm(residual[free])) / equations.weight_size
 
 
 def _mean_creep_rate(equations: StepEquations, stress: Floats) -> float:

@@ -14,6 +14,7 @@ from netdesign.coupling.history.run import Run
 from netdesign.coupling.moments import History, HistoryPoint
 from netdesign.coupling.scene import Scene
 from netdesign.coupling.solution import Balance, Cost, EndPull, Method, Solution
+from netdesign.numerics.arrays import Floats, Mask
 
 
 def scale_history(
@@ -87,16 +88,10 @@ def build_solution(
     template = body.topology.template
     vertices = body.vertices
     nodes = np.concatenate([vertices, vertices[:, template.edges].mean(axis=1)], axis=1)
-    sliding = run.instant.response.sliding
     points = run.instant.points
     along = run.problem.head / np.hypot(*run.problem.head)
-    slides = np.append(False, sliding.slide_signs != 0)
-    if run.instant.on_net.shape[1] > sliding.slide_signs.size:
-        slides = np.append(slides, True)  # a corner held at the head slips freely
     balance = _measure_balance(run, scene)
     check_balance(balance, balance_tolerance, friction_tolerance=friction_tolerance)
-    corner = -run.instant.on_net.sum(axis=1)
-    corner += run.instant.foot_pull + run.instant.head_pull
     return Solution(
         scene=scene,
         method=method,
@@ -106,8 +101,8 @@ def build_solution(
         tension_max=max(one.tension_max for one in run.counted) * scene.force_scale,
         sag=float((along[1] * points[0] - along[0] * points[1]).max()) * thickness,
         net_curve=points * thickness,
-        net_forces=np.column_stack([corner, run.instant.on_net]) * scene.force_scale,
-        net_slides=slides,
+        net_forces=_list_forces(run) * scene.force_scale,
+        net_slides=_find_slides(run),
         mesh_nodes=nodes * thickness,
         mesh_edges=template.edges,
         mesh_triangles=body.topology.triangles.T,
@@ -123,6 +118,23 @@ def build_solution(
         ),
         history=history,
     )
+
+
+def _list_forces(run: Run) -> Floats:
+    """Forces of the snow on the net's nodes, shape (2, n), foot to head."""
+    on_net = run.instant.on_net
+    corner = -on_net.sum(axis=1)
+    corner += run.instant.foot_pull + run.instant.head_pull
+    return np.column_stack([corner, on_net])
+
+
+def _find_slides(run: Run) -> Mask:
+    """Net nodes at which the snow slips, foot to head."""
+    signs = run.instant.response.sliding.slide_signs
+    slides = np.append(False, signs != 0)
+    if run.instant.on_net.shape[1] > signs.size:
+        slides = np.append(slides, True)  # a corner held at the head slips freely
+    return slides
 
 
 def _scale_moment(moment: HistoryPoint, scene: Scene, clock: Clock) -> HistoryPoint:

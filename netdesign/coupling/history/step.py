@@ -408,7 +408,8 @@ def _linearise_base(equations: StepEquations, iterate: SnowIterate) -> Tangent |
     if problem.snow.ground == "sliding":
         snow = problem.snow
         if shear is None:
-            snow, shear = replace(snow, exponent=1.0), np.zeros_like(weights)
+            snow = replace(snow, exponent=1.0, slip_exponent=None)
+            shear = np.zeros_like(weights)
         return linearise_sliding(snow, shear, equations.bottom_fluidity_ratio)
     if problem.base_drag > 0.0:
         drag = np.full_like(weights, problem.base_drag)

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import math
 import random
-import resource
-import sys
 import tempfile
 from collections import deque
 from collections.abc import Callable
@@ -26,7 +24,7 @@ from netdesign.envelope.rows import RowEnvelope, RowTask, build_point_task, list
 from netdesign.envelope.run import run_cases
 from netdesign.envelope.search import run_grid, search_rows
 from netdesign.errors import ModelError
-from netdesign.evidence.benchmark.clock import Clock
+from netdesign.evidence.benchmark.clock import Clock, read_peak
 from netdesign.evidence.benchmark.peaks import measure_peaks
 from netdesign.evidence.benchmark.whole_site import Render, measure_site
 from netdesign.search.maxima import RESOLVED_SHARE, SearchSettings
@@ -41,7 +39,6 @@ from netdesign.structure.layout import SupportLayout
 SCHEMA = "netdesign.bench-envelope/1"
 ACCURACY = 0.005
 _AXES = ("density", "friction_angle", "inclination")
-_MEGABYTE = 2**20
 _PROCESSES = 2
 # Points of a grid that are solved: all near a maximum of the model, and one in so many
 # of the others; of a small grid all.
@@ -371,7 +368,7 @@ def _measure_workers(size: BenchSize) -> dict[str, Any]:
 
 def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
     types = [build_random_task(seed) for seed in range(size.types)]
-    points = []
+    points: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cases.sqlite"
         with CaseStore(path, lambda _: None) as store:
@@ -387,7 +384,7 @@ def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
                     "rows": len(found),
                     "wall_s": clock.wall_s,
                     "solved": runner.counts.solved,
-                    "peak_mb": _peak_megabytes(),
+                    "peak_mb": read_peak(),
                 }
             )
     first, last = points[0], points[-1]
@@ -396,14 +393,10 @@ def _measure_portfolio(size: BenchSize) -> dict[str, Any]:
         "what": f"rows of {size.types} types through the store",
         "reach": "time and memory at most in proportion to the rows, no case solved",
         "reached": all(
-            last[key] <= growth * first[key] for key in ("wall_s", "peak_mb")
+            last[key] <= growth * first[key]
+            for key in ("wall_s", "peak_mb")
+            if first[key] is not None
         )
         and not any(point["solved"] for point in points),
         "points": points,
     }
-
-
-def _peak_megabytes() -> float:
-    """Largest memory of this process so far."""
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / (_MEGABYTE if sys.platform == "darwin" else 1024)

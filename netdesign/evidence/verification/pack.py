@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from netdesign.evidence.verification.another_code import list_another_code
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.closed_forms import list_cable, list_law, list_snow
+from netdesign.evidence.verification.compaction import list_compaction
 from netdesign.evidence.verification.coupled import (
     list_invariants,
     list_layered,
@@ -28,6 +30,7 @@ from netdesign.evidence.verification.winters import list_winters
 GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_law,
     list_snow,
+    list_compaction,
     list_manufactured,
     list_cable,
     list_sliding_net,
@@ -44,6 +47,7 @@ GROUPS: tuple[Callable[[], list[VerificationCase]], ...] = (
     list_plan_view,
     list_snow_heights,
     list_winters,
+    list_another_code,
 )
 
 

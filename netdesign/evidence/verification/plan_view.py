@@ -13,11 +13,12 @@ from netdesign.evidence.verification.snow_in_space import (
     find_excess,
     solve_endless,
 )
+from netdesign.haefeli.slab import Slab
 from netdesign.planview.free_gap import find_isolated_load, solve_free_gap
 from netdesign.planview.gap import find_excess_within, find_load
 from netdesign.planview.pulled_gap import solve_pulled_gap
 from netdesign.planview.row import solve_row
-from netdesign.planview.scales import Slab, compute_scales
+from netdesign.planview.scales import compute_scales
 from netdesign.snow.creep_law import (
     ICE_DENSITY,
     compute_bulk_factor,

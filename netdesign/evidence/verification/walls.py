@@ -1,4 +1,4 @@
-"""Rigid walls: other codes, a depth-averaged solution, the Swiss guideline."""
+"""Rigid walls: other codes, the closed form of a slab, the Swiss guideline."""
 
 from __future__ import annotations
 
@@ -10,12 +10,9 @@ from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase
-from netdesign.snow.creep_law import (
-    BOUTILLIER_2004,
-    ICE_DENSITY,
-    compute_bulk_factor,
-    compute_shear_factor,
-)
+from netdesign.haefeli.pressure import compute_slab_force
+from netdesign.haefeli.slab import Slab
+from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack
 from netdesign.snow.wall import Wall
@@ -27,6 +24,15 @@ _CREEP_FACTORS = {200.0: 0.70, 300.0: 0.76, 400.0: 0.83, 500.0: 0.92, 600.0: 1.0
 # (exponent, slope) -> force over guideline at 300 kg/m3, from two independent codes.
 _TWO_CODES = {(3, 35): 1.263, (3, 45): 1.039, (1, 35): 1.023, (1, 45): 0.866}
 _WITHIN_A_THIRD = 1.0 / 3.0
+# Slip length and upslope length over d, friction of the wall, tolerance (measured).
+_SLABS = (
+    (0.0, 40.0, 0.0, 0.03),
+    (0.0, 40.0, None, 0.17),
+    (1.0, 3.0, 0.0, 0.01),
+    (4.0, 190.0, None, 0.005),
+    (16.0, 8.0, 0.0, 0.002),
+    (64.0, 190.0, None, 0.005),
+)
 
 
 def list_walls() -> list[VerificationCase]:
@@ -62,17 +68,27 @@ def list_walls() -> list[VerificationCase]:
 
 
 def list_depth_averaged() -> list[VerificationCase]:
-    """Linear creep on a very slippery ground tends to plug flow."""
+    """Linear creep against the closed form: long and short snow, rough to slippery."""
     cases = []
-    for ratio, tolerance in ((4.0, 0.05), (16.0, 0.01), (64.0, 0.005)):
-        ground = GroundLaw(kind="sliding", slip_length=ratio * _THICKNESS)
-        got = wall_force(40, 300.0, exponent=1, ground=ground, length=190 * _THICKNESS)
+    for ratio, aspect, friction, tolerance in _SLABS:
+        slab = Slab(thickness=_THICKNESS, slope_angle=math.radians(40), density=300.0)
+        slip, length = ratio * _THICKNESS, aspect * _THICKNESS
+        force = compute_slab_force(slab, slip_length=slip, upslope_length=length)
+        got = wall_force(
+            40,
+            300.0,
+            exponent=1,
+            ground=GroundLaw(kind="sliding", slip_length=slip) if slip else _ROUGH,
+            length=length,
+            friction_angle=friction,
+        )
+        wall = "adhering" if friction is None else "smooth"
         cases.append(
             VerificationCase(
-                id=f"depth-averaged-{ratio:g}",
+                id=f"haefeli-{ratio:g}-{aspect:g}-{wall}",
                 kind="limit",
-                reference="depth-averaged viscous layer, slip length / d to infinity",
-                expected=depth_averaged_force(40, 300.0, ratio) / 1e3,
+                reference="slab of plane sections, haefeli/THEORY.md, H6; slip, L in d",
+                expected=force.total / 1e3,
                 got=got / 1e3,
                 tolerance=tolerance,
             )
@@ -87,8 +103,9 @@ def wall_force(
     exponent: float = 3,
     ground: GroundLaw = _ROUGH,
     length: float = 40.0,
+    friction_angle: float | None = None,
 ) -> float:
-    """Force along X [N/m] on an adhering wall; slope in degrees."""
+    """Force along X [N/m] on a wall, adhering unless told; slope in degrees."""
     scene = Scene(
         snowpack=Snowpack(
             slope_angle=math.radians(slope),
@@ -97,7 +114,7 @@ def wall_force(
             density=density,
         ),
         ground=ground,
-        net=Wall(height_normal=_THICKNESS),
+        net=Wall(height_normal=_THICKNESS, friction_angle=friction_angle),
         creep_law=replace(BOUTILLIER_2004, exponent=float(exponent)),
     )
     solution = solve_rigid(scene, SolverSettings(accuracy=0.005))
@@ -112,20 +129,3 @@ def guideline_force(slope: float, density: float) -> float:
     height = _THICKNESS / math.cos(angle)
     creep_factor = _CREEP_FACTORS[density] * math.sin(2.0 * angle)
     return density * GRAVITY * height**2 / 2.0 * creep_factor
-
-
-def depth_averaged_force(slope: float, density: float, slip_ratio: float) -> float:
-    """Force per width [N/m] of a viscous layer of plane sections.
-
-    F = rho g d^2 [ l/d sin psi + K0/2 cos psi ], (l/d)^2 = 2 / (1 - nu) (1/3 + D*/d),
-    K0 = nu / (1 - nu), nu = (3a - 2b) / (6a + 2b).
-    """
-    relative = density / ICE_DENSITY
-    a = compute_shear_factor(BOUTILLIER_2004, relative)
-    b = compute_bulk_factor(BOUTILLIER_2004, relative)
-    poisson = (3 * a - 2 * b) / (6 * a + 2 * b)
-    length = math.sqrt(2.0 / (1.0 - poisson) * (1.0 / 3.0 + slip_ratio))
-    angle = math.radians(slope)
-    side = poisson / (1.0 - poisson) / 2.0
-    mean = length * math.sin(angle) + side * math.cos(angle)
-    return density * GRAVITY * _THICKNESS**2 * mean

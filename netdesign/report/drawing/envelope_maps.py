@@ -27,7 +27,7 @@ from netdesign.study.envelope_records import (
 from netdesign.words.names import name
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
-_HEAD, _PANEL, _FOOT = 26.0, 84.0, 26.0  # heights of a row of panels [pt]
+_HEAD, _PANEL, _FOOT = 22.0, 60.0, 22.0  # heights of a row of panels [pt]
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
@@ -64,7 +64,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         pairs = list(zip(frames, bound.maps, strict=True))
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
-            _name_map(chart, frame, one, words)
+            _name_map(chart, frame, one)
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
@@ -133,17 +133,17 @@ def _list_cells(
     return cells
 
 
-def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
-    """Axes of a map and their names."""
+def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+    """Axes of a map and their symbols, too short to meet."""
     chart.text(
         frame.left + frame.width,
         frame.top - 5.5,
         f"θ = {show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
-    chart.text(frame.left, frame.top - 5.5, name_heading(words, "friction_deg"))
+    chart.text(frame.left - 14.0, frame.top - 5.5, "φ [°]")
     chart.axes(frame)
-    _name_axis(chart, frame, name_heading(words, "density_kg_m3"))
+    _name_axis(chart, frame, "ρ [kg/m³]")
 
 
 def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:

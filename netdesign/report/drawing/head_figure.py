@@ -13,7 +13,8 @@ from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
 from netdesign.structure.members import Member
 from netdesign.study.support_records import HeadForce
 
-_TALLEST, _WIDEST, _EDGE = 130.0, 200.0, 14.0  # of the polygon on paper [pt]
+_TALLEST, _WIDEST, _EDGE = 72.0, 90.0, 12.0  # of the polygon on paper [pt]
+_WIDTH = WIDTH / 2  # half a page: a table stands beside it
 _GAP = 6.0  # from a force to its name [pt]
 
 
@@ -34,7 +35,7 @@ def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
         member = show_member(words, force.member)
         text = words("show.force_of", member=member, force=size)
         sketch.words(at, text, anchor=anchor, fill=colour)
-    return sketch.write(height, words("drawing.polygon"))
+    return sketch.write(height, words("drawing.polygon"), _WIDTH)
 
 
 def _place_corners(forces: Sequence[HeadForce]) -> tuple[list[Point], float]:
@@ -43,7 +44,7 @@ def _place_corners(forces: Sequence[HeadForce]) -> tuple[list[Point], float]:
     ys = list(accumulate((force.y_kN for force in forces), initial=0.0))
     wide, tall = max(xs) - min(xs), max(ys) - min(ys)
     scale = min(_TALLEST / max(tall, 1e-9), _WIDEST / max(wide, 1e-9))
-    left = (WIDTH - wide * scale) / 2
+    left = (_WIDTH - wide * scale) / 2
     corners = [
         (left + (x - min(xs)) * scale, _EDGE + (max(ys) - y) * scale)
         for x, y in zip(xs, ys, strict=True)

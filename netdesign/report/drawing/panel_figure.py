@@ -17,9 +17,9 @@ from netdesign.report.view.panel_tables import name_rope
 from netdesign.report.words import ENGLISH, Words, show_with_unit
 from netdesign.study.support_records import PanelDrawing, PanelRecord
 
-_LEFT, _SPAN = 120.0, 255.0  # of the panel on paper [pt]
-_LONGEST = 78.0  # arrow [pt]
-_CHART, _GAP, _EDGE = 82.0, 40.0, 26.0
+_LEFT, _SPAN = 150.0, 160.0  # of the panel on paper [pt]
+_LONGEST = 46.0  # arrow [pt]
+_CHART, _GAP, _EDGE = 56.0, 26.0, 22.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

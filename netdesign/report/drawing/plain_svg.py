@@ -149,16 +149,16 @@ class Chart:
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
 
-    def write(self, height: float, title: str) -> str:
+    def write(self, height: float, title: str, width: float = WIDTH) -> str:
         """SVG element of the chart, the same bytes each time."""
         words = (
             f"<g {look}>{''.join(texts)}</g>" for look, texts in self.labels.items()
         )
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" role="img" '
-            f'aria-label="{escape(title)}" width="{WIDTH:.0f}pt" '
+            f'aria-label="{escape(title)}" width="{width:.0f}pt" '
             f'height="{height:.0f}pt" '
-            f'viewBox="0 0 {WIDTH:.0f} {height:.0f}" font-size="{TEXT_PT}" '
+            f'viewBox="0 0 {width:.0f} {height:.0f}" font-size="{TEXT_PT}" '
             f'font-family="sans-serif" fill="{INK}">\n'
             + "\n".join((*self.shapes, *words))
             + "\n</svg>\n"

@@ -15,7 +15,7 @@ Point = tuple[float, float]
 LONGEST_ARROW, ROD = 0.46, 0.16
 LABEL = 24.5  # height of a label of two lines
 _LEFT, _RIGHT, _EDGE = 92.0, 108.0, 9.0
-_TALLEST = 274.0
+_TALLEST = 160.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

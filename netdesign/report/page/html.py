@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any
 
 from netdesign.edge.given_files import make_printable
 from netdesign.report.drawing.envelope_figure import draw_envelope
@@ -20,31 +20,27 @@ from netdesign.report.drawing.monitoring_figure import (
 from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.drawing.section_figure import draw_section
 from netdesign.report.page.render import build_environment, load_style
+from netdesign.report.view.check_view import find_shown_member
 from netdesign.report.view.gate import require_sections
-from netdesign.report.view.whole import ReportView, build_view
+from netdesign.report.view.whole import Detail, ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 if TYPE_CHECKING:
-    from markupsafe import Markup
-
-Detail = Literal["summary", "full"]
+    pass
 
 _PAGE_SECTIONS = (
     "verdict",
     "identification",
     "summary",
     "scope",
-    "assumptions",
     "ranges",
-    "formulas",
-    "profile",
     "notes",
-    "quality",
     "checklist",
     "provenance",
 )
+_FULL_SECTIONS = ("assumptions", "formulas", "profile", "quality")
 _SUMMARY_SECTIONS = ("drawing", "checks", "changes")
 _ROW_SECTIONS = (
     *_SUMMARY_SECTIONS,
@@ -75,7 +71,8 @@ def render_html(
     language : str
         ``en``, ``fr`` or ``de``.
     detail : str
-        ``summary`` leaves out what only a reviewer of a net row needs.
+        ``summary`` leaves out what only a reviewer of a net row needs; ``figures``
+        unfolds all figures of the checks, so that paper has them too.
     view : ReportView, optional
         Of this study in this language, where it is there already.
 
@@ -89,10 +86,11 @@ def render_html(
     words = Words(language)
     environment = build_environment(language)
     view = view or build_view(study, language)
-    is_full = detail == "full"
+    is_full = detail != "summary"
     page = environment.get_template("report.html").render(
         view=view,
         is_full=is_full,
+        is_open=detail == "figures",
         language=language,
         css=load_style("report.css"),
         running_title=Markup(_quote_css(view.running_title)),
@@ -107,27 +105,31 @@ def render_html(
 
 def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
     """Ids of all sections that a page of ``view`` must have."""
-    wanted = _ROW_SECTIONS if detail == "full" else _SUMMARY_SECTIONS
+    is_full = detail != "summary"
+    wanted = _ROW_SECTIONS if is_full else _SUMMARY_SECTIONS
+    of_page = (*_PAGE_SECTIONS, *_FULL_SECTIONS) if is_full else _PAGE_SECTIONS
     of_rows = [f"{row.anchor}-{name}" for row in view.rows for name in wanted]
-    if detail == "full":
+    if is_full:
         of_rows += [f"{row.anchor}-panel" for row in view.rows if row.panel]
-    return [*_PAGE_SECTIONS, *of_rows]
+    return [*of_page, *of_rows]
 
 
 def _draw_row(
     row: RowStudy, anchor: str, words: Words, *, is_full: bool
-) -> dict[str, Markup]:
-    """Drawings of a net row by name; "" where there is nothing to draw."""
+) -> dict[str, Any]:
+    """Drawings of a net row by name; "" where there is nothing to draw.
+
+    ``searched`` has those of each member, the one that governs first.
+    """
     from markupsafe import Markup, escape
 
     record = row.envelope if is_full else None
     members = split_members(record) if record else []
+    first = find_shown_member(row)
+    members.sort(key=lambda one: one.bounds[0].quantity != first)
     drawn = {
         "section": draw_section(row.drawing, anchor, words) if row.drawing else "",
         "envelope": draw_envelope(row, words) if is_full and not record else "",
-        "maps": "".join(draw_maps(one, words) for one in members),
-        "lines": "".join(draw_lines(one, words) for one in members),
-        "drivers": "".join(draw_drivers(one, words) for one in members),
         "head": draw_head(row.head, words) if is_full and len(row.head) > 1 else "",
         "panel": draw_panel(row.panel, words) if row.panel and is_full else "",
         "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r", words)
@@ -135,9 +137,17 @@ def _draw_row(
         else "",
     }
     figures = {name: Markup(svg) for name, svg in drawn.items()}
+    searched = [
+        {
+            "maps": Markup(draw_maps(one, words)),
+            "lines": Markup(draw_lines(one, words)),
+            "drivers": Markup(draw_drivers(one, words)),
+        }
+        for one in members
+    ]
     measured = bool(drawn["monitoring"])
     note = escape(describe_monitoring(row.monitoring, words) if measured else "")
-    return {**figures, "monitoring_note": note}
+    return {**figures, "searched": searched, "monitoring_note": note}
 
 
 def _quote_css(text: str) -> str:

@@ -26,8 +26,10 @@ from netdesign.report.drawing.net_figures import (
     find_face,
     picture_mesh,
 )
+from netdesign.report.drawing.panel_figure import draw_panel
 from netdesign.report.page.csv_text import write_csv
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.view.solved_support import view_support
 from netdesign.report.view.table import (
     Column,
     Table,
@@ -44,12 +46,13 @@ from netdesign.report.words import (
     show_text,
     show_with_unit,
 )
+from netdesign.study.support_records import PanelRecord
 from netdesign.words.catalogue import Language
 
 Solved = Solution | WallSolution | FailedSolution
 PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history.csv"
 
-_DRAWINGS = ("history", "node_forces", "stick_slip", "mesh")
+_DRAWINGS = ("history", "node_forces", "stick_slip", "mesh", "panel")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,10 +74,14 @@ class Headline:
     note: str
 
 
-def list_solution_files(method: str, *, is_wall: bool) -> list[str]:
+def list_solution_files(
+    method: str, *, is_wall: bool, has_panel: bool = False
+) -> list[str]:
     """Names of all files that a solution of this kind may become."""
     drawings = [f"{name}.svg" for name in _DRAWINGS]
     names = [SOLUTION_FILE, PAGE_FILE, *drawings]
+    if not has_panel:
+        names.remove("panel.svg")
     if method == "steady" or is_wall:
         names.remove("history.svg")
         return names
@@ -86,6 +93,7 @@ def render_solution(
     document: dict[str, Any],
     scene_file: str,
     language: Language = "en",
+    panel: PanelRecord | None = None,
 ) -> dict[str, bytes]:
     """Contents of all files of one solution, by name.
 
@@ -99,9 +107,13 @@ def render_solution(
         Name of the scene's file, for the page's title.
     language : str
         Of page and drawings; the tables of numbers keep their keys.
+    panel : PanelRecord, optional
+        The panel beside the net, to be drawn.
     """
     words = Words(language)
-    drawings = [] if isinstance(solution, FailedSolution) else _draw(solution, words)
+    drawings = (
+        [] if isinstance(solution, FailedSolution) else _draw(solution, panel, words)
+    )
     files = {
         SOLUTION_FILE: json.dumps(document, indent=1, allow_nan=False).encode(),
         PAGE_FILE: _render_page(document, drawings, scene_file, words).encode(),
@@ -129,7 +141,9 @@ def write_history(moments: Sequence[dict[str, Any]]) -> bytes:
     return write_csv([*plain, *nodes], rows)
 
 
-def _draw(solution: Solution | WallSolution, words: Words) -> list[Drawn]:
+def _draw(
+    solution: Solution | WallSolution, panel: PanelRecord | None, words: Words
+) -> list[Drawn]:
     face = find_face(solution)
     svgs = {
         "history": _draw_history(solution, words)
@@ -138,6 +152,7 @@ def _draw(solution: Solution | WallSolution, words: Words) -> list[Drawn]:
         "node_forces": draw_node_forces(face, "forces", words),
         "stick_slip": draw_stick_slip(face, "stick", words),
         "mesh": draw_meshes([picture_mesh(solution, "")], "mesh", words),
+        "panel": draw_panel(panel, words) if panel else "",
     }
     return [
         Drawn(name=name, caption=words(f"solved_caption.{name}"), svg=svg)
@@ -194,6 +209,7 @@ def _render_page(
     proven = document["outcome"] == "converged"
     plateau = document.get("plateau")
     without_plateau = plateau is not None and not plateau["reached"]
+    support = document.get("support")
     template = build_environment(words.language).get_template("solution.html")
     return template.render(
         language=words.language,
@@ -210,6 +226,7 @@ def _render_page(
             {"caption": drawn.caption, "svg": mark_safe(drawn.svg), "name": drawn.name}
             for drawn in drawings
         ],
+        support=view_support(support, words) if support else None,
         tables=[_tabulate_nodes(document, words), _tabulate_quality(document, words)]
         if proven
         else [],

@@ -11,7 +11,6 @@ from netdesign.report.words import (
     MISSING,
     Words,
     show_number,
-    show_own,
     show_quantity,
     show_text,
     understand,
@@ -59,18 +58,20 @@ def build_assumptions(study: Study, words: Words) -> Table:
                 _list_cells(what, value, words("status.default"), who)
                 for (what, value), who in defaults.items()
             ),
-            *(
-                _list_cells(
-                    show_own(words, value.text),
-                    f"{value.id} = {show_quantity(value.value, value.unit)}",
-                    words("status.assumed"),
-                    show_own(words, value.source),
-                )
-                for value in study.profile.values
-                if value.status == ASSUMED
-            ),
+            *_count_assumed(study, words),
         ),
     )
+
+
+def _count_assumed(study: Study, words: Words) -> tuple[tuple[Cell, ...], ...]:
+    """Line that leads to the profile's values that nobody confirmed; none without."""
+    count = sum(value.status == ASSUMED for value in study.profile.values)
+    if not count:
+        return ()
+    told = words("show.assumed_counted", assumed=count, count=len(study.profile.values))
+    place = words("show.see_profile")
+    named = words("heading.limit_profile")
+    return (_list_cells(named, told, words("status.assumed"), place),)
 
 
 def _list_cells(*texts: str) -> tuple[Cell, ...]:

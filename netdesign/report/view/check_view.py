@@ -24,14 +24,15 @@ from netdesign.report.words import (
     show_verdict,
     show_with_unit,
 )
+from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint
-from netdesign.study.records import CheckRecord
+from netdesign.study.records import CheckRecord, RowStudy
 from netdesign.words.names import name
 
 # Worst first.
 SEVERITY = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _BAR_UNIT = 100.0  # length of a ratio bar at utilisation 1
-_BAR_END = 150.0  # longer bars are cut here
+_BAR_BEYOND = 50.0  # length that is left for all above 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,6 +117,22 @@ def find_highest(checks: Sequence[CheckRecord]) -> CheckRecord | None:
     return max(known, key=_ratio, default=None)
 
 
+def find_shown(row: RowStudy) -> CheckRecord | None:
+    """Check of which the page shows most: the governing one, or the most used one."""
+    governing = find_governing(row.checks)
+    if governing and governing.utilisation is not None:
+        return governing
+    return find_highest(row.checks)
+
+
+def find_shown_member(row: RowStudy) -> str:
+    """Member whose envelope the page shows first; "" without any."""
+    shown = find_shown(row)
+    if shown is None or shown.member in REPORTED_MEMBERS:
+        return shown.member if shown else ""
+    return BROUGHT_BY.get(shown.member, "")
+
+
 def view_check(check: CheckRecord, words: Words) -> CheckView:
     """Put one check into words."""
     low, high = check.utilisation_band
@@ -162,10 +179,15 @@ def _build_bar(
 ) -> Bar | None:
     if low is None or value is None or high is None:
         return None
-    lengths = [
-        f"{min(_BAR_UNIT * ratio, _BAR_END):.1f}" for ratio in (low, value, high)
-    ]
+    lengths = [f"{_measure_bar(ratio):.1f}" for ratio in (low, value, high)]
     return Bar(low=lengths[0], value=lengths[1], high=lengths[2], is_over=value > 1)
+
+
+def _measure_bar(ratio: float) -> float:
+    """Length of a bar: in proportion up to 1, then ever slower, so that 9 is no 1.5."""
+    if ratio <= 1.0:
+        return _BAR_UNIT * ratio
+    return _BAR_UNIT + _BAR_BEYOND * (1.0 - 1.0 / ratio)
 
 
 def work_out(check: CheckRecord, words: Words) -> Worked:

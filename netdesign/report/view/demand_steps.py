@@ -63,8 +63,10 @@ def _describe_parts(action: ActionRecord) -> list[tuple[str, str, str]]:
             show_with_unit("solved_kN", one)
             for one in (action.foot_part_kN, action.guy_part_kN)
         )
-        solved = show_with_unit("solved_kN", action.solved_kN)
-        steps.append(("E_s = |F_foot| + |F_uphill|", " + ".join(parts), solved))
+        solved = show_with_unit("solved_kN", action.larger_force)
+        symbol = "E_p" if action.is_by_panel else "E_s"
+        symbols = f"{symbol} = |F_foot| + |F_uphill|"
+        steps.append((symbols, " + ".join(parts), solved))
     load = action.sideways
     if load is None:
         return steps
@@ -153,18 +155,24 @@ def _describe_panel(action: ActionRecord, words: Words) -> str:
 
 
 def show_loads(check: CheckRecord) -> str:
-    """All values by their symbols, characteristic; "" where there is one alone."""
+    """All values by their symbols, characteristic, the one that governs first.
+
+    Returns "" where there is one alone.
+    """
     action = _find_loaded(check)
     if action is None:
         return ""
-    numbers = [f"E_c ≤ {show_number('coupled_kN', action.coupled_kN)}"]
-    if action.panel_support_kN is not None:
-        panel = show_number("panel_support_kN", action.panel_support_kN)
-        numbers.append(f"E_p ≤ {panel}")
+    values = {
+        "coupled": f"E_c {show_number('coupled_kN', action.coupled_kN)}",
+        "panel": f"E_p {show_number('panel_support_kN', action.panel_support_kN)}",
+        "guideline": f"E_g {show_number('guideline_kN', action.guideline_kN)}",
+    }
+    if action.panel_support_kN is None:
+        del values["panel"]
     if action.guideline_kN is None:
-        return ", ".join(numbers) + " kN"
-    guideline = show_with_unit("guideline_kN", action.guideline_kN)
-    return ", ".join([*numbers, f"E_g = {guideline}"])
+        del values["guideline"]
+    first = values.pop(action.governs or "coupled")
+    return ", ".join([first, *values.values()])
 
 
 def _find_loaded(check: CheckRecord) -> ActionRecord | None:

@@ -9,7 +9,16 @@ from netdesign.study.records import CheckRecord, HoldRecord, RowStudy
 
 
 def build_holds(row: RowStudy, words: Words) -> Table:
-    """Limits of each check by single quantity, and where it has none; a line each."""
+    """Limits of checks by single quantity, and where they have none.
+
+    Checks of which the same is to be told share a line.
+    """
+    told: dict[tuple[str, str], list[CheckRecord]] = {}
+    for check in row.checks:
+        if check.holds:
+            limits = words.join(list_limits(check, words))
+            spans = words.join(_list_spans(check, words))
+            told.setdefault((limits, spans), []).append(check)
     keys = ("check", "turns", "does_not_turn", "solves")
     headings = [words(f"heading.{key}") for key in keys]
     return Table(
@@ -17,13 +26,12 @@ def build_holds(row: RowStudy, words: Words) -> Table:
         columns=name_columns(headings, numbers=headings[3:]),
         rows=tuple(
             (
-                text_cell(show_check(words, check)),
-                text_cell(words.join(list_limits(check, words))),
-                text_cell(words.join(_list_spans(check, words))),
-                given_cell(sum(hold.solves for hold in check.holds)),
+                text_cell(words.join([show_check(words, one) for one in checks])),
+                text_cell(limits),
+                text_cell(spans),
+                given_cell(sum(hold.solves for one in checks for hold in one.holds)),
             )
-            for check in row.checks
-            if check.holds
+            for (limits, spans), checks in told.items()
         ),
         empty=words("heading.no_single_value"),
     )

@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from netdesign.edge.json_text import list_fields
 from netdesign.outcome import Outcome
@@ -22,6 +23,7 @@ from netdesign.report.view.table import (
     text_column,
 )
 from netdesign.report.words import (
+    MISSING,
     VERDICTS,
     Words,
     add_unit,
@@ -38,7 +40,7 @@ from netdesign.report.words import (
 from netdesign.site.model import InputEcho
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint, CaseRecord
-from netdesign.study.records import ProfileRecord, RowStudy, Study
+from netdesign.study.records import ProfileRecord, ProfileValue, RowStudy, Study
 from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
@@ -187,7 +189,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
 
 def build_profile(study: Study, words: Words, status: str = "") -> Table:
     """Values of the limit profile; only those of one ``status`` if it is given."""
-    keys = ("clause", "value_of", "value", "unit", "status", "source")
+    keys = ("clause_and_key", "value_of", "value", "unit", "status", "source")
     headings = [words(f"heading.{key}") for key in keys]
     caption = words("caption.every_value")
     if status:
@@ -198,7 +200,7 @@ def build_profile(study: Study, words: Words, status: str = "") -> Table:
         columns=name_columns(headings, numbers=(words("heading.value"),)),
         rows=tuple(
             (
-                text_cell(value.clause),
+                text_cell(_name_place(value)),
                 text_cell(show_own(words, value.text)),
                 given_cell(value.value),
                 text_cell(show_unit(value.unit)),
@@ -210,6 +212,26 @@ def build_profile(study: Study, words: Words, status: str = "") -> Table:
         ),
         empty=words("show.none"),
     )
+
+
+def _name_place(value: ProfileValue) -> str:
+    """Clause and key of a value: what the first page and a reviewer ask for."""
+    return ", ".join(
+        one for one in (value.clause, value.id) if one not in ("", MISSING)
+    )
+
+
+def number_sources(table: Table) -> tuple[Table, tuple[str, ...]]:
+    """The table with a number for each source that several values have, and those."""
+    counts = Counter(cells[-1].text for cells in table.rows)
+    shared = [source for source, count in counts.items() if count > 1]
+    numbers = {source: f"[{k}]" for k, source in enumerate(shared, 1)}
+    rows = tuple(
+        (*cells[:-1], Cell(text=numbers.get(cells[-1].text, cells[-1].text)))
+        for cells in table.rows
+    )
+    told = tuple(f"{number} {source}" for source, number in numbers.items())
+    return replace(table, rows=rows), told
 
 
 def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:

@@ -8,21 +8,31 @@ from __future__ import annotations
 
 import shlex
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Literal
 
 from netdesign.checks.result import tell_proof
 from netdesign.outcome import Verdict
 from netdesign.report.view import (
     basis_tables,
+    end_tables,
     envelope_tables,
     figure_tables,
     formula_tables,
     hold_tables,
+    opinion_tables,
     panel_tables,
     row_tables,
+    site_tables,
     statics_tables,
     tables,
+)
+from netdesign.report.view.check_lines import (
+    CheckLine,
+    choose_lines,
+    list_lines,
+    list_requirements,
 )
 from netdesign.report.view.check_view import (
     SEVERITY,
@@ -30,6 +40,7 @@ from netdesign.report.view.check_view import (
     Worked,
     find_governing,
     find_highest,
+    find_shown,
     rank_check,
     view_check,
     work_out,
@@ -40,6 +51,7 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     name_case,
+    name_heading,
     show_check,
     show_member,
     show_quantity,
@@ -52,6 +64,10 @@ from netdesign.study.records import RowStudy, Study
 from netdesign.words.catalogue import Language
 
 VERIFY = "netdesign verify"
+_FACTORS = ("action", "resistance")  # subjects whose values stand on the first page
+_FEW = 3  # values of another subject that still do
+# Of the page: the least, all, and all with every figure of the checks unfolded.
+Detail = Literal["summary", "full", "figures"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,6 +98,9 @@ class RowView:
     highest: CheckView | None  # largest utilisation, where that does not govern
     reasons: tuple[str, ...]
     checks: tuple[CheckView, ...]
+    lines: tuple[CheckLine, ...]  # those of forces, inside and end beside each other
+    main_lines: tuple[CheckLine, ...]  # those that do not pass, and the most used
+    requirements: tuple[CheckView, ...]  # those without a force
     worked: Worked | None
     drawn_case: str
     unloaded: str  # members left out of the envelope figure, or ""
@@ -100,11 +119,18 @@ class RowView:
     held: tuple[str, ...]  # the same for the governing check, in short
     flips: tuple[str, ...]  # the same for the governing check, in short
     independent: Table
+    laws_met: str  # how many of those are met, where all of them are; else ""
     guideline: Table
     guideline_sentence: str
     floor: Table
+    floor_governs: bool  # in a check at least
+    slab: Table
+    slab_line: str  # the same in short; "" without
+    model_form: Table
+    model_form_line: str  # "" where nothing governs
     figures: Figures
     panel: panel_tables.PanelView | None
+    end_effects: Table
     notes: tuple[str, ...]
 
 
@@ -129,15 +155,21 @@ class ReportView:
     scope: tuple[str, ...]
     assumptions: Table
     checklist: Table
+    matrix: Table  # rows by members
+    site_inputs: tuple[Table, ...]  # of all rows, some beside each other
     rows: tuple[RowView, ...]
     ranges: Table
     profile_title: str
     profile: Table
+    numbered_profile: Table  # the same, with numbers for sources that recur
+    sources: tuple[str, ...]  # those sources, each with its number
     notes: tuple[str, ...]
+    shared_notes: tuple[str, ...]  # of several rows, each with the rows it is about
     formulas: Table
     figure_tables: Table  # what each of a row's tables of figures holds
     quality: Table
     outcomes: Table
+    legend: str  # of the numbers of a case
     provenance: Table
 
 
@@ -152,8 +184,12 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
     require_consistent(study)
     words, project = Words(language), study.project
     assumed = tables.build_profile(study, words, tables.ASSUMED)
+    profile = tables.build_profile(study, words)
+    numbered, sources = tables.number_sources(profile)
+    shared = _share_notes(study, words)
     rows = tuple(
-        _view_row(row, number, words) for number, row in enumerate(study.rows, 1)
+        _view_row(row, number, words, shared)
+        for number, row in enumerate(study.rows, 1)
     )
     return ReportView(
         identification=_identify(study, words),
@@ -177,20 +213,29 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         scope=basis_tables.list_scope(words),
         assumptions=basis_tables.build_assumptions(study, words),
         checklist=basis_tables.build_checklist(study, words),
+        matrix=site_tables.build_matrix(study, words),
+        site_inputs=site_tables.build_site_inputs(study, words),
         rows=rows,
         ranges=tables.build_inputs(
             study.range_inputs, words("heading.ranges_of_envelope"), words
         ),
         profile_title=tables.name_profile(study, words),
-        profile=tables.build_profile(study, words),
+        profile=profile,
+        numbered_profile=numbered,
+        sources=sources,
         notes=(
             *(words.show(note) for note in study.notes),
             *tables.list_below_one(study.profile, words),
+        ),
+        shared_notes=tuple(
+            words("show.label", label=", ".join(ids), text=note)
+            for note, ids in shared.items()
         ),
         formulas=formula_tables.build_formulas(words),
         figure_tables=formula_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
+        legend=describe_cases(study, words),
         provenance=tables.build_provenance(study, words),
     )
 
@@ -208,9 +253,21 @@ def _find_governing_row(study: Study, views: Sequence[RowView]) -> RowView | Non
     return None if best is None else views[best]
 
 
-def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
+def _share_notes(study: Study, words: Words) -> dict[str, list[str]]:
+    """Notes that several rows have, word by word, with the rows: told once."""
+    rows: dict[str, list[str]] = {}
+    for row in study.rows:
+        for note in dict.fromkeys(words.show(note) for note in row.notes):
+            rows.setdefault(note, []).append(show_text(row.id))
+    return {note: ids for note, ids in rows.items() if len(ids) > 1}
+
+
+def _view_row(
+    row: RowStudy, number: int, words: Words, told: Container[str]
+) -> RowView:
+    """One row in words, but for the notes that are ``told`` elsewhere."""
     governing, highest = find_governing(row.checks), find_highest(row.checks)
-    shown = governing if governing and governing.utilisation is not None else highest
+    shown, lines = find_shown(row), list_lines(row.checks, words)
     return RowView(
         anchor=f"row-{number}",
         id=show_text(row.id),
@@ -222,6 +279,9 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         else None,
         reasons=tuple(words.show(reason) for reason in row.reasons),
         checks=tuple(view_check(check, words) for check in row.checks),
+        lines=lines,
+        main_lines=choose_lines(lines),
+        requirements=list_requirements(row.checks, words),
         worked=work_out(shown, words) if shown else None,
         drawn_case=name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row, words),
@@ -242,12 +302,22 @@ def _view_row(row: RowStudy, number: int, words: Words) -> RowView:
         held=hold_tables.list_limits(governing, words),
         flips=row_tables.list_flips(governing, words),
         independent=row_tables.build_independent(row, words),
+        laws_met=_count_laws(row, words),
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
+        floor_governs=any(
+            one.action is not None and one.action.governs == "guideline"
+            for one in row.checks
+        ),
+        slab_line=opinion_tables.tell_slab(row, words),
+        slab=opinion_tables.build_slab(row, words),
+        model_form=opinion_tables.build_model_form(row, words),
+        model_form_line=opinion_tables.tell_model_form(row.model_form, words),
         figures=_view_figures(row, words),
         panel=panel_tables.view_panel(row, words),
-        notes=tuple(words.show(note) for note in row.notes),
+        end_effects=end_tables.build_end_effects(row, words),
+        notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
     )
 
 
@@ -264,6 +334,26 @@ def _view_figures(row: RowStudy, words: Words) -> Figures:
         tests=figure_tables.build_tests(row, words),
         turns=statics_tables.build_turns(row, words),
     )
+
+
+def describe_cases(study: Study, words: Words) -> str:
+    """Legend of the numbers of a case, in their order."""
+    points = [case.case for row in study.rows for case in row.cases[:1]]
+    names = (
+        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
+    )
+    legend = words("show.legend")
+    if not names:
+        return legend
+    return words("show.legend_further", legend=legend, names=" / ".join(names))
+
+
+def _count_laws(row: RowStudy, words: Words) -> str:
+    """How many independent laws the drawn case obeys, if it is all of them."""
+    count = len(row.independent)
+    if not count or not all(one.is_met for one in row.independent):
+        return ""
+    return words("show.laws_counted", met=count, count=count)
 
 
 def _name_unloaded(row: RowStudy, words: Words) -> str:
@@ -371,10 +461,23 @@ def _list_declared(study: Study, words: Words) -> tuple[str, ...]:
     )
 
 
+def _fold_keys(values: Sequence[tuple[str, str]]) -> list[str]:
+    """``key = value`` of factors; of other subjects with many values their count."""
+    counts = Counter(key.partition(".")[0] for key, _ in values)
+    told = []
+    for key, value in values:
+        subject = key.partition(".")[0]
+        is_many = counts[subject] > _FEW and subject not in _FACTORS
+        told.append(
+            f"{subject}.* ({counts[subject]})" if is_many else f"{key} = {value}"
+        )
+    return list(dict.fromkeys(told))
+
+
 def _list_assumed(study: Study, words: Words) -> str:
     """Values of the profile and axes of anchors that nobody has confirmed."""
     assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
-    names = [f"{v.id} = {show_quantity(v.value, v.unit)}" for v in assumed]
+    names = _fold_keys([(v.id, show_quantity(v.value, v.unit)) for v in assumed])
     axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
     kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
     for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):

@@ -134,21 +134,9 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         ("cases", "heading.all_cases", cases),
         ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
         ("holds", "heading.single_values", _list_parts(view, "holds")),
-        (
-            "support",
-            "heading.forces_on_ground",
-            _list_parts(view, "anchors"),
-        ),
-        (
-            "directions",
-            "heading.directions_of_pulls",
-            _list_parts(view, "pulls"),
-        ),
-        (
-            "guideline",
-            "heading.check_by_guideline",
-            _list_parts(view, "guideline"),
-        ),
+        ("support", "heading.forces_on_ground", _list_parts(view, "anchors")),
+        ("directions", "heading.directions_of_pulls", _list_parts(view, "pulls")),
+        ("guideline", "heading.check_by_guideline", _list_parts(view, "guideline")),
     ):
         caption = parts[0][1].caption if parts else book.words(title)
         stacked = _stack(book, caption, parts)
@@ -156,11 +144,17 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         if name == "guideline":
             floors = _list_parts(view, "floor")
             shown.append(_stack(book, book.words("caption.floor"), floors))
+            for other in ("slab", "model_form"):
+                parts_of_other = _list_parts(view, other)
+                words = book.words(f"opinion.{other}")
+                shown.append(_stack(book, words, parts_of_other))
         if name == "directions":
             turns = [(row.id, row.figures.turns) for row in view.rows]
             shown.append(_stack(book, book.words("caption.turns"), turns))
         if name == "support":
             shown += _list_panels(book, view)
+            ends = [(row.id, row.end_effects) for row in view.rows]
+            shown.append(_stack(book, book.words("end_view.caption"), ends))
         sheet = book.add_table_sheet(name, book.words(title), shown)
         bottom = _FIRST_LINE + len(stacked.rows) - 1
         if name == "envelope" and stacked.rows:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from netdesign.site.cells.findings import Finding, Refusal, Severity
 from netdesign.site.cells.numbers import DecimalMark
@@ -27,6 +27,34 @@ class TextFormat:
 
 
 UNDECLARED = TextFormat()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answers:
+    """Answers of the engineer about a workbook, from the file of `site.mapping`.
+
+    Attributes
+    ----------
+    file, sha256 : str
+        Of the file of answers; empty where there is none.
+    sheets : mapping of str to str
+        Name of a planned sheet, or ``ignore``, by name of a sheet as typed.
+    headings : mapping of str to mapping of str to str
+        By sheet as typed, then heading or item as typed: a heading with its unit, or
+        ``ignore``.
+    decimal_mark : str
+        Of numbers stored as text.
+    """
+
+    file: str = ""
+    sha256: str = ""
+    sheets: Mapping[str, str] = field(default_factory=dict)
+    headings: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    decimal_mark: DecimalMark = ""
+
+
+UNASKED = Answers()
+IGNORE = "ignore"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,6 +155,8 @@ class Sheet:
     hidden_columns: frozenset[int] = frozenset()
     is_hidden: bool = False
     is_delimited: bool = False  # of a csv file: a line may be cut at wrong places
+    answers: Mapping[str, str] = field(default_factory=dict)  # by heading as typed
+    answered_in: str = ""  # the file of the answers
 
     def cell(self, row: int, column: int) -> Cell:
         """Cell at a place, blank where nothing is filled in."""
@@ -157,6 +187,7 @@ class Workbook:
     sha256: str
     sheets: tuple[Sheet, ...]
     unread: tuple[str, ...]
+    answers: Answers = UNASKED
     remarks: tuple[Finding, ...] = ()  # how the file was read, what was left aside
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,6 +14,8 @@ from netdesign.words.message import Message, say
 Severity = Literal["error", "note"]
 
 _LONGEST_QUOTE = 60
+_OF_SHEETS = ("table.lacks_sheet", "table.close_to_missing", "table.second_sheet")
+_MOST_ALIKE = 12  # named after the first
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +75,14 @@ class Finding:
             accepted=accepted if self.accepted else "",
         )
 
+    @property
+    def is_asked(self) -> bool:
+        """An answer in a file beside the workbook can settle it."""
+        area = self.rule.key.partition(".")[0]
+        return self.severity == "error" and (
+            area in ("heading", "item") or self.rule.key in _OF_SHEETS
+        )
+
     def __str__(self) -> str:
         """The message in English."""
         return str(self.message)
@@ -83,6 +93,37 @@ class Finding:
         if self.cell:
             return say("finding.the_cell")
         return say("finding.the_sheet" if self.sheet else "finding.the_file")
+
+
+def fold_findings(findings: Sequence[Finding]) -> tuple[Message, ...]:
+    """Lines of what is wrong, faults first; what is wrong alike is told once.
+
+    Alike are findings of one rule: in one column, or in one sheet if they are remarks.
+    """
+    alike: dict[tuple[object, ...], list[Finding]] = {}
+    for finding in sorted(findings, key=lambda one: one.severity != "error"):
+        column = finding.cell.rstrip("0123456789")
+        is_fault = finding.severity == "error"
+        place = (column, str(finding.field)) if is_fault else ()
+        key = (finding.severity, finding.file, finding.sheet, str(finding.rule), place)
+        group = alike.setdefault(key, [])
+        group.append(finding)
+    asked = [one for one in findings if one.is_asked]
+    offers = [say("finding.ask_map", file=one.file) for one in asked[:1]]
+    return (*map(_tell_alike, alike.values()), *offers)
+
+
+def _tell_alike(findings: list[Finding]) -> Message:
+    first, *others = findings
+    if not others:
+        return first.message
+    shown = tuple(
+        f"{one.cell} {quote(one.text)}" if one.text else one.cell or one.sheet
+        for one in others[:_MOST_ALIKE]
+    )
+    more = len(others) - len(shown)
+    key = "finding.likewise_more" if more else "finding.likewise"
+    return say(key, line=first.message, others=shown, count=more)
 
 
 def refuse_file(

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from netdesign.edge.causes import explain
 from netdesign.edge.given_files import make_printable, read_bounded
+from netdesign.edge.open_elsewhere import is_held
 from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
 from netdesign.site.cells.delimited import read_delimited
 from netdesign.site.cells.findings import Finding, note_file, quote, refuse_file
@@ -152,6 +153,9 @@ def _read_file(path: Path, most: int) -> bytes:
             )
         return read_bounded(path, most)
     except OSError as error:
+        if is_held(error, path):
+            rule = say("book.open_elsewhere")
+            raise refuse_file(path.name, rule, say("book.close_it")) from error
         rule = say("book.not_opened", cause=explain(error))
         raise refuse_file(path.name, rule, _ACCEPTED_FILE) from error
     except ValueError:

@@ -17,6 +17,8 @@ Language = Literal["en", "fr", "de"]
 
 LANGUAGES: tuple[Language, ...] = ("en", "fr", "de")
 _LONGEST_HEADING = 100
+_NUMBERING = re.compile(r"^\s*\d{1,2}(?:\.\d{1,2})*[\s._)-]+")  # "2 Netzreihen"
+_BETWEEN_NAMES = re.compile(r"\s+[-–/|]\s+|/|\|")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,6 +66,8 @@ class Field:
         Sheet or list that it belongs to.
     named : Message or None
         Another name than the column's, of a part of it.
+    synonyms, further_words : tuple of str, mapping of str to tuple of str
+        Further headings, and further spellings of its words, in any language.
     """
 
     key: str
@@ -80,6 +84,8 @@ class Field:
     wordings: Mapping[str, Wording] = field(default_factory=dict)
     table: str = ""
     named: Message | None = None
+    synonyms: tuple[str, ...] = ()
+    further_words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def name(self) -> Message:
@@ -103,10 +109,15 @@ class Field:
     @property
     def names(self) -> frozenset[str]:
         """Accepted headings without unit, normalised."""
-        names = [self.label, *self.aliases]
+        return frozenset(map(normalise, self.raw_names))
+
+    @property
+    def raw_names(self) -> tuple[str, ...]:
+        """Accepted headings without unit, as they are written."""
+        names = [self.label, *self.aliases, *self.synonyms]
         for wording in self.wordings.values():
             names += [wording.label, *wording.aliases]
-        return frozenset(map(normalise, names))
+        return tuple(names)
 
     @property
     def spellings(self) -> dict[str, str]:
@@ -119,6 +130,8 @@ class Field:
         for wording in self.wordings.values():
             for word, names in wording.words.items():
                 found |= dict.fromkeys(names, word)
+        for word, names in self.further_words.items():
+            found |= dict.fromkeys(names, word)
         return found
 
     def wording(self, language: Language) -> Wording:
@@ -167,7 +180,7 @@ class SheetPlan:
     def matches(self, sheet_name: str) -> bool:
         """A workbook's sheet of this name is the planned one."""
         names = (self.name, *self.aliases, *self.names.values())
-        return normalise(sheet_name) in map(normalise, names)
+        return is_one_of(sheet_name, names)
 
     @property
     def title(self) -> Message:
@@ -193,6 +206,18 @@ class SheetPlan:
                 known = (*self.fields, *self.items)
                 return tuple(one for one in known if one.key in keys)
         return ()
+
+
+def is_one_of(sheet_name: str, names: Iterable[str]) -> bool:
+    """The name of a sheet is one of some: numbered perhaps, or in two languages."""
+    known = frozenset(map(normalise, names))
+    plain = _NUMBERING.sub("", sheet_name)
+    parts = [normalise(one) for one in _BETWEEN_NAMES.split(plain)]
+    return (
+        normalise(sheet_name) in known
+        or normalise(plain) in known
+        or (all(parts) and known.issuperset(parts))
+    )
 
 
 @lru_cache(maxsize=4096)

@@ -14,6 +14,12 @@ from importlib.resources import files
 from typing import Any
 
 from netdesign.site.columns.fields import Field, Language, SheetPlan, Wording
+from netdesign.site.columns.synonyms import (
+    find_headings_of,
+    find_sheet_names,
+    find_unclear_of,
+    find_words_of,
+)
 from netdesign.words.catalogue import render
 
 # English stands in all_tables.py, beside the fields
@@ -40,7 +46,13 @@ def word_field(field: Field, table: str) -> Field:
         for language in _TRANSLATED
         if field.key in load_words(language).get(table, {})
     }
-    return replace(own, label=render(own.name, "en"), wordings=found)
+    return replace(
+        own,
+        label=render(own.name, "en"),
+        wordings=found,
+        synonyms=find_headings_of(table, field.key),
+        further_words=find_words_of(field.key) if field.words else {},
+    )
 
 
 def word_plan(plan: SheetPlan) -> SheetPlan:
@@ -48,8 +60,24 @@ def word_plan(plan: SheetPlan) -> SheetPlan:
     names: dict[str, str] = {
         language: render(plan.title, language) for language in _TRANSLATED
     }
-    fields = tuple(word_field(field, plan.name) for field in plan.fields)
-    return replace(plan, names=names, fields=fields)
+    return replace(
+        plan,
+        names=names,
+        aliases=(*plan.aliases, *find_sheet_names(plan.name)),
+        fields=tuple(word_field(field, plan.name) for field in plan.fields),
+        unclear=_join(plan.unclear, find_unclear_of(plan.name)),
+    )
+
+
+def _join(
+    one: Mapping[str, tuple[str, ...]], other: Mapping[str, tuple[str, ...]]
+) -> dict[str, tuple[str, ...]]:
+    """Unclear headings of two tables, with the fields that either gives."""
+    names = dict.fromkeys((*one, *other))
+    return {
+        name: tuple(dict.fromkeys((*one.get(name, ()), *other.get(name, ()))))
+        for name in names
+    }
 
 
 def _read_wording(

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from netdesign.site.columns.fields import Field, SheetPlan
 from netdesign.site.columns.languages import word_field, word_plan
-from netdesign.site.columns.net_columns import UNCLEAR_SNOW
-from netdesign.site.columns.unit_names import (
-    ANGLES,
-    DENSITIES,
-    FORCES_PER_LENGTH,
-    LENGTHS,
-    SHARES,
-)
+from netdesign.site.columns.net_columns import NETS, UNCLEAR_SNOW
+from netdesign.site.columns.unit_names import ANGLES, DENSITIES
 from netdesign.snow.ground import LARGEST_GLIDE_FACTOR
 
 SEARCHED = "searched"  # count of a range whose worst case is searched, not sampled
@@ -43,40 +39,32 @@ USUAL_QUANTITIES: tuple[Field, ...] = tuple(
         ),
     )
 )
+_COLUMNS = {field.key: field for field in NETS.fields}
+
+
+def _range_column(key: str, *aliases: str, column: str = "") -> Field:
+    """Quantity in the units and bounds of its column of sheet Nets."""
+    like = _COLUMNS[column or key]
+    return Field(key=key, aliases=aliases, units=like.units, bounds=like.bounds)
+
+
 # What else may range: then no line of sheet Nets gives it. Keys are those of
 # `envelope.parameters.PARAMETERS`.
 FURTHER_QUANTITIES: tuple[Field, ...] = tuple(
     word_field(field, "quantities")
     for field in (
-        Field(
-            key="thickness",
-            aliases=("snow thickness normal to slope", "thickness"),
-            units=LENGTHS,
-            bounds=(0.1, 10.0),
+        _range_column(
+            "thickness",
+            *("snow thickness normal to slope", "thickness"),
+            column="snow_thickness",
         ),
-        Field(
-            key="snow_height",
-            aliases=("snow height", "vertical snow height"),
-            units=LENGTHS,
-            bounds=(0.1, 15.0),
-        ),
-        Field(key="upslope_length", units=LENGTHS, bounds=(1.0, 200.0)),
-        Field(key="slack", units=SHARES, bounds=(0.0, 0.3)),
-        Field(
-            key="net_stiffness",
-            units=FORCES_PER_LENGTH,
-            bounds=(100.0, 1_000_000.0),
-        ),
-        Field(
-            key="slip_length",
-            aliases=("stagnation depth",),
-            units=LENGTHS,
-            bounds=(0.001, 200.0),
-        ),
-        Field(
-            key="glide_factor",
-            aliases=("glide factor N",),
-            units=("-",),
+        _range_column("snow_height", "snow height", "vertical snow height"),
+        _range_column("upslope_length"),
+        _range_column("slack"),
+        _range_column("net_stiffness"),
+        _range_column("slip_length", "stagnation depth"),
+        replace(
+            _range_column("glide_factor", "glide factor N"),
             bounds=(_GLIDE_FROM, LARGEST_GLIDE_FACTOR),
         ),
     )
@@ -135,3 +123,6 @@ RANGES = word_plan(
         ),
     )
 )
+# As offices type it, with both ends in one cell; the template does not offer that.
+_SPAN = word_field(Field(key="span", kind="text"), "Ranges")
+RANGES_AS_TYPED = replace(RANGES, fields=(*RANGES.fields, _SPAN))

@@ -1,4 +1,4 @@
-"""Comparison of two numbers that must be one."""
+"""Comparison of two numbers, or parts of a study, that must be one."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from collections.abc import Iterable, Iterator
 
 from netdesign.outcome import Verdict
 from netdesign.study.records import Study
-from netdesign.study.values import show_value
+from netdesign.study.values import compare_values, show_value
 from netdesign.words.message import Message, say
 
 SAME = 1e-9  # relative; stored numbers that follow from each other differ by rounding
 _ZERO = 1e-12  # kN; what is left of a sum that must vanish
 _STEADY = "steady"
+_MOST = 5  # places of one part that are named
 
 Pair = tuple[str, float | None, float | None]
 
@@ -38,6 +39,14 @@ def tell_unequal(place: Message, pairs: Iterable[Pair]) -> Iterator[Message]:
     for name, stored, expected in pairs:
         if not is_same(stored, expected):
             yield tell_value(place, name, stored, expected)
+
+
+def tell_differences(
+    key: str, stored: object, again: object, **given: Message
+) -> Iterator[Message]:
+    """Sentences on the first places at which a stored part is not what follows."""
+    for found in compare_values(stored, again)[:_MOST]:
+        yield say(key, **given, value=found.message)
 
 
 def tell_value(place: Message, name: str, stored: object, follows: object) -> Message:

@@ -20,20 +20,22 @@ from netdesign.study.audit.check_audit import is_held_back
 from netdesign.study.audit.comparing import (
     Pair,
     is_of_steady_states,
-    is_same,
+    tell_differences,
     tell_unequal,
     tell_value,
 )
-from netdesign.study.audit.envelope_audit import find_largest, is_complete, same_point
+from netdesign.study.audit.envelope_audit import is_complete
+from netdesign.study.audit.opinion_audit import audit_guideline, audit_slab
 from netdesign.study.audit.panel_audit import audit_panel_inputs
 from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
-from netdesign.study.effects import RowEffects, find_effects, load_guideline
-from netdesign.study.end_note import list_end_notes
+from netdesign.study.effects import RowEffects, find_effects
+from netdesign.study.end_note import list_end_notes, record_end_effects
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.notes import (
     list_case_notes,
+    list_one_anchor_notes,
     list_row_notes,
     list_site_notes,
     list_test_notes,
@@ -47,7 +49,6 @@ from netdesign.study.pulls import (
     record_pulls,
 )
 from netdesign.study.record_cases import read_point, record_point
-from netdesign.study.record_guideline import compare_case
 from netdesign.study.records import ActionRecord, CheckRecord, RowStudy, Study
 from netdesign.study.row_end import find_lack as find_end_lack
 from netdesign.study.settle import (
@@ -70,7 +71,6 @@ from netdesign.units import degree_from_radian, newton_from_kilonewton
 from netdesign.words.message import Message, say
 
 _UNKNOWN_GAP = say("check.no_case_solved")  # whatever it is: nothing passes with one
-_MOST = 5  # places of one row that are named
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,8 +109,7 @@ def audit_site(
         ("site_file", study.provenance.site_file, site.file_name),
     )
     for name, one, other in parts:
-        for found in compare_values({name: one}, {name: other})[:_MOST]:
-            yield say("audit.site_otherwise", value=found.message)
+        yield from tell_differences("audit.site_otherwise", {name: one}, {name: other})
     rows = {row.id: row for row in site.rows}
     is_known = standard is not None and standard.sha256 == study.profile.sha256
     for row in study.rows:
@@ -131,8 +130,7 @@ def _audit_row(
 ) -> Iterator[Message]:
     place = say("audit.row", row=row.id)
     inputs = {"inputs": row.inputs}, {"inputs": list(given.inputs)}
-    for found in compare_values(*inputs)[:_MOST]:
-        yield say("audit.row_otherwise", place=place, value=found.message)
+    yield from tell_differences("audit.row_otherwise", *inputs, place=place)
     yield from audit_panel_inputs(row, given)
     if site.ranges.is_grid:
         points = [record_point(case) for case in build_cases(site.ranges)]
@@ -178,18 +176,22 @@ def _audit_judgement(
         for checks in (row.checks, expected)
     )
     place = say("audit.row", row=row.id)
-    for found in compare_values(stored, again)[:_MOST]:
-        yield say("audit.judged_otherwise", place=place, value=found.message)
+    yield from tell_differences("audit.judged_otherwise", stored, again, place=place)
     yield from _audit_pulls(row, given, effects.lateral_share)
     notes = _list_notes(row, pulls, effects, basis)
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
-    for found in compare_values(shown, notes)[:_MOST]:
-        yield say("audit.other_notes", place=place, value=found.message)
-    for found in compare_values(row.floor, record_floor(floor, given))[:_MOST]:
-        yield say("audit.other_floor", place=place, value=found.message)
+    yield from tell_differences("audit.other_notes", shown, notes, place=place)
+    ends = record_end_effects(given, basis.site.ranges, basis.law, basis.standard)
+    yield from tell_differences(
+        "audit.other_end_effects", row.end_effects, ends, place=place
+    )
+    yield from tell_differences(
+        "audit.other_floor", row.floor, record_floor(floor, given), place=place
+    )
     yield from _audit_actions(row, effects, floor, basis)
-    yield from _audit_guideline(row, given)
+    yield from audit_guideline(row, given)
+    yield from audit_slab(row, given, basis.law)
 
 
 def _expect_members(
@@ -221,6 +223,7 @@ def _list_notes(
         *list_row_notes(given, effects, pulls),
         *list_end_notes(given, basis.site.ranges, basis.law, effects),
         *list_test_notes(row.checks, basis.standard),
+        *list_one_anchor_notes(row.checks),
         *list_case_notes(row.cases),
     ]
 
@@ -236,8 +239,8 @@ def _audit_actions(
         elif check.action is not None:
             yield from _audit_share(check, given, effects.lateral_share, place)
             action = _act_again(check, check.action, effects, floor)
+            where = say("audit.check", place=place, check=check.id)
             for found in compare_values(check.action, action):
-                where = say("audit.check", place=place, check=check.id)
                 yield say("audit.other_width", place=where, value=found.message)
 
 
@@ -345,8 +348,9 @@ def _audit_pulls(row: RowStudy, given: NetRow, share: float) -> Iterator[Message
             for one in read_pulls(given, row.pulls)
         ]
     )
-    for found in compare_values(row.pulls, expected)[:_MOST]:
-        yield say("audit.judged_otherwise", place=place, value=found.message)
+    yield from tell_differences(
+        "audit.judged_otherwise", row.pulls, expected, place=place
+    )
 
 
 def _audit_share(
@@ -372,7 +376,8 @@ def _audit_share(
     ]
     if action.foot_part_kN is not None and action.guy_part_kN is not None:
         both = action.foot_part_kN + action.guy_part_kN
-        pairs.append(("solved_kN", action.solved_kN, both))
+        name = "panel_kN" if action.is_by_panel else "solved_kN"
+        pairs.append((name, action.larger_force, both))
     yield from tell_unequal(place, pairs)
 
 
@@ -473,26 +478,3 @@ def _read_load(stored: ActionRecord) -> MemberLoad:
 def _leave_out_solves(check: CheckRecord) -> CheckRecord:
     """Check without what only a solve can tell."""
     return replace(check, case=None, action=None, spreads=[], changes=[], holds=[])
-
-
-def _audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:
-    """The comparison with the guideline, from the forces that it states."""
-    stored = row.guideline
-    if stored is None or stored.sha256 != load_guideline().sha256:
-        return
-    point = stored.case
-    again = compare_case(
-        given,
-        read_point(point),
-        load=newton_from_kilonewton(stored.solved_load_kN_per_m),
-        foot=newton_from_kilonewton(stored.solved_foot_anchor_kN),
-    )
-    place = say("audit.row", row=row.id)
-    for found in compare_values(stored, again)[:_MOST]:
-        yield say("audit.other_guideline", place=place, value=found.message)
-    largest = find_largest(row, Member.FOOT_ANCHOR)
-    if largest is not None and not (
-        same_point(point, largest.case)
-        and is_same(stored.solved_foot_anchor_kN, largest.foot_anchor_kN)
-    ):
-        yield say("audit.guideline_case", place=place)

@@ -91,6 +91,8 @@ def test_empty_parts_say_none():
         statics=[],
         held_sideways=None,
         guideline=None,
+        slab=None,
+        model_form=None,
         verdict=Verdict.NOT_PROVEN,
     )
     study = replace(
@@ -102,7 +104,7 @@ def test_empty_parts_say_none():
         verdict=Verdict.NOT_PROVEN,
     )
     page = html.render_html(study)
-    assert page.count('<p class="none">none') == 19
+    assert page.count('<p class="none">none') == 21
     assert page.count(": none: ") >= 8  # tables of figures, by their numbers
     assert "NOT PROVEN" in page
 
@@ -143,7 +145,8 @@ def test_summary_is_shorter_and_keeps_the_verdicts(page):
     short = html.render_html(build_study(), detail="summary")
     reader = PageReader(short)
     assert len(short) < 0.6 * len(page)
-    assert set(reader.ids) >= {"verdict", "row-3-drawing", "row-3-checks", "profile"}
+    assert set(reader.ids) >= {"verdict", "row-3-drawing", "row-3-checks", "notes"}
+    assert "profile" not in reader.ids
     assert "row-1-worked" not in reader.ids
     assert reader.tables["summary"] == PageReader(page).tables["summary"]
 

@@ -6,7 +6,7 @@ import pytest
 
 from netdesign.outcome import Verdict
 from netdesign.report.view.hold_tables import build_holds, list_limits
-from netdesign.report.words import Words
+from netdesign.report.words import Words, show_check
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import build_study
 
@@ -64,9 +64,13 @@ def test_without_a_limit_the_search_is_told(verdict):
     assert line(verdict, 0.8, None, None)[1:3] == ["-", "Slack: 0 to 0.131"]
 
 
-def test_every_check_with_single_values_has_one_line():
+def test_every_check_with_single_values_is_named_in_one_line():
     rows = build_holds(ROW, ENGLISH).rows
-    assert len(rows) == sum(bool(check.holds) for check in ROW.checks) > 1
+    held = [show_check(ENGLISH, check) for check in ROW.checks if check.holds]
+    named = "; ".join(cells[0].text for cells in rows)
+    assert len(held) > 1
+    for name in held:
+        assert named.count(f"{name};") + named.endswith(name) >= 1, name
     first = [cell.text for cell in rows[0]]
     assert "Slack" in first[1]
     assert first[2].startswith("Glide factor: 1.01 to 2.4")

@@ -118,10 +118,10 @@ def test_arrows_are_to_one_scale(study):
     tips = [tuple(map(float, one.split()[0].split(","))) for one in heads]
     (left, top), (inner, _) = tips[0], tips[2]
     at_end = panel.drawing.lower_along_kN
-    reach = left - 120.0
-    assert reach == pytest.approx(78.0, abs=0.2)
+    reach = left - 150.0
+    assert reach == pytest.approx(46.0, abs=0.2)
     assert at_end == max(panel.drawing.lower_along_kN, panel.drawing.upper_along_kN)
-    assert inner == pytest.approx(375.0, abs=0.2)
+    assert inner == pytest.approx(310.0, abs=0.2)
     assert (
         f"{math.hypot(at_end, math.hypot(*panel.drawing.foot_kN) / 2):.1f}" in drawing
     )

@@ -82,7 +82,10 @@ def test_slack_member_passes_with_a_utilisation_of_nothing():
 def test_assumed_values_are_listed():
     view = build_view(build_study())
     assert view.assumed_line == "factor.action = 1.5, factor.tendon = 1.35"
-    assert [cells[0].text for cells in view.assumed.rows] == ["5.2", "6.1"]
+    assert [cells[0].text for cells in view.assumed.rows] == [
+        "5.2, factor.action",
+        "6.1, factor.tendon",
+    ]
 
 
 @pytest.mark.parametrize("verdict", [Verdict.PASS, Verdict.FAIL, Verdict.NOT_PROVEN])

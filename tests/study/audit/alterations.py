@@ -131,6 +131,9 @@ def scale_statics(row, factor):
     if row["held_sideways"]:
         keys = [key for key in row["held_sideways"] if key.endswith("_kN")]
         scale_all(row["held_sideways"], keys, factor)
+    for note in row["notes"]:
+        if note.get("key") == "row.one_anchor":
+            scale_all(note["arguments"], ("foot", "along", "both"), factor)
 
 
 def scale_guideline(record, factor):

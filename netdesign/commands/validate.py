@@ -1,0 +1,59 @@
+"""``netdesign validate``: the program against truth and against measured structures.
+
+It speaks English only: it is for whoever develops or examines the program.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from netdesign.commands.options import force_option, out_option, quiet_option
+
+_FAIL, _NOT_PROVEN = 1, 4
+
+
+@click.command()
+@click.argument(
+    "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
+)
+@out_option("Folder of the page and its document.", required=True)
+@force_option
+@quiet_option
+def validate(structures: Path | None, out: Path, *, force: bool, quiet: bool) -> None:
+    """Write one page: verification, settling of snow, measured structures.
+
+    With a file, its structures stand first: one whose inputs are all values gets a
+    misfit, others a band. The form is that of the program's own,
+    netdesign/evidence/validation/measured.toml. Exit code 1 if a case of the
+    verification fails, 4 if a measured force lies outside its band.
+
+    \b
+    netdesign validate --out validation
+    netdesign validate my-net.toml --out validation
+    """
+    import sys
+
+    from netdesign.edge.output import require_free
+    from netdesign.edge.progress import show_progress
+    from netdesign.evidence.validation.gather import (
+        count_parts,
+        gather,
+        list_pages,
+        read_all,
+        write_page,
+    )
+
+    require_free(list_pages(out), overwrite=force)
+    known = read_all(structures)
+    with show_progress(count_parts(known), "parts", quiet=quiet) as advance:
+        evidence = gather(known, advance)
+    write_page(evidence, out, force=force)
+    if not quiet:
+        click.echo(f"wrote {list_pages(out)[0]}", err=True)
+    if not all(case.passes for case in evidence.cases):
+        sys.exit(_FAIL)
+    bands = [one for one in evidence.validations if not one.structure.is_known]
+    if not all(c.is_inside for one in bands for c in one.comparisons):
+        sys.exit(_NOT_PROVEN)

@@ -1,0 +1,102 @@
+"""Everything of the page, computed one part after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib.resources import files as find_files
+from pathlib import Path
+
+from netdesign.edge.given_files import MAX_TOML_BYTES, read_bounded
+from netdesign.edge.output import write_files
+from netdesign.evidence.validation.band import validate_structure
+from netdesign.evidence.validation.page import (
+    DOCUMENT_FILE,
+    PAGE_FILE,
+    Evidence,
+    render_validation,
+)
+from netdesign.evidence.validation.structure import Structure, read_structures
+from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.compaction import compare_contrasts, list_places
+from netdesign.evidence.verification.exported import (
+    list_files,
+    solve_exported,
+    write_scenes,
+)
+from netdesign.evidence.verification.pack import GROUPS, run_pack
+
+_OWN = "measured.toml"
+
+
+def read_all(path: Path | None) -> tuple[Structure, ...]:
+    """Structures of a file, if one is given, then those that come with the program.
+
+    Parameters
+    ----------
+    path : Path or None
+        Of an owner's file.
+
+    Raises
+    ------
+    ModelError
+        If a field is missing, unknown or out of range.
+    ValueError, OSError
+        If it is no TOML, or cannot be read.
+    """
+    own = read_structures(find_files(__package__).joinpath(_OWN).read_bytes())
+    if path is None:
+        return own
+    return (*read_structures(read_bounded(path, MAX_TOML_BYTES)), *own)
+
+
+def list_pages(out: Path) -> list[Path]:
+    """Files of the page in a folder, the page first; then those of the scenes."""
+    return [out / name for name in (PAGE_FILE, DOCUMENT_FILE, *list_files())]
+
+
+def write_page(evidence: Evidence, out: Path, *, force: bool) -> None:
+    """Write the page, its document and the exported scenes into a folder.
+
+    Raises
+    ------
+    OutputError
+        If they exist and may not be replaced, or cannot be written.
+    """
+    files = render_validation(evidence) | write_scenes(solve_exported())
+    contents = {out / name: content for name, content in files.items()}
+    write_files(contents, overwrite=force)
+
+
+def count_parts(structures: Sequence[Structure]) -> int:
+    """Parts that ``gather`` tells of."""
+    return len(GROUPS) + len(structures)
+
+
+def gather(
+    structures: Sequence[Structure],
+    advance: Callable[[int], None] | None = None,
+    cases: Sequence[VerificationCase] | None = None,
+) -> Evidence:
+    """Run the pack, the settling of snow, and every structure.
+
+    Parameters
+    ----------
+    structures : sequence of Structure
+        As read.
+    advance : callable, optional
+        Told how many parts are done.
+    cases : sequence of VerificationCase, optional
+        Of the pack, where it has been run already.
+    """
+    cases = run_pack(advance) if cases is None else cases
+    validations = []
+    for done, structure in enumerate(structures, start=len(GROUPS) + 1):
+        validations.append(validate_structure(structure))
+        if advance:
+            advance(done)
+    return Evidence(
+        cases=cases,
+        places=list_places(),
+        contrasts=compare_contrasts(),
+        validations=validations,
+    )

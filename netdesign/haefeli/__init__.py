@@ -1,0 +1,1 @@
+"""Creep and glide pressure in closed form, after Haefeli: a second opinion."""

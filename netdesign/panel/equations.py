@@ -1,0 +1,199 @@
+"""Strips and ropes of a panel as one set of equations, with their derivatives.
+
+The unknowns are what each strip pulls with on the lower rope, mid-panel's too, and the
+ropes' forces along the row. A point is these pulls over the load, (2, K + 1), then
+log H of the lower and of the upper rope, all in one row. Theory: panel/THEORY.md,
+section 3.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from netdesign.cable.alike import reach_ends
+from netdesign.numerics.arrays import Floats
+from netdesign.panel.inputs import Panel
+from netdesign.panel.ropes import (
+    RopeLengths,
+    compute_excess_length,
+    estimate_force_along,
+    measure_lengths,
+)
+from netdesign.panel.stations import Stations, build_stations
+from netdesign.panel.strips import Strip, cut_lengths
+
+_TURNED = np.array([1.0, -1.0])  # what the lower rope gains the upper one loses
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PanelProblem:
+    """A panel to be solved.
+
+    Attributes
+    ----------
+    panel : Panel
+        Spacing, ropes and cut.
+    strip : Strip
+        The net at the post.
+    stations : Stations
+        Places of the strips.
+    lengths : ndarray, shape (K + 1,)
+        Unstressed, of the strips at the stations and in mid-panel [m].
+    stiffness, excess : ndarray, shape (2,)
+        EA [N], and L_r / span - 1 [-], of lower and upper rope.
+    deflection : ndarray, shape (2, K + 1, K)
+        u H of each rope per load at each station [m2].
+    shear : ndarray, shape (2, 24, K)
+        V of each at the points of integration, per load at each station [m].
+    """
+
+    panel: Panel
+    strip: Strip
+    stations: Stations
+    lengths: Floats
+    stiffness: Floats
+    excess: Floats
+    deflection: Floats
+    shear: Floats
+
+    @property
+    def half(self) -> float:
+        """Half the post spacing [m]."""
+        return self.panel.post_spacing / 2.0
+
+    @property
+    def load_size(self) -> float:
+        """Size of the load on a strip [N/m]."""
+        return float(np.hypot(*self.strip.load))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PanelState:
+    """State at a point; of two ropes the lower one is first, vectors are (x, y).
+
+    Attributes
+    ----------
+    along : ndarray, shape (2,)
+        H of the ropes [N].
+    pulls : ndarray, shape (2, 2, K + 1)
+        Of the strips on each rope [N/m].
+    displacements : ndarray, shape (2, 2, K + 1)
+        Of each rope under these pulls [m].
+    missing : ndarray, shape (2 K + 4,)
+        Gaps at the strips' heads over their lengths, then excess of the ropes' lengths
+        over their spans [-].
+    reached : ndarray, shape (2, 2, K + 1)
+        Derivative of the strips' ends over their lengths, by their pulls [m/N].
+    rope_lengths : RopeLengths
+        Of the two ropes, with their derivatives.
+    """
+
+    along: Floats
+    pulls: Floats
+    displacements: Floats
+    missing: Floats
+    reached: Floats
+    rope_lengths: RopeLengths
+
+
+def build_problem(strip: Strip, panel: Panel, count: int) -> PanelProblem:
+    """Panel of strips like the one at the post, at so many stations.
+
+    Raises
+    ------
+    SolveError
+        If the cut leaves next to no net.
+    """
+    stations = build_stations(count, has_mid_anchors=panel.has_mid_anchors)
+    ropes, half = (panel.lower, panel.upper), panel.post_spacing / 2.0
+    spans = (stations.lower, stations.upper)
+    return PanelProblem(
+        panel=panel,
+        strip=strip,
+        stations=stations,
+        lengths=cut_lengths(panel, strip, stations),
+        stiffness=np.array([rope.stiffness for rope in ropes]),
+        excess=np.array([compute_excess_length(rope.sag) for rope in ropes]),
+        deflection=half**2 * np.array([span.deflection for span in spans]),
+        shear=half * np.array([span.shear for span in spans]),
+    )
+
+
+def guess_point(problem: PanelProblem) -> Floats:
+    """Strips that pull as the net at the post, and ropes under that alone, (P3).
+
+    Returns
+    -------
+    ndarray, shape (2 K + 4,)
+        [-].
+    """
+    strip, spacing = problem.strip, problem.panel.post_spacing
+    foot = strip.foot_pull
+    along = [
+        estimate_force_along(math.hypot(*pull), spacing, rope)[0]
+        for rope, pull in (
+            (problem.panel.lower, foot),
+            (problem.panel.upper, strip.load - foot),
+        )
+    ]
+    pulls = np.repeat(foot / problem.load_size, problem.lengths.size)
+    return np.concatenate([pulls, np.log(along)])
+
+
+def read_point(problem: PanelProblem, point: Floats) -> PanelState:
+    """Pulls, ropes and what is missing at a point.
+
+    Parameters
+    ----------
+    problem : PanelProblem
+        Strips and ropes.
+    point : ndarray, shape (2 K + 4,)
+        Pulls over the load, and log H [-].
+
+    Verified by
+    -----------
+    tests/panel/test_equations.py
+    """
+    strip = problem.strip
+    foot = problem.load_size * point[:-2].reshape(2, -1)
+    along = np.exp(point[-2:])
+    pulls = np.array([foot, strip.load[:, None] - foot])
+    on_ropes = pulls[..., :-1]  # mid-panel's strip shows only where it hangs
+    displacements = on_ropes @ problem.deflection.transpose(0, 2, 1)
+    displacements /= along[:, None, None]
+    shear = on_ropes @ problem.shear.transpose(0, 2, 1)
+    lengths = measure_lengths(shear, problem.stiffness, along)
+    ends, reached = reach_ends(strip.alike, foot - strip.alike.to_foot[:, None])
+    wanted = strip.head[:, None] + displacements[1] - displacements[0]
+    gaps = (ends - wanted / problem.lengths).ravel()
+    return PanelState(
+        along=along,
+        pulls=pulls,
+        displacements=displacements,
+        missing=np.concatenate([gaps, lengths.excess - problem.excess]),
+        reached=reached,
+        rope_lengths=lengths,
+    )
+
+
+def derive_missing(problem: PanelProblem, state: PanelState) -> Floats:
+    """Derivative of what is missing by the point, shape (2 K + 4, 2 K + 4)."""
+    strips, size = problem.lengths.size, problem.load_size
+    every = np.arange(strips)
+    by_pull = np.zeros((2, strips, 2, strips))
+    for row, column in np.ndindex(2, 2):
+        by_pull[row, every, column, every] = state.reached[row, column]
+    moved = np.tensordot(1.0 / state.along, problem.deflection, 1)
+    by_pull[[0, 1], :, [0, 1], :-1] += moved / problem.lengths[:, None]
+    by_along = -_TURNED[:, None, None] * state.displacements / problem.lengths
+    by_load = np.zeros((2, 2, strips))
+    by_load[..., :-1] = state.rope_lengths.by_shear @ problem.shear
+    whole = np.empty((2 * strips + 2, 2 * strips + 2))
+    whole[:-2, :-2] = size * by_pull.reshape(2 * strips, 2 * strips)
+    whole[:-2, -2:] = by_along.reshape(2, -1).T
+    whole[-2:, :-2] = size * (_TURNED[:, None, None] * by_load).reshape(2, -1)
+    whole[-2:, -2:] = np.diag(state.rope_lengths.by_log_along)
+    return whole

@@ -1,0 +1,158 @@
+"""Answers beside a workbook: what its headings mean, in ``SITE.map.toml``.
+
+``netdesign map`` writes the file with what is asked; the engineer fills it in; every
+later run reads it by itself.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Literal
+
+from netdesign.edge.causes import explain
+from netdesign.edge.given_files import (
+    MAX_TOML_BYTES,
+    is_there,
+    parse_toml,
+    read_bounded,
+)
+from netdesign.errors import ContentError
+from netdesign.site.cells.cells import IGNORE, UNASKED, Answers, Sheet, Workbook
+from netdesign.site.cells.findings import (
+    Finding,
+    note_file,
+    quote,
+    refuse_file,
+)
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.fields import SheetPlan
+from netdesign.words.message import Message, say
+
+SCHEMA = "netdesign.map/1"
+_MARKS: Mapping[str, Literal["", ",", "."]] = {"": "", "comma": ",", "point": "."}
+_KEYS = ("schema", "workbook", "decimal_mark", "sheets", "headings")
+
+
+def name_map(site_file: Path) -> Path:
+    """Place of the answers to a workbook or folder.
+
+    >>> name_map(Path("site.xlsx")).name
+    'site.map.toml'
+    """
+    return site_file.with_name(f"{site_file.stem}.map.toml")
+
+
+def read_answers(site_file: Path) -> Answers:
+    """Answers beside a workbook; none where there is no such file.
+
+    Raises
+    ------
+    SiteDataError
+        If the file cannot be read, or holds anything else.
+    """
+    path = name_map(site_file)
+    if not is_there(path):
+        return UNASKED
+    try:
+        content = read_bounded(path, MAX_TOML_BYTES)
+        table = parse_toml(content)
+    except ContentError as error:
+        rule = say("map.faulty", cause=error.message)
+        raise refuse_file(path.name, rule, _WANTED) from error
+    except OSError as error:
+        rule = say("book.not_opened", cause=explain(error))
+        raise refuse_file(path.name, rule, _WANTED) from error
+    except ValueError as error:
+        rule = say("map.faulty", cause=quote(str(error)))
+        raise refuse_file(path.name, rule, _WANTED) from error
+    fault = _find_fault(table)
+    if fault:
+        raise refuse_file(path.name, fault, _WANTED)
+    return Answers(
+        file=path.name,
+        sha256=hashlib.sha256(content).hexdigest(),
+        sheets=table.get("sheets", {}),
+        headings=table.get("headings", {}),
+        decimal_mark=_MARKS[table.get("decimal_mark", "")],
+    )
+
+
+_WANTED = say("map.wanted")
+
+
+def _find_fault(table: Mapping[str, Any]) -> Message | None:
+    """First fault of the tables of the file."""
+    stranger = next((key for key in table if key not in _KEYS), None)
+    if stranger is not None:
+        return say("map.unknown_key", key=quote(stranger))
+    if table.get("schema", SCHEMA) != SCHEMA:
+        return say("map.other_schema", schema=SCHEMA)
+    if table.get("decimal_mark", "") not in _MARKS:
+        return say("map.decimal_mark")
+    sheets, headings = table.get("sheets", {}), table.get("headings", {})
+    tables = [sheets, *(headings.values() if isinstance(headings, dict) else ())]
+    for one in (headings, *tables):
+        if not isinstance(one, dict):
+            return say("map.no_table")
+    for one in tables:
+        for key, answer in one.items():
+            if not isinstance(answer, str) or not answer.strip():
+                return say("map.no_text", key=quote(key))
+    return _find_wrong_sheet(sheets)
+
+
+def _find_wrong_sheet(sheets: Mapping[str, str]) -> Message | None:
+    for name, answer in sheets.items():
+        if answer != IGNORE and find_plan(answer) is None:
+            return say("map.no_sheet", answer=quote(answer), key=quote(name))
+    return None
+
+
+def find_plan(name: str) -> SheetPlan | None:
+    """Planned sheet of that name, in any language."""
+    return next((plan for plan in SHEETS if plan.matches(name)), None)
+
+
+def is_meant(name: str, plan: SheetPlan, answers: Answers) -> bool:
+    """A sheet is the planned one: as answered, else by its name."""
+    answer = answers.sheets.get(name)
+    if answer is None:
+        return plan.matches(name)
+    return answer != IGNORE and plan.matches(answer)
+
+
+def give_answers(workbook: Workbook, answers: Answers) -> Workbook:
+    """Workbook whose sheets know what was answered."""
+    return replace(
+        workbook,
+        answers=answers,
+        sheets=tuple(_give(sheet, answers) for sheet in workbook.sheets),
+    )
+
+
+def _give(sheet: Sheet, answers: Answers) -> Sheet:
+    found = answers.headings.get(sheet.name, {})
+    return replace(sheet, answers=found, answered_in=answers.file)
+
+
+def judge_answers(workbook: Workbook) -> list[Finding]:
+    """Note that answers were used; refuse those to sheets that are not there."""
+    answers = workbook.answers
+    if not answers.file:
+        return []
+    used = say("map.used", file=answers.file, sha256=answers.sha256)
+    names = {sheet.name for sheet in workbook.sheets}
+    absent = [one for one in answers.sheets if one not in names | {*workbook.unread}]
+    unread = [one for one in answers.headings if one not in names]
+    return [
+        note_file(workbook.file, used),
+        *(_refuse(answers, say("map.sheet_absent"), one) for one in absent),
+        *(_refuse(answers, say("map.sheet_not_read"), one) for one in unread),
+    ]
+
+
+def _refuse(answers: Answers, rule: Message, name: str) -> Finding:
+    return Finding(file=answers.file, sheet=name, rule=rule, accepted=_WANTED)

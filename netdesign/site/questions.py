@@ -1,0 +1,272 @@
+"""Questions that a workbook leaves open, as a file of answers: ``SITE.map.toml``."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from netdesign.edge.given_files import make_printable
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import UNDECLARED, Sheet, TextFormat, Workbook
+from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.spreadsheet import read_workbook
+from netdesign.site.columns.all_tables import ANCHORS, POSTS, ROPES, SHEETS
+from netdesign.site.columns.fields import Language, SheetPlan
+from netdesign.site.columns.net_columns import NETS
+from netdesign.site.columns.range_quantities import RANGES_AS_TYPED
+from netdesign.site.headings import count_known
+from netdesign.site.mapping import SCHEMA, is_meant
+from netdesign.site.reader import read_cells, read_site
+from netdesign.site.readings import IN_CELLS
+from netdesign.site.tables import Table, find_table
+from netdesign.site.titles import UNANSWERED, Title, list_titles
+from netdesign.words.catalogue import render
+from netdesign.words.message import Message, say
+
+# Findings that an answer to a heading or to an item of a line can settle.
+_OF_UNITS = (
+    *("heading.no_unit", "heading.no_unit_could_be", "heading.unclear_unit"),
+    "heading.unknown_unit",
+)
+_OF_NAMES = (
+    *("heading.ambiguous", "heading.contrary", "heading.close_to_missing"),
+    *("heading.twice", "heading.wrong_answer", "heading.unit_not_wanted"),
+    *("item.unknown", "item.unknown_quantity"),
+)
+_LEAST_KNOWN = 2  # headings of a sheet that is proposed for a planned one
+_EXPECTED = (NETS, RANGES_AS_TYPED, ANCHORS, ROPES, POSTS)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One line of the file: what is asked, a first answer, what is accepted.
+
+    Attributes
+    ----------
+    sheet, asked : str
+        The sheet as typed, and the heading or item; no sheet where it is a sheet that
+        is asked for.
+    answer : str
+        To be completed: it holds a ``?``.
+    hints : tuple of Message or str
+        What the answer may be.
+    """
+
+    sheet: str
+    asked: str
+    answer: str
+    hints: tuple[Message | str, ...]
+
+
+def write_questions(
+    path: Path, text_format: TextFormat = UNDECLARED, language: Language = "en"
+) -> tuple[str, int]:
+    """Text of the file of answers, and how many of them are missing.
+
+    Parameters
+    ----------
+    path : Path
+        The workbook; answers that stand beside it already are kept.
+    text_format : TextFormat
+        As for reading.
+    language : str
+        Of the comments and headings.
+
+    Raises
+    ------
+    SiteDataError
+        If the workbook cannot be read at all, or a file of answers beside it.
+    """
+    workbook = read_cells(path, text_format)
+    findings = _collect(path, text_format)
+    tables = [_find(workbook, plan) for plan in SHEETS]
+    found = [table for table in tables if table]
+    questions = [*_ask_sheets(path, text_format, workbook)]
+    questions += _ask_names(found, findings)
+    asks_mark = any(one.rule.key == "number.ambiguous" for one in findings)
+    lines = [
+        *_begin(path, workbook, asks_mark=asks_mark, language=language),
+        *_list_sheets(workbook, questions, language),
+    ]
+    for table in found:
+        lines += _list_headings(table, workbook, questions, language)
+    return "\n".join(lines) + "\n", len(questions) + asks_mark
+
+
+def _find(workbook: Workbook, plan: SheetPlan) -> Table | None:
+    as_typed = RANGES_AS_TYPED if plan.name == RANGES_AS_TYPED.name else plan
+    return find_table(workbook, as_typed, [])
+
+
+def _collect(path: Path, text_format: TextFormat) -> list[Finding]:
+    try:
+        findings: Iterable[object] = read_site(path, text_format).findings
+    except SiteDataError as error:
+        findings = error.findings
+    return [one for one in findings if isinstance(one, Finding)]
+
+
+def _ask_sheets(
+    path: Path, text_format: TextFormat, workbook: Workbook
+) -> Iterator[Question]:
+    """Sheets whose headings are those of a planned sheet that is missing."""
+    open_names = {*workbook.unread} - {*workbook.answers.sheets}
+    missing = [plan for plan in _EXPECTED if not _has(workbook, plan)]
+    if not missing or not open_names:
+        return
+    every = read_workbook(path, lambda _: True, text_format=text_format)
+    for sheet in every.sheets:
+        if sheet.name not in open_names or sheet.is_hidden:
+            continue
+        counts = {plan.name: count_known(sheet, plan) for plan in missing}
+        likely = max(counts, key=lambda name: counts[name])
+        if counts[likely] >= _LEAST_KNOWN:
+            hints = (say("finding.in_quotes", text=say(f"sheet.{likely}")),)
+            yield Question("", sheet.name, UNANSWERED, hints)
+
+
+def _has(workbook: Workbook, plan: SheetPlan) -> bool:
+    return any(
+        is_meant(sheet.name, plan, workbook.answers) for sheet in workbook.sheets
+    )
+
+
+def _ask_names(tables: Sequence[Table], findings: list[Finding]) -> list[Question]:
+    by_sheet = {table.sheet.name: table for table in tables}
+    asked: dict[tuple[str, str], Question] = {}
+    for finding in findings:
+        table = by_sheet.get(finding.sheet)
+        if table and finding.cell and finding.severity == "error":
+            question = _ask(table, finding)
+            if question:
+                asked[question.sheet, question.asked] = question
+    return list(asked.values())
+
+
+def _ask(table: Table, finding: Finding) -> Question | None:
+    row = int(re.sub(r"\D", "", finding.cell))
+    key = finding.rule.key
+    if key not in (*_OF_UNITS, *_OF_NAMES):
+        return None
+    is_heading = row <= max(table.heading_row, min(table.rows, default=row + 1) - 1)
+    asked = _name_heading(table, finding.cell) if is_heading else _name_item(table, row)
+    if not asked:
+        return None
+    hints = tuple(one for one in (finding.rule, finding.accepted) if one)
+    answer = UNANSWERED
+    if key in _OF_UNITS and is_heading:
+        answer = f"{_name_field(table, finding.cell)} [{UNANSWERED}]"
+    elif key in _OF_UNITS:
+        answer = f"{asked} [{UNANSWERED}]"
+    return Question(table.sheet.name, asked, answer, hints)
+
+
+def _name_heading(table: Table, address: str) -> str:
+    """Heading of the column of a cell, as the file names it."""
+    titles = list_titles(table.sheet, table.heading_row)
+    column = re.sub(r"\d", "", address)
+    own = next((one for one in titles if _letters(one) == column), None)
+    if own is None:
+        return ""
+    alike = [one for one in titles if one.asked == own.asked]
+    return own.asked if len(alike) == 1 else f"{column}: {own.asked}"
+
+
+def _letters(title: Title) -> str:
+    return re.sub(r"\d", "", title.cell.address)
+
+
+def _name_item(table: Table, row: int) -> str:
+    if not table.plan.items:
+        return ""
+    key = table.plan.fields[0].key
+    cell = table.cell(row, key)
+    return " ".join(str(cell.value).split()) if cell and not cell.is_blank else ""
+
+
+def _name_field(table: Table, address: str) -> str:
+    """Label of the field that a column was taken for, in the sheet's language."""
+    column = re.sub(r"\d", "", address)
+    for field in table.plan.fields:
+        place = table.columns.get(field.key)
+        if place and table.cell(1, field.key):
+            cell = table.sheet.cell(1, place.number)
+            if re.sub(r"\d", "", cell.address) == column:
+                return field.wording(table.language).label or field.label
+    return UNANSWERED
+
+
+def _begin(
+    path: Path, workbook: Workbook, *, asks_mark: bool, language: Language
+) -> Iterator[str]:
+    yield from _comment(say("map.head", file=path.name), language)
+    yield f'schema = "{SCHEMA}"'
+    yield f"workbook = {_quote(path.name)}"
+    mark = {",": "comma", ".": "point"}.get(workbook.answers.decimal_mark)
+    if mark or asks_mark:
+        yield f'decimal_mark = "{mark or UNANSWERED}"  # "comma", "point"'
+    yield ""
+
+
+def _list_sheets(
+    workbook: Workbook, questions: Sequence[Question], language: Language
+) -> Iterator[str]:
+    given = workbook.answers.sheets
+    asked = [one for one in questions if not one.sheet]
+    if not given and not asked:
+        return
+    yield "[sheets]"
+    for name, answer in given.items():
+        yield f"{_quote(name)} = {_quote(answer)}"
+    for one in asked:
+        yield _line(one, language)
+    yield ""
+
+
+def _list_headings(
+    table: Table,
+    workbook: Workbook,
+    questions: Sequence[Question],
+    language: Language,
+) -> Iterator[str]:
+    name = table.sheet.name
+    given = workbook.answers.headings.get(name, {})
+    asked = [one for one in questions if one.sheet == name and one.asked not in given]
+    yield f"[headings.{_quote(name)}]"
+    for key, answer in given.items():
+        yield f"{_quote(key)} = {_quote(answer)}"
+    for one in asked:
+        yield _line(one, language)
+    for field in table.plan.fields:
+        column = table.columns.get(field.key)
+        if column is None or column.unit is None:
+            continue
+        heading = _find_title(table.sheet, table.heading_row, column.number)
+        label = render(field.name, language)
+        is_given = column.unit not in ("", IN_CELLS)
+        unit = f" [{column.unit}]" if is_given else ""
+        yield f"# {_quote(heading)} = {_quote(label + unit)}"
+    yield ""
+
+
+def _find_title(sheet: Sheet, row: int, column: int) -> str:
+    titles = list_titles(sheet, row)
+    return next((one.asked for one in titles if one.cell.column == column), "")
+
+
+def _line(question: Question, language: Language) -> str:
+    hints = "; ".join(render(one, language) for one in question.hints)
+    comment = " ".join(make_printable(hints).split())
+    return f"{_quote(question.asked)} = {_quote(question.answer)}  # {comment}"
+
+
+def _comment(message: Message, language: Language) -> Iterator[str]:
+    for line in render(message, language).splitlines():
+        yield f"# {line}".rstrip()
+
+
+def _quote(text: str) -> str:
+    return json.dumps(make_printable(text), ensure_ascii=False)

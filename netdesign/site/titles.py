@@ -1,0 +1,133 @@
+"""One heading, or one item of a line, as its sheet has it: what it is taken for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from netdesign.site.cells.cells import IGNORE, Cell, Sheet, name_column
+from netdesign.site.columns.fields import Field, normalise, split_heading
+from netdesign.site.columns.heading_text import find_unit
+from netdesign.site.columns.lexicon import UNKNOWN, Lexicon, Match
+
+_COLUMN = re.compile(r"([A-Z]{1,3}): (.*)", re.DOTALL)  # of an answer
+UNANSWERED = "?"
+
+
+@dataclass(frozen=True, slots=True)
+class Title:
+    """One heading: the cell that holds it and the group that it belongs to."""
+
+    cell: Cell
+    group: str = ""
+
+    @property
+    def text(self) -> str:
+        """Text as typed."""
+        return str(self.cell.value)
+
+    @property
+    def asked(self) -> str:
+        """Group and heading as a file of answers names them."""
+        parts = (" ".join(one.split()) for one in (self.group, self.text))
+        return " › ".join(part for part in parts if part)
+
+    @property
+    def unit(self) -> str:
+        """Unit in its brackets, or in those of its group."""
+        group = split_heading(self.group)[1]
+        return find_unit(self.text) or split_heading(self.text)[1] or group
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """Field that a heading is taken for, and by what.
+
+    Attributes
+    ----------
+    match : Match
+        Of its text, or of the answer to it.
+    answer : str
+        Text of the answer; empty where none was needed or none is there.
+    unit : str
+        That of the answer; empty where it gives none.
+    """
+
+    match: Match
+    answer: str = ""
+    unit: str = ""
+
+    @property
+    def field(self) -> Field | None:
+        """The field; None where it is unknown, unclear or ignored."""
+        return self.match.field
+
+    @property
+    def is_ignored(self) -> bool:
+        """Somebody answered that it is not to be read."""
+        return self.answer == IGNORE
+
+    @property
+    def is_wrong_answer(self) -> bool:
+        """The answer names no heading, or more than one."""
+        return bool(self.answer) and not self.is_ignored and self.field is None
+
+
+def understand(title: Title, lexicon: Lexicon, answers: Mapping[str, str]) -> Meaning:
+    """Meaning of a heading: as answered, else by its text."""
+    answer = find_answer(title, answers)
+    if not answer:
+        return Meaning(lexicon.match(title.text, title.group))
+    if answer in (IGNORE, UNANSWERED):
+        return Meaning(UNKNOWN, answer)
+    return Meaning(match_answer(answer, lexicon), answer, find_unit(answer))
+
+
+def match_answer(answer: str, lexicon: Lexicon) -> Match:
+    """Field that an answer names, by its key or by a heading of any language."""
+    name = answer.partition("[")[0].strip()
+    if name in lexicon.fields:
+        return Match(field=lexicon.fields[name])
+    return lexicon.match(answer)
+
+
+def find_answer(title: Title, answers: Mapping[str, str]) -> str:
+    """Answer to a heading; empty where there is none."""
+    for key, answer in answers.items():
+        if is_asked(title, key):
+            return answer
+    return ""
+
+
+def is_asked(title: Title, key: str) -> bool:
+    """A key of the answers names this heading."""
+    in_column = _COLUMN.fullmatch(key)
+    if in_column and in_column[1] != name_column(title.cell.column):
+        return False
+    asked = normalise(in_column[2] if in_column else key)
+    names = (title.text, title.asked, title.text.partition("[")[0])
+    return asked in {normalise(one) for one in names} | {split_heading(title.text)[0]}
+
+
+def list_titles(sheet: Sheet, row: int) -> list[Title]:
+    """Headings of a row; a cell merged downwards into it counts as in the row."""
+    cells = {cell.column: cell for cell in sheet.row(row)}
+    for merged in sheet.merged:
+        if merged.row < row <= merged.last_row and merged.column == merged.last_column:
+            cell = sheet.cell(merged.row, merged.column)
+            if not cell.is_blank:
+                cells.setdefault(merged.column, cell)
+    return [
+        Title(cells[column], _find_group(sheet, row, column))
+        for column in sorted(cells)
+    ]
+
+
+def _find_group(sheet: Sheet, row: int, column: int) -> str:
+    """Text of a cell just above that is merged across this column and others."""
+    for merged in sheet.merged:
+        is_wide = merged.last_column > merged.column and merged.last_row == row - 1
+        if is_wide and merged.covers(row - 1, column):
+            return str(sheet.cell(merged.row, merged.column).value or "")
+    return ""

@@ -1,0 +1,44 @@
+"""``netdesign map`` from the command line, in three languages."""
+
+import pytest
+
+from tests.site.messy import swiss
+
+
+@pytest.fixture
+def site(tmp_path):
+    path = tmp_path / "site.xlsx"
+    swiss.build(path)
+    return path
+
+
+def test_a_refusal_names_the_command_and_its_file_is_used(call, site, tmp_path):
+    refused = call("check", site, "--dry-run")
+    assert refused.code == 3
+    assert "netdesign map site.xlsx writes a file" in refused.err
+    assert call("map", site).err.splitlines()[1:] == [
+        "1 to be answered, at the question marks"
+    ]
+    place = tmp_path / "site.map.toml"
+    text = place.read_text(encoding="utf-8")
+    place.write_text(text.replace('= "?"', '= "ignore"'), encoding="utf-8")
+    read = call("check", site, "--dry-run")
+    assert read.code == 0
+    assert "is read with the answers of site.map.toml (sha256 " in read.out
+
+
+def test_a_file_of_answers_is_kept_unless_told(call, site, tmp_path):
+    (tmp_path / "site.map.toml").write_text('[sheets]\nPrezzi = "ignore"\n')
+    assert call("map", site).code == 2
+    assert call("map", site, "--force").code == 0
+    text = (tmp_path / "site.map.toml").read_text(encoding="utf-8")
+    assert '"Prezzi" = "ignore"' in text
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [("fr", "point d'interrogation"), ("de", "Jedes Fragezeichen")],
+)
+def test_the_file_speaks_the_language_asked_for(call, site, tmp_path, language, told):
+    assert call("map", site, "--language", language).code == 0
+    assert told in (tmp_path / "site.map.toml").read_text(encoding="utf-8")

@@ -1,0 +1,238 @@
+"""Measured structures: what their file may hold, bands, misfits, the page."""
+
+import json
+from dataclasses import replace
+from importlib.resources import files
+
+import pytest
+
+from netdesign.cli import main
+from netdesign.errors import ModelError
+from netdesign.evidence.validation.band import SAMPLES, validate_structure
+from netdesign.evidence.validation.gather import read_all
+from netdesign.evidence.validation.page import (
+    DOCUMENT_FILE,
+    PAGE_FILE,
+    Evidence,
+    mark_expected,
+    render_validation,
+)
+from netdesign.evidence.validation.structure import Span, read_structures
+from netdesign.evidence.verification.case import VerificationCase
+from netdesign.evidence.verification.compaction import Contrast, list_places
+
+OWN = files("netdesign.evidence.validation").joinpath("measured.toml").read_bytes()
+NET, OTHER_NET, ICELAND, WALL = read_structures(OWN)
+KNOWN = {
+    "slope_deg": 37.3,
+    "net_height_m": 3.1,
+    "filled": 0.93,
+    "density_kg_m3": 361.0,
+    "upslope_length_m": 14.7,
+    "glide_factor": 1.63,
+    "inclination_deg": 27.4,
+    "friction_deg": 24.0,
+    "slack": 0.041,
+    "stiffness_kN_per_m": 9.1e3,
+    "post_spacing_m": 3.6,
+    "uphill_anchor_ratio": 1.1,
+}
+CASES = [
+    VerificationCase(
+        id=name,
+        kind=kind,
+        reference="a source",
+        expected=2.0,
+        got=2.001,
+        tolerance=0.01,
+    )
+    for name, kind in (
+        ("wall-n3-35", "cross model"),
+        ("guideline-300-35", "published"),
+        ("compaction-default", "published"),
+        ("slab-shear", "closed form"),
+    )
+]
+
+
+def of_one(low, high=None):
+    return Span(low=low, high=low if high is None else high, mark="measured")
+
+
+def known_net(**changes):
+    inputs = {name: of_one(value) for name, value in (KNOWN | changes).items()}
+    return replace(OTHER_NET, inputs=inputs)
+
+
+def test_published_structures_are_never_known_and_say_what_is_missing():
+    assert [one.kind for one in (NET, OTHER_NET, ICELAND, WALL)] == ["net"] * 3 + [
+        "wall"
+    ]
+    for one in (NET, OTHER_NET, ICELAND, WALL):
+        assert not one.is_known
+        assert one.open
+        assert {"read"} == {force.mark for force in one.measured}
+        assert "read" not in {span.mark for span in one.inputs.values()}
+        assert all(span.low < span.high for span in one.inputs.values())
+
+
+def test_measured_values_are_those_of_the_sources():
+    values = {
+        (one.id, force.name): force.value
+        for one in (NET, OTHER_NET, ICELAND, WALL)
+        for force in one.measured
+    }
+    assert sorted(values.values()) == [24, 28, 30, 34, 41, 48, 70, 95, 150, 350]
+
+
+def test_known_structure_has_one_case_and_a_misfit():
+    found = validate_structure(known_net())
+    assert (found.solved, found.failed) == (1, 0)
+    for comparison in found.comparisons:
+        for band in comparison.bands:
+            assert band.low == band.high == band.middle[0]
+    (row,) = (row for row in render_rows(found) if row["name"] == "force of the posts")
+    post = next(b for c in found.comparisons for b in c.bands if b.member == "post")
+    assert row["said"] == f"misfit {100.0 * (post.low / 95.0 - 1.0):+.1f} %"
+
+
+def render_rows(found):
+    from netdesign.evidence.validation.page import _show_structure
+
+    return _show_structure(found)["rows"]
+
+
+def test_band_holds_every_case_and_places_the_measured_value():
+    ranges = {name: of_one(value) for name, value in KNOWN.items()}
+    ranges["density_kg_m3"] = of_one(270.0, 440.0)
+    found = validate_structure(replace(OTHER_NET, inputs=ranges), samples=5)
+    assert found.solved == 5
+    ends = [
+        validate_structure(known_net(density_kg_m3=density)).comparisons[1].bands[0].low
+        for density in (270.0, 440.0)
+    ]
+    post = found.comparisons[1].bands[0]
+    assert (
+        ends[0] <= post.low <= post.middle[0] < post.middle[1] <= post.high <= ends[1]
+    )
+    measured = found.comparisons[1].measured
+    assert post.place(replace(measured, value=post.high * 1.01)) == "above"
+    assert post.place(replace(measured, value=post.low * 0.99)) == "below"
+    near = replace(measured, value=post.high * 1.01, uncertainty=post.high * 0.02)
+    assert post.place(near) == "inside"
+    assert SAMPLES >= 100
+
+
+def test_ropes_between_posts_are_solved_where_they_are_given():
+    inputs = {name: of_one(value) for name, value in KNOWN.items()}
+    inputs |= {"rope_stiffness_kN": of_one(1.5e4), "rope_sag": of_one(0.05)}
+    found = validate_structure(replace(NET, inputs=inputs))
+    ridge = found.comparisons[2].bands[0]
+    assert ridge.member == "panel_upper_tension"
+    assert ridge.low > 0.0
+
+
+def test_wall_is_per_metre():
+    inputs = {name: of_one(KNOWN[name]) for name in WALL.inputs}
+    found = validate_structure(replace(WALL, inputs=inputs))
+    (comparison,) = found.comparisons
+    assert 5.0 < comparison.bands[0].low < 200.0
+
+
+def test_structure_without_any_result_is_named():
+    lies_on_the_ground = known_net(slack=0.49, inclination_deg=60.0)
+    with pytest.raises(ModelError, match="oberalp-1995"):
+        validate_structure(lies_on_the_ground)
+    odd = replace(
+        known_net(),
+        measured=(replace(OTHER_NET.measured[0], members=("no_such_rope",)),),
+    )
+    with pytest.raises(ModelError, match="no_such_rope"):
+        validate_structure(odd)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ('schema = "netdesign.measured/1"', 'schema = "other"', "schema"),
+        ('kind = "net"', 'kind = "dam"', "kind"),
+        ("value_kN = 34.0", "value_kN = -34.0", "value_kN"),
+        ("value_kN = 34.0", "value_kN = true", "value_kN"),
+        ("value_kN = 34.0", "value_N = 34.0", "value_N"),
+        ('mark = "read"', 'mark = "known"', "mark"),
+        ("slope_deg = { low = 30.0", "slope_deg = { low = 50.0", "slope_deg"),
+        ("slope_deg = {", "slope = {", "slope"),
+        ("rope_sag = {", "rope_slack = {", "rope_slack"),
+        ('title = "', 'name = "', "name"),
+        ('members = ["post"]', "members = []", "members"),
+    ],
+)
+def test_file_is_refused_by_the_name_of_its_field(old, new, named):
+    text = OWN.decode()
+    assert old in text
+    with pytest.raises(ModelError, match=named):
+        read_structures(text.replace(old, new, 1).encode())
+
+
+def test_an_owners_file_comes_first(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_bytes(OWN.replace(b"trumer-2007", b"my-net"))
+    assert [one.id for one in read_all(path)][::4] == ["my-net", "trumer-2007"]
+
+
+def build_evidence(*validations):
+    return Evidence(
+        cases=CASES,
+        places=list_places(),
+        contrasts=[
+            Contrast(
+                ground="free", own=(9.1, 8.2), other=(9.3, 8.1), uniform=(9.4, 8.3)
+            )
+        ],
+        validations=validations,
+    )
+
+
+def test_page_marks_every_figure_and_draws_its_pictures():
+    marks = [mark_expected(case) for case in CASES]
+    assert marks == [
+        "computed by another code",
+        "recalled",
+        "read in a source",
+        "computed here",
+    ]
+    hostile = replace(known_net(), title="<script>alert(1)</script>")
+    rendered = render_validation(build_evidence(validate_structure(hostile)))
+    page, document = rendered[PAGE_FILE].decode(), json.loads(rendered[DOCUMENT_FILE])
+    assert page.count("<svg") == 3
+    assert "<script>" not in page
+    assert document["schema"] == "netdesign.validation/1"
+    assert document["structures"][0]["is_known"]
+
+
+def test_page_without_structures_has_two_pictures():
+    page = render_validation(build_evidence())[PAGE_FILE].decode()
+    assert page.count("<svg") == 2
+    assert "Measured structures" not in page
+
+
+def test_command_writes_the_page_and_leaves_with_its_verdict(tmp_path, monkeypatch):
+    from netdesign.evidence.validation import gather as module
+
+    known = validate_structure(known_net())
+    outside = replace(
+        known, structure=replace(known.structure, inputs=OTHER_NET.inputs)
+    )
+    ends = iter([build_evidence(known), build_evidence(outside)])
+    monkeypatch.setattr(module, "gather", lambda *_: next(ends))
+    drawn = {PAGE_FILE: b"page", DOCUMENT_FILE: b"{}"}
+    monkeypatch.setattr(module, "render_validation", lambda _: drawn)
+    for expected, extra in ((0, ()), (4, ("--force",))):
+        arguments = ["netdesign", "validate", "--out", str(tmp_path), "--quiet", *extra]
+        monkeypatch.setattr("sys.argv", arguments)
+        with pytest.raises(SystemExit) as left:
+            main()
+        assert left.value.code == expected
+    assert (tmp_path / PAGE_FILE).is_file()
+    assert (tmp_path / DOCUMENT_FILE).is_file()
+    assert (tmp_path / "rough-layered.vtk").is_file()

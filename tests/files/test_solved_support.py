@@ -1,0 +1,137 @@
+"""Support of a solved scene against the panel's own functions and plain statics."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from netdesign.coupling.scene import SolverSettings
+from netdesign.files.solution import write_solution_document
+from netdesign.files.solved_support import resolve_support
+from netdesign.files.support_tables import GivenSupport
+from netdesign.panel.inputs import Panel, Rope
+from netdesign.panel.row_forces import compute_end_forces
+from netdesign.panel.solve import solve_panel
+from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.view.solved_support import view_support
+from netdesign.report.words import Words
+from netdesign.structure.anchors import compute_anchor_forces
+from netdesign.structure.layout import SupportLayout, place_support
+from netdesign.study.record_panel import record_solved_panel
+
+SETTINGS = SolverSettings(accuracy=0.1)
+LAYOUT = SupportLayout(
+    post_spacing=3.6, uphill_anchor_distance=3.3, downhill_anchor_distance=2.7
+)
+PANEL = Panel(
+    post_spacing=3.6,
+    lower=Rope(stiffness=21e6, sag=0.037),
+    upper=Rope(stiffness=16e6, sag=0.062),
+    cut="upper",
+)
+
+
+@pytest.fixture
+def section(solved):
+    return solved(inclination_deg=30.0, slack=0.03, ground="no-slip")
+
+
+def write(section, language="en", **given):
+    support = GivenSupport(layout=LAYOUT, **given)
+    solved = resolve_support(section, SETTINGS, support)
+    document = write_solution_document(
+        section, SETTINGS, 0.1, None, language, support=solved
+    )
+    return document["support"], solved
+
+
+def kilonewtons(force):
+    return [force[0] / 1e3, force[1] / 1e3]
+
+
+def test_plain_forces_are_those_of_the_pulls_times_the_spacing(section):
+    written, _ = write(section)
+    points = place_support(LAYOUT, tuple(section.scene.net.head))
+    plain = compute_anchor_forces(
+        points,
+        foot_pull_per_m=(section.foot.x, section.foot.y),
+        head_pull_per_m=(section.head.x, section.head.y),
+        post_spacing=3.6,
+    )
+    forces = written["plain"]
+    assert forces["foot_anchor_kN"] == forces["foot_kN"]["size"]
+    assert forces["foot_kN"]["size"] == pytest.approx(3.6e-3 * section.foot.size)
+    assert forces["head_kN"]["y"] == pytest.approx(3.6e-3 * section.head.y)
+    assert forces["post_kN"] == pytest.approx(plain.head.post_compression / 1e3)
+    assert forces["error_kN"]["foot_anchor"] >= 3.6e-3 * section.foot.error
+    assert written["panel"] is None
+    assert written["row_end"] is None
+    assert "reason" not in written
+
+
+@pytest.mark.parametrize("mid", [False, True])
+def test_panel_and_row_end_are_those_of_their_functions(section, mid):
+    panel = replace(PANEL, has_mid_anchors=mid)
+    angle = math.radians(41.0)
+    written, _ = write(section, panel=panel, end_guy_angle=angle)
+    solved = solve_panel(section, panel)
+    points = place_support(LAYOUT, tuple(section.scene.net.head))
+    end = compute_end_forces(solved, points, angle)
+    forces = written["panel"]
+    found = [forces["foot_kN"]["x"], forces["foot_kN"]["y"]]
+    np.testing.assert_allclose(found, kilonewtons(solved.foot), rtol=1e-9)
+    assert ("mid_foot_kN" in forces) is mid
+    ropes = forces["lower_rope"]["H_kN"], forces["upper_rope"]["T_kN"]
+    np.testing.assert_allclose(
+        ropes, kilonewtons((solved.lower.along, solved.upper.tension)), rtol=1e-9
+    )
+    assert forces["mid_head_drop_m"] == -solved.upper.mid_displacement[1] > 0.0
+    row_end = written["row_end"]
+    foot = [row_end["foot_kN"][part] * 1e3 for part in "xyz"]
+    np.testing.assert_allclose(foot, end.foot, rtol=1e-9)
+    assert row_end["end_guy_kN"] == pytest.approx(end.guy_tension / 1e3)
+    assert row_end["post_kN"] == pytest.approx(end.post_compression / 1e3)
+
+
+def test_without_an_angle_guy_and_end_post_are_not_known(section):
+    written, _ = write(section, panel=PANEL)
+    assert written["row_end"]["end_guy_kN"] is None
+    assert written["row_end"]["post_kN"] is None
+    told = view_support(written, Words("en")).sentences
+    assert any("panel.end_guy_deg" in one for one in told)
+
+
+@pytest.mark.parametrize("language", ["en", "de", "fr"])
+def test_a_panel_that_fails_leaves_its_reason(section, language):
+    low = Rope(stiffness=2e7, sag=0.3)
+    panel = replace(PANEL, lower=low, upper=low, post_spacing=9.3, cut="fitted")
+    written, solved = write(section, language, panel=panel)
+    assert written["plain"]["post_kN"] > 0.0
+    assert written["panel"] is None
+    view = view_support(written, Words(language))
+    assert written["reason"] in view.sentences[0]
+    assert len(view.tables) == 2
+    assert record_solved_panel(solved.result) is None
+
+
+def test_a_staggered_history_has_no_panel(section):
+    written, _ = write(replace(section, method="staggered"), panel=PANEL)
+    assert written["panel"] is None
+    assert "staggered exchange" in written["reason"]
+
+
+@pytest.mark.parametrize("language", ["en", "de", "fr"])
+def test_page_has_every_force_and_a_drawing(section, language):
+    written, solved = write(section, panel=PANEL, end_guy_angle=0.7)
+    view = view_support(written, Words(language))
+    assert [len(one.rows) for one in view.tables] == [4, 5, 2]
+    shown = {cell.text for one in view.tables for row in one.rows for cell in row}
+    for force in (
+        written["panel"]["uphill_guy_kN"],
+        written["row_end"]["foot_kN"]["z"],
+        written["panel"]["upper_rope"]["T_kN"],
+    ):
+        assert f"{force:.1f}" in shown
+    drawn = draw_panel(record_solved_panel(solved.result), Words(language))
+    assert f"{written['row_end']['foot_kN']['size']:.1f}" in drawn

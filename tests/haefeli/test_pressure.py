@@ -1,0 +1,162 @@
+"""Closed form of creep and glide pressure: limits, balance, two dimensions, tables."""
+
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import netdesign.haefeli
+from netdesign.coupling.scene import Scene, SolverSettings
+from netdesign.coupling.steady.rigid import solve_rigid
+from netdesign.errors import ModelError
+from netdesign.haefeli.pressure import compute_slab_force
+from netdesign.haefeli.slab import (
+    Slab,
+    compute_influence_length,
+    find_linear_slip,
+    scale_slip_length,
+)
+from netdesign.snow.creep_law import BOUTILLIER_2004
+from netdesign.snow.ground import GroundLaw
+from netdesign.snow.snowpack import GRAVITY, Snowpack
+from netdesign.snow.wall import Wall
+
+PAGE = Path(netdesign.haefeli.__file__).with_name("THEORY.md").read_text("utf-8")
+SLAB = Slab(thickness=2.3, slope_angle=math.radians(37.5), density=317.0)
+WEIGHT = 317.0 * GRAVITY * 2.3 * math.sin(math.radians(37.5))  # a metre of slope
+
+
+def read_table(heading):
+    """Rows of the page's table whose first column has this heading, as texts."""
+    lines = PAGE[PAGE.index(f"| {heading} |") :].splitlines()
+    rows = (re.split(r" *\| *", line.strip("| ")) for line in lines[2:])
+    return [row for row, line in zip(rows, lines[2:], strict=False) if line[:1] == "|"]
+
+
+def integrate(slab, slip, length):
+    """Force by finite differences of (H4) with the ends of (H5), in weights of 1 m."""
+    count = 4000
+    x, step = np.linspace(-length, 0.0, count + 1, retstep=True)
+    reach = compute_influence_length(slab, slip)
+    matrix = np.zeros((3, count + 1))  # banded, u over u_0
+    matrix[0, 2:] = matrix[2, :-2] = -((reach / step) ** 2)
+    matrix[1] = 1.0 + 2.0 * (reach / step) ** 2
+    load = np.ones(count + 1)
+    # free end: P = 0 by a ghost node; face: u = 0
+    slope = slab.side_length / reach**2
+    matrix[0, 1] = -2.0 * (reach / step) ** 2
+    load[0] -= 2.0 * slope * reach**2 / step
+    matrix[1, -1], matrix[2, -2], load[-1] = 1.0, 0.0, 0.0
+    from scipy.linalg import solve_banded
+
+    u = solve_banded((1, 1), matrix, load)
+    drag = step * (u.sum() - 0.5 * (u[0] + u[-1]))  # of the ground, in weights
+    assert x[0] == -length
+    return length - drag
+
+
+@pytest.mark.parametrize(("slip", "length"), [(0.0, 5.1), (1.7, 7.3), (23.0, 11.9)])
+def test_force_is_weight_less_drag(slip, length):
+    force = compute_slab_force(SLAB, slip_length=slip, upslope_length=length)
+    expected = integrate(SLAB, slip, length)
+    assert force.total / WEIGHT == pytest.approx(expected, rel=2e-5)
+
+
+def test_without_drag_the_face_holds_all_of_the_snow():
+    free = compute_slab_force(SLAB, slip_length=math.inf, upslope_length=17.7)
+    assert free.total == pytest.approx(WEIGHT * 17.7, rel=1e-14)
+    nearly = compute_slab_force(SLAB, slip_length=9e5, upslope_length=17.7)
+    assert nearly.total == pytest.approx(free.total, rel=1e-4)
+
+
+def test_long_slabs_are_endless():
+    endless = compute_slab_force(SLAB, slip_length=1.1)
+    length = endless.influence_length
+    long = compute_slab_force(SLAB, slip_length=1.1, upslope_length=25.0 * length)
+    assert long.total == pytest.approx(endless.total, rel=1e-10)
+    assert endless.total / WEIGHT == pytest.approx(length + SLAB.side_length)
+
+
+def test_glide_factor_is_the_ratio_of_forces():
+    for factor in (1.0, 1.7, 3.1):
+        slip = find_linear_slip(SLAB, factor)
+        ratio = (
+            compute_slab_force(SLAB, slip_length=slip).total
+            / compute_slab_force(SLAB, slip_length=0.0).total
+        )
+        assert ratio == pytest.approx(factor, rel=1e-12)
+
+
+def test_leaning_face_carries_its_wedge():
+    lean = math.radians(27.0)
+    force = compute_slab_force(SLAB, slip_length=0.4, inclination=lean)
+    upright = compute_slab_force(SLAB, slip_length=0.4)
+    area = 2.3**2 * math.tan(lean) / 2.0
+    assert force.total - upright.total == pytest.approx(WEIGHT / 2.3 * area)
+    tilt = force.wedge_normal / force.wedge
+    assert tilt == pytest.approx(-1.0 / math.tan(SLAB.slope_angle))
+
+
+def test_what_is_out_of_range_is_refused():
+    with pytest.raises(ModelError, match="presses with more than"):
+        scale_slip_length(SLAB, 0.3, 0.5)
+    with pytest.raises(ModelError, match="upslope length"):
+        compute_slab_force(SLAB, slip_length=math.inf)
+    with pytest.raises(ModelError, match="upslope length"):
+        compute_slab_force(SLAB, slip_length=1.0, upslope_length=0.0)
+    with pytest.raises(ModelError, match="slip length"):
+        compute_slab_force(SLAB, slip_length=-0.1)
+    with pytest.raises(ModelError, match="inclination"):
+        compute_slab_force(SLAB, slip_length=0.1, inclination=1.6)
+
+
+def solve_in_two_dimensions(slip_ratio, aspect, friction_angle):
+    """Force on a wall over rho g d^2 by finite elements with n = 1."""
+    ground = GroundLaw(kind="no-slip")
+    if slip_ratio:
+        ground = GroundLaw(kind="sliding", slip_length=slip_ratio * 3.0)
+    scene = Scene(
+        snowpack=Snowpack(
+            slope_angle=math.radians(40.0),
+            thickness=3.0,
+            upslope_length=aspect * 3.0,
+            density=300.0,
+        ),
+        ground=ground,
+        net=Wall(height_normal=3.0, friction_angle=friction_angle),
+        creep_law=replace(BOUTILLIER_2004, exponent=1.0),
+    )
+    solution = solve_rigid(scene, SolverSettings(accuracy=0.01))
+    return solution.force.x / (300.0 * GRAVITY * 9.0)
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "friction_angle"),
+    [(0, 3, 0.0), (1, 4, None), (2, 3, 0.0), (5, 3, 0.0), (8, 4, None)],
+)
+def test_page_holds_what_two_dimensions_give(row, column, friction_angle):
+    texts = read_table("D* / d")[row]
+    slip, aspect, closed = (float(texts[i]) for i in range(3))
+    slab = Slab(thickness=3.0, slope_angle=math.radians(40.0), density=300.0)
+    force = compute_slab_force(slab, slip_length=3.0 * slip, upslope_length=3 * aspect)
+    scaled = force.total / (300.0 * GRAVITY * 9.0)
+    assert scaled == pytest.approx(closed, abs=6e-4)
+    flow = solve_in_two_dimensions(slip, aspect, friction_angle)
+    assert scaled / flow == pytest.approx(float(texts[column]), abs=2e-3)
+
+
+def test_page_holds_the_published_figure():
+    for depth, dynamic, whole in read_table("d [m]"):
+        thickness = float(depth)
+        for density, printed in zip((250, 350, 450), whole.split(" / "), strict=True):
+            slab = Slab(
+                thickness=thickness, slope_angle=math.radians(30.0), density=density
+            )
+            slip = scale_slip_length(slab, 10.0, 0.5)
+            assert slip == pytest.approx(float(printed), abs=6e-3)
+        third = thickness / 3.0
+        alone = (10.0 + third) / 4.0 - third
+        assert alone == pytest.approx(float(dynamic), abs=6e-3)

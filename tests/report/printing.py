@@ -1,0 +1,60 @@
+"""A page as a browser prints it: how many pages, and what is too wide for them."""
+
+import re
+import subprocess
+
+from tests.programs import require_program
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+PAPER_PX = 680  # width of the print area at 96 dots per inch: 210 mm less both margins
+PHONE_PX = 400
+_QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage")
+# What lies further right than the page, each with the section that it stands in; what
+# a section scrolls counts too.
+_MEASURE = """<script>
+document.body.style.width = "WIDTHpx";
+const found = [];
+for (const one of document.querySelectorAll("table, svg, p, li, dl, figure, h2, h3")) {
+  if (one.getBoundingClientRect().right <= WIDTH + 1) continue;
+  const place = one.closest("[id]");
+  found.push(place.id + " " + one.tagName.toLowerCase());
+}
+document.body.innerHTML = "<pre>" + found.join("\\n") + "</pre>";
+</script></body>"""
+
+
+def count_pages(page: str, folder) -> int:
+    """Pages on A4."""
+    target = folder / "report.pdf"
+    _open(page, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
+    return len(re.findall(rb"/Type\s*/Page\b", target.read_bytes()))
+
+
+def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[str]:
+    """``section tag`` of whatever reaches beyond ``width`` [px] on that medium."""
+    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
+    if media == "print":
+        page = page.replace("@media print", "@media all")
+        page = page.replace("@media screen", "@media speech")
+    page = page.replace("</body>", _MEASURE.replace("WIDTH", str(width)))
+    tree = _open(page, folder, f"--window-size={width},2000", "--dump-dom")
+    (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
+    return told.split("\n") if told else []
+
+
+def _open(page: str, folder, *arguments: str) -> str:
+    path = folder / "page.html"
+    path.write_text(page, encoding="utf-8")
+    return subprocess.run(
+        [
+            require_program(*NAMES),
+            *_QUIET,
+            f"--user-data-dir={folder}/profile",
+            *arguments,
+            path.as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    ).stdout

@@ -1,0 +1,217 @@
+"""A heading is taken for one field or asked for, however it is written."""
+
+import unicodedata
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from netdesign.site.columns.all_tables import SHEETS
+from netdesign.site.columns.heading_text import find_unit, fold, read_part
+from netdesign.site.columns.lexicon import Lexicon
+from netdesign.site.columns.net_columns import NETS
+from netdesign.site.columns.range_quantities import RANGES
+from netdesign.site.columns.synonyms import LANGUAGES, load_synonyms
+
+LISTS = [(plan, plan.fields) for plan in SHEETS]
+LISTS += [(plan, plan.items) for plan in SHEETS if plan.items]
+LEXICA = {plan.name: Lexicon.of(plan.fields, plan) for plan in SHEETS}
+NAMES = [
+    (plan.name, field.key, name)
+    for plan in SHEETS
+    for field in plan.fields
+    for name in field.raw_names
+]
+SMALL = ("de", "du", "la", "le", "der", "die", "des", "di", "della", "the", "of")
+
+
+@pytest.mark.parametrize(("plan", "fields"), LISTS, ids=lambda one: str(one)[:20])
+def test_no_heading_stands_for_two_fields_when_small_words_are_dropped(plan, fields):
+    owners = {}
+    for field in fields:
+        for name in field.raw_names:
+            owners.setdefault(read_part(name).whole, set()).add(field.key)
+    assert {name: keys for name, keys in owners.items() if name and len(keys) > 1} == {}
+
+
+@pytest.mark.parametrize(("plan", "fields"), LISTS, ids=lambda one: str(one)[:20])
+def test_no_heading_is_sure_and_unclear_at_once(plan, fields):
+    sure = {read_part(name).whole for field in fields for name in field.raw_names}
+    keys = {field.key for field in fields}
+    unclear = {
+        read_part(name).whole
+        for name, meant in plan.unclear.items()
+        if keys.intersection(meant)
+    }
+    assert sure & unclear == set()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_synonyms_are_of_fields_that_there_are(language):
+    keys = {plan.name: {field.key for field in plan.fields} for plan in SHEETS}
+    keys["Ranges"] = {*keys["Ranges"], "span"}
+    keys["quantities"] = {field.key for field in RANGES.items}
+    keys["sheets"] = {plan.name for plan in SHEETS}
+    tables = load_synonyms(language)
+    for table, entries in tables.items():
+        if table in keys:
+            assert set(entries) <= keys[table]
+    for plan in SHEETS:
+        known = keys[plan.name] | {field.key for field in plan.items}
+        assert set(tables["unclear"].get(plan.name, {})) <= known
+
+
+def test_no_sheet_name_stands_for_two_sheets():
+    owners = {}
+    for plan in SHEETS:
+        for name in (plan.name, *plan.aliases, *plan.names.values()):
+            owners.setdefault(fold(name), set()).add(plan.name)
+    assert {name: plans for name, plans in owners.items() if len(plans) > 1} == {}
+
+
+@st.composite
+def written(draw):
+    """A known heading as somebody else writes it."""
+    sheet, key, name = draw(st.sampled_from(NAMES))
+    text = draw(st.sampled_from([name, name.upper(), name.title(), f"  {name} "]))
+    if draw(st.booleans()):
+        text = unicodedata.normalize("NFD", text)
+    if draw(st.booleans()):
+        text = text.replace(" ", draw(st.sampled_from(["  ", "\n", "-", "_", " "])))
+    if draw(st.booleans()):
+        text = f"{draw(st.sampled_from(SMALL))} {text}"
+    unit = draw(st.sampled_from(["", " [m]", " (kN)", ", en m", " [°]"]))
+    return sheet, key, text + unit
+
+
+@settings(derandomize=True, max_examples=800, deadline=None)
+@given(written())
+def test_a_heading_written_otherwise_is_the_same_or_asked_for(drawn):
+    sheet, key, text = drawn
+    field = LEXICA[sheet].match(text).field
+    assert field is None or field.key == key
+
+
+@settings(derandomize=True, max_examples=800, deadline=None)
+@given(st.sampled_from(NAMES), st.sampled_from(NAMES))
+def test_two_headings_in_one_cell_are_taken_only_if_they_agree(one, other):
+    lexicon = LEXICA[one[0]]
+    match = lexicon.match(f"{one[2]} / {other[2]}")
+    alone = lexicon.match(other[2])
+    readings = {field.key for field in (alone.field, *alone.readings) if field}
+    if match.field is not None and one[1] not in readings:
+        # not cut in two: the whole is a name of its own
+        whole = f"{one[2]} / {other[2]}"
+        assert lexicon.match(whole.replace("/", " ")).field == match.field
+    if alone.field and alone.field.key != one[1]:
+        assert match.field is None
+
+
+# Heading, symbol or group beside it, and what is asked for
+@pytest.mark.parametrize(
+    ("heading", "group", "contrary"),
+    [
+        ("Netzhöhe HK", "", "HK"),
+        ("hauteur du filet Hk [m]", "", "Hk"),
+        ("Schneehöhe D", "", "D"),
+        ("épaisseur de neige H [m]", "", "H"),
+        ("épaisseur [m]", "Filet", "Filet"),
+        ("longueur amont [m]", "Ancrages", "Ancrages"),
+        ("Dk [m]", "Neige", "Neige"),
+        ("Dk/Hk [m]", "", "Hk"),
+        ("Ancrage amont (ancien)", "", "ancien"),
+    ],
+)
+def test_a_symbol_or_group_of_another_quantity_is_asked_for(heading, group, contrary):
+    match = LEXICA["Nets"].match(heading, group)
+    assert match.field is None
+    assert match.is_unclear
+    assert match.contrary == contrary
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        *("HK [m]", "Hk", "H", "D [m]", "N", "HS", "Hext", "hauteur", "Höhe H"),
+        *("Werkhöhe", "hauteur d'ouvrage [m]", "altezza rete [m]", "Neigung [°]"),
+        *("snow depth [m]", "altezza neve", "longueur", "distance", "amont", "Seil"),
+        *("Schneehöhe rechtwinklig [m]", "post height [m]", "Stützenhöhe"),
+    ],
+)
+def test_what_may_be_several_quantities_is_asked_for(heading):
+    match = LEXICA["Nets"].match(heading)
+    assert match.field is None
+    assert match.readings
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        *("Hauteur de poteau [m]", "Entraxe rangées [m]", "Pente filet [°]", "Dk min"),
+        *("longueur amont du hauban [m]", "Raideur câble [kN/m]", "D vertical [m]"),
+        *("Anker bergseitig Länge [m]", "Dk Hk", "Poids N", "inclinaison filet [°]"),
+        *("épaisseur de glace [m]", "résistance Rd [kN]", "Nb de poteaux", "Masse"),
+        *("hauteur de neige (normale à la pente) [m]", "net height vertical [m]"),
+        *("Schneehöhe (hangnormal) [m]", "Dk min. vertical", "post type old"),
+    ],
+)
+def test_a_heading_with_a_word_more_is_not_taken(heading):
+    assert LEXICA["Nets"].match(heading).field is None
+
+
+@pytest.mark.parametrize(
+    ("heading", "group", "key"),
+    [
+        ("hauteur du filet Dk", "", "net_height"),
+        ("D_K [m]", "", "net_height"),
+        ("ψ (°)", "Terrain", "slope_angle"),
+        ("Entraxe poteaux, en m", "", "post_spacing"),
+        ("amont", "Ancrages", "uphill_anchor"),
+        ("amont", "Haubans", "uphill_guy"),
+        ("Stuetzen-Abstand a", "", "post_spacing"),
+        ("Altezza rete DK\nNetzhöhe DK [m]", "", "net_height"),
+        ("Distanza a monte / Länge bergwärts", "", "upslope_length"),
+    ],
+)
+def test_headings_of_offices_are_taken(heading, group, key):
+    field = LEXICA["Nets"].match(heading, group).field
+    assert field is not None
+    assert field.key == key
+
+
+def test_units_stand_in_brackets_or_behind_a_comma():
+    texts = ["Dk (perp.) [m]", "Entraxe, en cm", "Länge in m", "facteur N", "a: kN/m"]
+    assert [find_unit(text) for text in texts] == ["m", "cm", "m", "", "kN/m"]
+
+
+def test_italian_has_every_required_column():
+    required = {field.key for field in NETS.fields if field.required}
+    table = load_synonyms("it")
+    asked_for = {"net_height"}  # taken with its symbol DK, or as normal to the slope
+    assert required - asked_for <= set(table["Nets"])
+    assert asked_for <= set(table["unclear"]["Nets"])
+
+
+@pytest.mark.parametrize(
+    "quantity",
+    [
+        *("Neigung [°]", "inclinaison", "Bodenreibung", "frottement neige/sol [°]"),
+        *("Reibung Schnee/Boden", "Attrito", "H", "D [m]", "N", "Neigung ψ"),
+        *("masse volumique φ", "neige"),
+    ],
+)
+def test_quantities_that_may_be_others_are_asked_for(quantity):
+    match = Lexicon.of(RANGES.items, RANGES).match(quantity)
+    assert match.field is None
+    assert match.readings
+
+
+@pytest.mark.parametrize(
+    "quantity",
+    [
+        *("densité relative", "Hangneigung", "inclinaison du terrain [°]", "angle φ"),
+        *("Reibungswinkel Boden φ", "angle de frottement du sol", "Dichte Eis"),
+    ],
+)
+def test_quantities_of_something_else_are_not_taken(quantity):
+    assert Lexicon.of(RANGES.items, RANGES).match(quantity).field is None

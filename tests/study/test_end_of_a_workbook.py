@@ -1,0 +1,107 @@
+"""A workbook whose row end is held, with and without a complete panel between posts."""
+
+import math
+import random
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
+from netdesign.outcome import Verdict
+from netdesign.site.reader import read_site
+from netdesign.site.template import workbook as template
+from netdesign.study.audit.study_audit import audit_study
+from netdesign.study.cases import CheckRun, search_site
+from netdesign.study.judge import judge_site
+from netdesign.words.catalogue import LANGUAGES, render
+from tests.verification.untidy_site import PROFILE, draw_site
+
+RUN = CheckRun(
+    settings=SolverSettings(accuracy=0.1, levels=MESH_LEVELS[:2]),
+    command="",
+    started="",
+)
+PANEL = {
+    "panel_system": "rectangular",
+    "net_cut": "fitted",
+    "ridge_rope": "border",
+    "ridge_sag": 0.047,
+    "lower_rope": "border",
+    "lower_sag": 0.061,
+}
+END = {
+    "row": "U2",
+    "lateral_anchor": "strong",
+    "end_guy": "number",
+    "end_guy_anchor": "strong",
+    "end_guy_angle": 37.0,
+}
+MEMBERS = {"lateral_anchor", "end_guy", "end_guy_anchor"}
+
+
+def judge(folder, panel):
+    """Study of one drawn row with this panel, from its workbook."""
+    lines = draw_site(random.Random(31))
+    row = next(one for one in lines["Nets"] if one["id"] == "U2")
+    lines["Nets"] = [{**row, "slack": 0.043, **panel}]
+    lines["Ranges"] = [one for one in lines["Ranges"] if one["quantity"] != "slack"]
+    lines["Ropes"].append({"id": "border", "rope": 266.0, "axial_stiffness": 17600.0})
+    lines["Ends"], lines["Declared"] = [END], []
+    path = folder / "site.xlsx"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(template, "load_example", lambda: lines)
+        template.write_site_workbook(path, example=True)
+    site, standard = read_site(path), load_standard(PROFILE)
+    study = judge_site(site, search_site(site, RUN), standard, RUN)
+    assert audit_study(study, standard, site) == []
+    return study.rows[0]
+
+
+def at_end(row):
+    return {one.id: one for one in row.checks if one.member in MEMBERS}
+
+
+def test_an_end_that_is_held_is_not_proven_without_a_panel(tmp_path):
+    """One emptied cell is enough."""
+    row = judge(tmp_path, {key: one for key, one in PANEL.items() if key != "net_cut"})
+    assert row.verdict in (Verdict.NOT_PROVEN, Verdict.FAIL)
+    checks = at_end(row)
+    assert {one.member for one in checks.values()} == MEMBERS
+    post = next(one for one in row.checks if one.id == "post.compression.end")
+    for check in (*checks.values(), post):
+        assert check.verdict is Verdict.NOT_PROVEN
+        assert "what pulls it along the row is not known" in str(check.reason)
+
+
+@pytest.mark.parametrize("mid", ["no", "yes"])
+def test_with_its_panel_each_of_them_has_a_demand(tmp_path, mid):
+    """Net and uphill guy end at one anchor here; its parts are those of the larger."""
+    row = judge(tmp_path, {**PANEL, "mid_anchors": mid})
+    checks = at_end(row)
+    assert {one.member for one in checks.values()} == MEMBERS
+    for check in checks.values():
+        assert check.demand_kN > 0.0
+        assert check.verdict in (Verdict.PASS, Verdict.FAIL)
+    shared = next(one for one in row.checks if one.id == "foot_anchor.tendon").action
+    assert shared.is_by_panel is (mid == "no")
+    parts = shared.foot_part_kN + shared.guy_part_kN
+    assert parts == pytest.approx(shared.larger_force)
+    require_one_anchor_told(row)
+
+
+def require_one_anchor_told(row):
+    """Foot anchor and lateral anchor as one: the root of both squares."""
+    forces = {
+        member: max(
+            one.action_kN
+            for one in row.checks
+            if one.member == member and one.action and one.action.position == "edge"
+        )
+        for member in ("foot_anchor", "lateral_anchor")
+    }
+    (note,) = (one for one in row.notes if one.key == "row.one_anchor")
+    assert note.arguments["both"] == pytest.approx(math.hypot(*forces.values()))
+    for language in LANGUAGES:
+        assert f"{note.arguments['both']:.1f}" in render(note, language).replace(
+            ",", "."
+        )

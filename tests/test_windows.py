@@ -1,0 +1,194 @@
+"""What Windows lacks is not asked for: tested by taking it away, not on Windows."""
+
+import ast
+import errno
+import fcntl
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+import netdesign
+from netdesign.edge import open_elsewhere
+from netdesign.edge.locks import LOCK_FILE
+from netdesign.edge.output import require_free, write_files
+from netdesign.edge.streams import _spell_sign
+from netdesign.errors import OutputError, SiteDataError
+from netdesign.site.reader import read_site
+from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.test_cli import write_site
+
+PACKAGE = Path(netdesign.__file__).parent
+POSIX = {
+    *("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "posix"),
+    *("syslog", "readline", "curses"),
+}
+POSIX_NAMES = {
+    *("fork", "getuid", "geteuid", "uname", "killpg", "setsid", "mkfifo", "chown"),
+    *("SIGKILL", "SIGPIPE", "SIGHUP", "SIGALRM", "SIGUSR1", "alarm"),
+}
+# Imported only where it is tried for, with another way behind it.
+TRIED = {"edge/locks.py": {"fcntl"}, "evidence/benchmark/clock.py": {"resource"}}
+
+
+def list_imports(tree):
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module or ""
+
+
+def test_no_module_needs_what_only_posix_has():
+    found = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        names = POSIX.intersection(list_imports(tree))
+        names |= {
+            node.attr
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Attribute) and node.attr in POSIX_NAMES
+        }
+        if names:
+            found[path.relative_to(PACKAGE).as_posix()] = names
+    assert found == TRIED
+
+
+def test_commands_and_benchmarks_start_without_the_modules_of_posix(tmp_path):
+    script = (
+        "import sys\n"
+        f"for name in {sorted(POSIX - {'posix'})}: sys.modules[name] = None\n"
+        "from pathlib import Path\n"
+        "import netdesign.cli, netdesign.evidence.benchmark.envelope\n"
+        "import netdesign.evidence.benchmark.whole_site\n"
+        "from netdesign.evidence.benchmark.clock import Clock, read_peak\n"
+        "with Clock() as clock: sum(range(10**5))\n"
+        "assert clock.cpu_s >= 0 and read_peak() is None\n"
+    )
+    result = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert result.stderr == ""
+    assert result.returncode == 0
+
+
+# Locks and files that Excel has open
+
+
+@pytest.fixture
+def windows(monkeypatch):
+    """Modules as Windows has them, its lock made of one of POSIX."""
+
+    def lock(handle, mode, count):
+        assert (mode, count) == (2, 1)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise OSError(errno.EACCES, "Permission denied") from error
+
+    monkeypatch.setitem(sys.modules, "fcntl", None)
+    fake = SimpleNamespace(LK_NBLCK=2, locking=lock)
+    monkeypatch.setitem(sys.modules, "msvcrt", fake)
+    return lock
+
+
+def test_a_run_waits_for_another_and_leaves_no_lock(tmp_path, windows):
+    other = os.open(tmp_path / LOCK_FILE, os.O_RDWR | os.O_CREAT)
+    windows(other, 2, 1)
+    waiting = threading.Thread(
+        target=write_files, args=({tmp_path / "a": b"1"},), kwargs={"overwrite": True}
+    )
+    waiting.start()
+    waiting.join(0.2)
+    assert waiting.is_alive()
+    assert not (tmp_path / "a").exists()
+    os.close(other)
+    waiting.join(10.0)
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def test_a_folder_without_locks_is_written_all_the_same(tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OSError(errno.EINVAL, "no locks")
+
+    monkeypatch.setitem(sys.modules, "fcntl", None)
+    fake = SimpleNamespace(LK_NBLCK=2, locking=refuse)
+    monkeypatch.setitem(sys.modules, "msvcrt", fake)
+    write_files({tmp_path / "a": b"1"}, overwrite=False)
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+
+
+def deny(monkeypatch, place, name):
+    """Refuse one way to touch a file, as Windows does while Excel has it open."""
+    real = getattr(Path, name)
+
+    def refuse(self, *arguments, **named):
+        if self == place:
+            raise PermissionError(errno.EACCES, "Permission denied", str(self))
+        return real(self, *arguments, **named)
+
+    monkeypatch.setattr(Path, name, refuse)
+
+
+@pytest.mark.parametrize("lock", ["~${}", ".~lock.{}#"])
+def test_a_workbook_open_in_excel_is_to_be_closed(tmp_path, monkeypatch, lock):
+    path = tmp_path / "site.xlsx"
+    write_site(path)
+    (tmp_path / lock.format(path.name)).write_bytes(b"owner")
+    deny(monkeypatch, path, "open")
+    with pytest.raises(SiteDataError) as told:
+        read_site(path)
+    assert str(told.value) == (
+        "site.xlsx: the file is open in another program, such as Excel; accepted: a "
+        "workbook that is closed there"
+    )
+
+
+def test_a_workbook_that_may_not_be_read_is_not_said_to_be_open(tmp_path, monkeypatch):
+    path = tmp_path / "site.xlsx"
+    write_site(path)
+    deny(monkeypatch, path, "open")
+    with pytest.raises(SiteDataError, match="Permission denied"):
+        read_site(path)
+
+
+def test_an_open_report_is_refused_before_any_work(tmp_path, monkeypatch):
+    report = tmp_path / "report.xlsx"
+    report.write_bytes(b"old")
+    (tmp_path / "~$report.xlsx").write_bytes(b"owner")
+    deny(monkeypatch, report, "open")
+    require_free([report], overwrite=True)  # elsewhere than on Windows it is replaced
+    monkeypatch.setattr(open_elsewhere, "_holds_open_files", lambda: True)
+    with pytest.raises(OutputError, match=r"close it there first: .*report\.xlsx"):
+        require_free([report], overwrite=True)
+
+
+def test_a_report_opened_meanwhile_is_told_and_kept(tmp_path, monkeypatch):
+    report = tmp_path / "report.xlsx"
+    report.write_bytes(b"old")
+    (tmp_path / "~$report.xlsx").write_bytes(b"owner")
+    deny(monkeypatch, report, "replace")
+    with pytest.raises(OutputError, match=r"Excel: close it there .*report\.xlsx"):
+        write_files({report: b"new"}, overwrite=True)
+    assert report.read_bytes() == b"old"
+
+
+def test_a_sharing_violation_is_an_open_file():
+    error = PermissionError(errno.EACCES, "in use")
+    error.winerror = 32
+    assert open_elsewhere.is_held(error, Path("report.xlsx"))
+
+
+@pytest.mark.parametrize("page", ["cp850", "cp437", "cp1252"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_code_pages_show_every_text_without_a_question_mark(page, language):
+    for key, text in load_texts(language).items():
+        for sign in set(text):
+            try:
+                sign.encode(page)
+            except UnicodeEncodeError:
+                assert "?" not in _spell_sign(sign), (key, sign)
