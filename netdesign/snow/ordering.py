@@ -79,7 +79,18 @@ class Blocks(NamedTuple):
 
 
 def list_entries(groups: Sequence[Ints]) -> tuple[Ints, Ints]:
-    """Row and column of each entry of blocks of these unknowns, block by block."""
+    """Row and column of each entry of blocks, block by block.
+
+    Parameters
+    ----------
+    groups : sequence of ndarray of int, shape (n, C)
+        Unknowns of the blocks.
+
+    Returns
+    -------
+    ndarray of int, ndarray of int, shape (n_entries,)
+        Rows, columns.
+    """
     rows = [np.repeat(dofs, dofs.shape[1], axis=1).ravel() for dofs in groups]
     columns = [np.tile(dofs, (1, dofs.shape[1])).ravel() for dofs in groups]
     return np.concatenate(rows), np.concatenate(columns)

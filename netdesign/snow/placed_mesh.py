@@ -279,5 +279,16 @@ def _list_edges(template: MeshTemplate) -> _Edges:
 
 
 def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:
-    """Start, middle and end node of each edge of an alternating chain."""
+    """Start, middle and end node of each edge of an alternating chain.
+
+    Parameters
+    ----------
+    chain : ndarray of int, shape (2 n + 1,)
+        Vertices and midpoints in turn.
+
+    Returns
+    -------
+    ndarray of int, three, shape (n,)
+        Start, middle, end.
+    """
     return chain[:-2:2], chain[1::2], chain[2::2]

@@ -75,7 +75,7 @@ class SolvedState:
 
     @property
     def reason(self) -> Message | None:
-        """What a reader must know of it; None of what was solved as asked."""
+        """Remark that a reader needs; None of what was solved as asked."""
         return RELEASED if self.is_released else None
 
     @property

@@ -73,14 +73,26 @@ _FAILED_FLOW = 20  # of them, for a flow that does not converge
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Coupled:
-    """Snow and net at rest with each other on one mesh, dimensionless."""
+    """Snow and net at rest with each other on one mesh, dimensionless.
+
+    Attributes
+    ----------
+    problem, mesh, state, hanging : SteadyProblem, PlacedMesh, FlowState, Hanging
+        What was solved; the snow, and the net under its forces.
+    tangent : ndarray, shape (2, n_net, 2, n_net), or None
+        Derivative of the last round, if plain rounds gained little [-].
+    pull_gain : float
+        Largest relative change of pulls over that of the net [1/thickness].
+    linear_solves, rounds : int
+        What it took.
+    """
 
     problem: SteadyProblem
     mesh: PlacedMesh
     state: FlowState
     hanging: Hanging
-    tangent: Floats | None  # of the round, if plain rounds gained little
-    pull_gain: float  # relative change of pulls over that of the net [1/thickness]
+    tangent: Floats | None
+    pull_gain: float
     linear_solves: int
     rounds: int
 
@@ -94,7 +106,19 @@ class Coupled:
         linear_solves: int,
         rounds: int,
     ) -> Coupled:
-        """What the last round left."""
+        """State that the last round left.
+
+        Parameters
+        ----------
+        problem, last : SteadyProblem, Round
+            What was solved, and the round.
+        tangent : ndarray, shape (2, n_net, 2, n_net), or None
+            Derivative of the round [-].
+        pull_gain : float
+            As in the attributes [1/thickness].
+        linear_solves, rounds : int
+            What it took.
+        """
         return cls(
             problem=problem,
             mesh=last.mesh,
@@ -197,7 +221,7 @@ def _mix(played: Sequence[Round]) -> Floats:
 
 
 def _measure_movement(played: Sequence[Round], guess: Coupled | None) -> float:
-    """How far the last round moved the net; before the first, how far it may."""
+    """Way of the net in the last round; before the first, its usual way [thickness]."""
     if played:
         return played[-1].moved
     return 1.0 if guess is None else _REFINED
