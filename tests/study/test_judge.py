@@ -116,7 +116,7 @@ def test_each_row_gets_its_own_forces(results):
 def test_progress_sees_every_case(results):
     seen = []
     solve_site(build_site(ROWS[0]), RUN, Runner(on_done=seen.append))
-    pulls = [one.state.foot for one in seen]
+    pulls = [one.foot for one in seen]
     assert pulls == [one.solution.foot for one in results[0]]
 
 
