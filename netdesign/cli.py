@@ -33,6 +33,7 @@ from netdesign.commands.map import map_headings
 from netdesign.commands.paper import paper
 from netdesign.commands.report import report
 from netdesign.commands.running import EXIT_CODES, own_command
+from netdesign.commands.snowpack import snowpack
 from netdesign.commands.solve import solve
 from netdesign.commands.standards import standards
 from netdesign.commands.usage import ToldGroup, describe_refusal
@@ -96,6 +97,7 @@ cli.add_command(init)
 cli.add_command(map_headings)
 cli.add_command(paper)
 cli.add_command(report)
+cli.add_command(snowpack)
 cli.add_command(solve)
 cli.add_command(standards)
 cli.add_command(validate)

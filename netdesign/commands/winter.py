@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
 
-_MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
+MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
 _FOLDER = "winter"
 _PHASE = 150  # solves of a row and winter, about; a table has 63
 EXAMPLE_HEIGHTS = "winter_2000.csv"
@@ -54,8 +54,8 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 )
 @click.option(
     "--model",
-    type=click.Choice(_MODELS),
-    default=_MODELS[0],
+    type=click.Choice(MODELS),
+    default=MODELS[0],
     show_default=True,
     help="Settling model of the curves; the others give their annual maxima.",
 )
@@ -227,7 +227,7 @@ def _solve(
 ) -> WinterRun:
     from netdesign.coupling.scene import SolverSettings
     from netdesign.files.winter import WinterRun
-    from netdesign.snowpack.follow import MODELS
+    from netdesign.snowpack.follow import MODELS as KNOWN
     from netdesign.study.winter_row import build_winter_row, require_plausible_heights
     from netdesign.winter.day import DaySolver
     from netdesign.winter.row_winters import follow_winters
@@ -235,7 +235,7 @@ def _solve(
     rows = [build_winter_row(site, row, station) for row in site.rows]
     if is_checked:
         require_plausible_heights(rows, site.rows, station)
-    models = [MODELS[model], *(one for name, one in MODELS.items() if name != model)]
+    models = [KNOWN[model], *(one for name, one in KNOWN.items() if name != model)]
     settings = SolverSettings(accuracy=accuracy)
     return WinterRun(
         site=site,

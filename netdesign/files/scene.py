@@ -192,9 +192,11 @@ def read_scene_file(path: Path, method: Method | None = None) -> GivenScene:
         ]
         raise SceneFileError(list_faults(lines)) from None
     except ModelError as error:
-        raise SceneFileError(
-            say("text.at_place", place=str(path), text=error.message)
-        ) from None
+        told = error.message
+        given = told.arguments.get("lines") if told.key == "text.lines" else None
+        several = given if isinstance(given, tuple) else (told,)
+        lines = [say("text.at_place", place=str(path), text=one) for one in several]
+        raise SceneFileError(list_faults(lines)) from None
 
 
 def build_scene(

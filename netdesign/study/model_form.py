@@ -86,21 +86,34 @@ def record_model_form(
         _record(one, found, placed, case, member, own.value)
         for one, found in zip(variants, results, strict=True)
     ]
-    ratios = [1.0, *(one.ratio for one in records if one.ratio is not None)]
-    low, high = min(ratios), max(ratios)
-    used, band = check.utilisation, check.utilisation_band
-    return ModelFormRecord(
+    band = check.utilisation_band
+    record = ModelFormRecord(
         case=record_point(result.case),
         member=member,
         force_kN=kilonewton_from_newton(own.value),
-        low_ratio=low,
-        high_ratio=high,
-        utilisation_low=None if used is None else used * low,
-        utilisation_high=None if used is None else used * high,
+        low_ratio=1.0,
+        high_ratio=1.0,
+        utilisation=check.utilisation,
+        utilisation_low=None,
+        utilisation_high=None,
         numerical_low=band[0],
         numerical_high=band[1],
         solves=probe.count - before,
         variants=records,
+    )
+    return span_variants(record)
+
+
+def span_variants(record: ModelFormRecord) -> ModelFormRecord:
+    """Record with its ends, which follow from its variants."""
+    ratios = [1.0, *(one.ratio for one in record.variants if one.ratio is not None)]
+    low, high, used = min(ratios), max(ratios), record.utilisation
+    return replace(
+        record,
+        low_ratio=low,
+        high_ratio=high,
+        utilisation_low=None if used is None else used * low,
+        utilisation_high=None if used is None else used * high,
     )
 
 
@@ -216,9 +229,7 @@ def _record(
         creep_law=one.law.name,
         exponent=one.law.exponent,
         slip_length_m=one.ground.slip_length or None,
-        is_stated=(
-            all(map(one.stated.is_stated_for, densities)) if one.stated else None
-        ),
+        stated=_tell_stated(one.stated, densities),
         is_calibrated=is_calibrated(one.law, row, case.density),
         foot_anchor_kN=kilonewton_if_known(values.get(Member.FOOT_ANCHOR)),
         uphill_guy_kN=kilonewton_if_known(values.get(Member.UPHILL_GUY)),
@@ -226,3 +237,9 @@ def _record(
         ratio=values[member] / own if member in values else None,
         reason=reason,
     )
+
+
+def _tell_stated(stated: StatedExponent | None, densities: Sequence[float]) -> str:
+    if stated is None:
+        return ""
+    return "yes" if all(map(stated.is_stated_for, densities)) else "no"

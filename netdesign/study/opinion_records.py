@@ -49,7 +49,7 @@ class VariantRecord:
     creep_law: str
     exponent: float
     slip_length_m: float | None  # of sliding ground: rematched where N was typed
-    is_stated: bool | None  # exponent stated for such snow; None: as the set has it
+    stated: str  # "yes", "no": exponent stated for such snow; "": as the set has it
     is_calibrated: bool  # the set is given for this snow
     foot_anchor_kN: float | None
     uphill_guy_kN: float | None
@@ -67,7 +67,8 @@ class ModelFormRecord:
     force_kN: float  # of the study's model
     low_ratio: float  # least and largest over all variants with a force, and 1
     high_ratio: float
-    utilisation_low: float | None  # of the governing check, in proportion
+    utilisation: float | None  # of the governing check
+    utilisation_low: float | None  # of the same, in proportion
     utilisation_high: float | None
     numerical_low: float | None  # interval of the same check
     numerical_high: float | None

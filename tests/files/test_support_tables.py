@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from netdesign.errors import ModelError, SceneFileError
+from netdesign.errors import SceneFileError
 from netdesign.files.scene import SceneFile, build_given, read_scene, read_scene_file
 from netdesign.panel.inputs import Rope
 
@@ -129,8 +129,10 @@ def test_each_fault_is_one_finding(read, line, instead, key):
     assert key in str(caught.value)
 
 
-def test_faults_that_a_table_alone_does_not_show_are_told_together():
+def test_faults_that_a_table_alone_does_not_show_are_told_together(read):
     text = SCENE.format(net='kind = "rigid"') + '[panel]\ncut = "uniform"\n'
-    with pytest.raises(ModelError) as caught:
-        build(text)
-    assert len(str(caught.value).splitlines()) == 4
+    with pytest.raises(SceneFileError) as caught:
+        read(text)
+    told = str(caught.value).splitlines()
+    assert len(told) == 4
+    assert all("scene.toml" in one for one in told)

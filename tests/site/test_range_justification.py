@@ -24,6 +24,8 @@ def test_justification_stands_beside_the_range_with_its_cell(sheets, save):
 
 def test_other_languages_have_the_column(sheets, save):
     sheets["Ranges"][0] = [*sheets["Ranges"][0], "Begründung"]
-    sheets["Ranges"][2] = [*sheets["Ranges"][2], "Versuche 2019"]
+    sheets["Ranges"][2] = [*sheets["Ranges"][2], "Versuche am Ort"]
     inputs = read_site(save(sheets)).range_inputs
-    assert [one.value for one in inputs if one.cell == "Ranges!E3"] == ["Versuche 2019"]
+    assert [one.value for one in inputs if one.cell == "Ranges!E3"] == [
+        "Versuche am Ort"
+    ]

@@ -112,7 +112,7 @@ def test_model_form_of_a_sliding_row(sliding):
     assert slips == sorted(slips)
     assert slips[0] < row.ground.slip_length < slips[2]
     stated = variants["exponent", "boutillier-2004-n1.8"]
-    assert (stated.is_stated, stated.is_calibrated) == (False, True)
+    assert (stated.stated, stated.is_calibrated) == ("no", True)
     refused = variants["creep_law", "gagliardini-1997"]
     assert refused.ratio is None
     assert "sideways" in str(refused.reason)

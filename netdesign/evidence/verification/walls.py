@@ -11,7 +11,7 @@ from netdesign.coupling.steady.rigid import solve_rigid
 from netdesign.errors import SolveError
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.haefeli.pressure import compute_slab_force
-from netdesign.haefeli.slab import Slab
+from netdesign.haefeli.slab import Slab, scale_slip_length
 from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import GRAVITY, Snowpack
@@ -93,7 +93,21 @@ def list_depth_averaged() -> list[VerificationCase]:
                 tolerance=tolerance,
             )
         )
-    return cases
+    return [*cases, _halve_force()]
+
+
+def _halve_force() -> VerificationCase:
+    """Stagnation depth that halves the force on smooth ground, as published."""
+    slab = Slab(thickness=2.0, slope_angle=math.radians(30), density=350.0)
+    return VerificationCase(
+        id="haefeli-half-the-force",
+        kind="published",
+        reference="Höller et al. 2009: stagnation depth from 10 to about 1.5 m; "
+        "2 m of 350 kg/m3 assumed, 1 to 3 m of 250 to 450 give 1.1 to 2.1",
+        expected=1.5,
+        got=scale_slip_length(slab, 10.0, 0.5),
+        tolerance=_WITHIN_A_THIRD,
+    )
 
 
 def wall_force(

@@ -125,18 +125,12 @@ def _list_variant(one: VariantRecord, words: Words) -> tuple[Cell, ...]:
         text_cell(show_text(one.creep_law)),
         given_cell(one.exponent),
         number_cell(_SLIP, one.slip_length_m),
-        text_cell(_tell(one.is_stated, words)),
-        text_cell(_tell(one.is_calibrated, words)),
+        text_cell(words(f"show.{one.stated}") if one.stated else MISSING),
+        text_cell(words("show.yes" if one.is_calibrated else "show.no")),
         *(number_cell(key, getattr(one, key)) for key in _FORCES),
         number_cell("change_percent", change),
         text_cell(words.show(one.reason)),
     )
-
-
-def _tell(answer: bool | None, words: Words) -> str:
-    if answer is None:
-        return MISSING
-    return words("show.yes" if answer else "show.no")
 
 
 def tell_model_form(record: ModelFormRecord | None, words: Words) -> str:

@@ -358,7 +358,7 @@ def describe_cases(study: Study, words: Words) -> str:
 
 
 def _count_laws(row: RowStudy, words: Words) -> str:
-    """Number of independent laws of the drawn case, if it obeys all of them."""
+    """Count of the independent laws that the drawn case obeys, if it is all of them."""
     count = len(row.independent)
     if not count or not all(one.is_met for one in row.independent):
         return ""

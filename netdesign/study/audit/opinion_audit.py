@@ -1,4 +1,4 @@
-"""Second opinions of a study, worked out again: guideline and closed form."""
+"""Second opinions of a study, worked out again: guideline, closed form, model form."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from netdesign.structure.members import Member
 from netdesign.study.audit.comparing import is_same, tell_differences
 from netdesign.study.audit.envelope_audit import find_largest, same_point
 from netdesign.study.effects import load_guideline
+from netdesign.study.model_form import span_variants
 from netdesign.study.record_cases import read_point
 from netdesign.study.record_guideline import compare_case
 from netdesign.study.record_slab import compare_slab
@@ -32,6 +33,15 @@ def audit_slab(row: RowStudy, given: NetRow, law: CreepLaw) -> Iterator[Message]
     )
     place = say("audit.row", row=row.id)
     yield from tell_differences("audit.other_slab", stored, again, place=place)
+
+
+def audit_model_form(row: RowStudy) -> Iterator[Message]:
+    """The spread of the model form, from the forces of its variants."""
+    stored = row.model_form
+    if stored is None:
+        return
+    again, place = span_variants(stored), say("audit.row", row=row.id)
+    yield from tell_differences("audit.other_model_form", stored, again, place=place)
 
 
 def audit_guideline(row: RowStudy, given: NetRow) -> Iterator[Message]:

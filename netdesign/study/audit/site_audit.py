@@ -25,7 +25,11 @@ from netdesign.study.audit.comparing import (
     tell_value,
 )
 from netdesign.study.audit.envelope_audit import is_complete
-from netdesign.study.audit.opinion_audit import audit_guideline, audit_slab
+from netdesign.study.audit.opinion_audit import (
+    audit_guideline,
+    audit_model_form,
+    audit_slab,
+)
 from netdesign.study.audit.panel_audit import audit_panel_inputs
 from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
@@ -192,6 +196,7 @@ def _audit_judgement(
     yield from _audit_actions(row, effects, floor, basis)
     yield from audit_guideline(row, given)
     yield from audit_slab(row, given, basis.law)
+    yield from audit_model_form(row)
 
 
 def _expect_members(

@@ -51,6 +51,8 @@ CASES = [
         ("guideline-300-35", "published"),
         ("compaction-default", "published"),
         ("slab-shear", "closed form"),
+        ("history-0-foot", "cross model"),
+        ("law-uniaxial-printed", "published"),
     )
 ]
 
@@ -180,6 +182,21 @@ def test_an_owners_file_comes_first(tmp_path):
     assert [one.id for one in read_all(path)][::4] == ["my-net", "trumer-2007"]
 
 
+def test_example_of_the_readme_gets_a_band_and_with_a_value_a_misfit():
+    page = (
+        files("netdesign.evidence.validation").joinpath("README.md").read_text("utf-8")
+    )
+    text = page.split("```toml")[1].split("```")[0]
+    (net,) = read_structures(text.encode())
+    assert not net.is_known
+    assert validate_structure(net, samples=3).solved == 3
+    known = text.replace("low = 1.3, high = 1.9", "value = 1.6")
+    (net,) = read_structures(known.encode())
+    assert net.is_known
+    (row,) = render_rows(validate_structure(net))
+    assert row["said"].startswith("misfit ")
+
+
 def build_evidence(*validations):
     return Evidence(
         cases=CASES,
@@ -200,6 +217,8 @@ def test_page_marks_every_figure_and_draws_its_pictures():
         "recalled",
         "read in a source",
         "computed here",
+        "computed here",
+        "read in a source",
     ]
     hostile = replace(known_net(), title="<script>alert(1)</script>")
     rendered = render_validation(build_evidence(validate_structure(hostile)))

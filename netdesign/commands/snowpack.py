@@ -1,0 +1,107 @@
+"""``netdesign snowpack``: mass and density of a station's snow from its heights."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from netdesign.commands.config import ConfiguredCommand
+from netdesign.commands.language import tell
+from netdesign.commands.options import json_option, language_option
+from netdesign.commands.winter import MODELS
+from netdesign.edge.streams import print_json
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from netdesign.snowpack.pack import DayPack
+    from netdesign.words.catalogue import Language
+
+SCHEMA = "netdesign.snowpack/1"
+
+
+@click.command(cls=ConfiguredCommand)
+@click.argument("height_file", type=click.Path(path_type=Path))
+@click.option(
+    "--model",
+    type=click.Choice(MODELS),
+    default=MODELS[0],
+    show_default=True,
+    help="Settling model.",
+)
+@click.option("--median", is_flag=True, help="Heights as medians of three days.")
+@click.option("--layers", is_flag=True, help="Layers of each day, too; with --json.")
+@language_option("Of messages.")
+@json_option("days")
+def snowpack(
+    height_file: Path,
+    *,
+    model: str,
+    median: bool,
+    layers: bool,
+    language: Language,
+    as_json: bool,
+) -> None:
+    """Mass and density of snow from daily heights.
+
+    \b
+    netdesign snowpack station.csv
+    netdesign snowpack station.csv --model hs2swe --json --layers > days.json
+
+    The file has the columns of sheet Winter: date, snow height with its unit.
+    """
+    import json
+
+    from netdesign.site.winter_sheet import read_height_file
+    from netdesign.snowpack.follow import MODELS as KNOWN
+    from netdesign.snowpack.follow import follow_heights
+    from netdesign.snowpack.series import smooth
+    from netdesign.winter.row_winters import FIRST_DENSITY
+
+    found, remarks = read_height_file(height_file)
+    for remark in remarks:
+        tell(remark.message, language, err=True)
+    series = smooth(found.series) if median else found.series
+    packs = follow_heights(series.heights, KNOWN[model], FIRST_DENSITY)
+    days = [
+        _write_day(day.isoformat(), pack, with_layers=layers)
+        for day, pack in zip(series.days, packs, strict=True)
+    ]
+    if as_json:
+        document = {"schema": SCHEMA, "model": model, "days": days}
+        print_json(json.dumps(document, indent=1, allow_nan=False))
+        return
+    for one in days:
+        tell(
+            say(
+                "snowpack.line",
+                date=one["date"],
+                height=one["height_m"],
+                mass=one["swe_kg_m2"],
+                density=one["density_kg_m3"],
+            ),
+            language,
+        )
+
+
+def _write_day(day: str, pack: DayPack, *, with_layers: bool) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "date": day,
+        "height_m": pack.height,
+        "swe_kg_m2": pack.mass,
+        "density_kg_m3": pack.density,
+        "new_snow_kg_m2": pack.new_mass,
+        "runoff_kg_m2": pack.runoff,
+    }
+    if with_layers:
+        found["layers"] = [
+            {"height_m": float(h), "density_kg_m3": float(rho), "age_d": int(age)}
+            for h, rho, age in zip(
+                pack.heights,
+                pack.densities if pack.heights.size else (),
+                pack.ages,
+                strict=True,
+            )
+        ]
+    return found
