@@ -16,22 +16,19 @@ from netdesign.guideline.floor import Floor
 from netdesign.outcome import merge_verdicts
 from netdesign.site.model import NetRow, Site
 from netdesign.structure.members import REPORTED_MEMBERS, ROPE_OF, Member, name_in_panel
-from netdesign.study.case_records import ExtremeRecord
+from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.cases import CheckRun
-from netdesign.study.end_note import list_end_notes, record_end_effects
+from netdesign.study.end_note import record_end_effects
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.floor import find_row_floor, record_floor
 from netdesign.study.member_check import RowCheck
-from netdesign.study.member_loads import find_loads
+from netdesign.study.member_loads import RowLoads, find_loads
 from netdesign.study.model_form import record_model_form
 from netdesign.study.notes import (
-    list_case_notes,
     list_history_notes,
-    list_one_anchor_notes,
+    list_judged_notes,
     list_reasons,
-    list_row_notes,
     list_site_notes,
-    list_test_notes,
 )
 from netdesign.study.opinion_records import ModelFormRecord
 from netdesign.study.probe import Probe
@@ -55,6 +52,7 @@ from netdesign.study.records import (
 )
 from netdesign.study.row_checks import check_row
 from netdesign.units import newton_from_kilonewton
+from netdesign.words.message import Message
 
 
 def judge_site(
@@ -159,14 +157,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
         model_form=_find_model_form(task, worst, governing),
         panel=record_panel(row, solved.results, extremes, governing),
-        notes=[
-            *list_row_notes(row, loads.effects, loads.pulls),
-            *list_end_notes(row, task.site.ranges, run.creep_law, loads.effects),
-            *list_test_notes(checks, task.standard),
-            *list_one_anchor_notes(checks),
-            *list_case_notes(cases),
-            *list_history_notes(extremes),
-        ],
+        notes=_list_notes(task, loads, checks, cases),
         statics=record_statics(row, solved.results, extremes, floor),
         end_effects=record_end_effects(
             row, task.site.ranges, run.creep_law, task.standard
@@ -176,6 +167,24 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         ),
         envelope=_record_search(solved, checks),
     )
+
+
+def _list_notes(
+    task: RowCheck,
+    loads: RowLoads,
+    checks: Sequence[CheckRecord],
+    cases: Sequence[CaseRecord],
+) -> list[Message]:
+    return [
+        *list_judged_notes(
+            *(task.site, task.row, task.standard, task.law),
+            effects=loads.effects,
+            pulls=loads.pulls,
+            checks=checks,
+            cases=cases,
+        ),
+        *list_history_notes(task.solved.extremes),
+    ]
 
 
 def _record_extremes(extremes: Mapping[str, Extreme]) -> list[ExtremeRecord]:

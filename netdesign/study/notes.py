@@ -15,6 +15,7 @@ from netdesign.snow.creep_law import ICE_DENSITY, CreepLaw
 from netdesign.structure.members import REPORTED_MEMBERS, EndMember, Member
 from netdesign.study.case_records import CaseRecord
 from netdesign.study.effects import RowEffects, list_assumed
+from netdesign.study.end_note import list_end_notes
 from netdesign.study.pulls import AnchorPull
 from netdesign.study.records import CheckRecord, IndependentRecord
 from netdesign.units import degree_from_radian, kilonewton_from_newton
@@ -86,6 +87,27 @@ def _layer_notes(site: Site) -> list[Message]:
         )
         for row in site.rows
         if row.layers
+    ]
+
+
+def list_judged_notes(
+    site: Site,
+    row: NetRow,
+    standard: Standard,
+    law: CreepLaw,
+    *,
+    effects: RowEffects,
+    pulls: Sequence[AnchorPull],
+    checks: Sequence[CheckRecord],
+    cases: Sequence[CaseRecord],
+) -> list[Message]:
+    """Notes of a row that follow from its inputs, its checks and its cases."""
+    return [
+        *list_row_notes(row, effects, pulls),
+        *list_end_notes(row, site.ranges, law, effects),
+        *list_test_notes(checks, standard),
+        *list_one_anchor_notes(checks),
+        *list_case_notes(cases),
     ]
 
 

@@ -58,6 +58,7 @@ from netdesign.report.words import (
     show_text,
     show_verdict,
 )
+from netdesign.site.model import Project
 from netdesign.structure.members import REPORTED_MEMBERS
 from netdesign.study.document import compute_digest
 from netdesign.study.records import RowStudy, Study
@@ -197,11 +198,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         checked=_name_person(project.checker),
         revision=show_text(project.revision),
         date=show_text(study.provenance.started[:10]),
-        running_title=" · ".join(
-            show_text(text)
-            for text in (project.number, project.name, project.revision)
-            if text
-        ),
+        running_title=_title_pages(project),
         verdict=show_verdict(study.verdict, words),
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
@@ -223,10 +220,7 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         profile=profile,
         numbered_profile=numbered,
         sources=sources,
-        notes=(
-            *(words.show(note) for note in study.notes),
-            *tables.list_below_one(study.profile, words),
-        ),
+        notes=_list_notes(study, words),
         shared_notes=tuple(
             words("show.label", label=", ".join(ids), text=note)
             for note, ids in shared.items()
@@ -238,6 +232,18 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         legend=describe_cases(study, words),
         provenance=tables.build_provenance(study, words),
     )
+
+
+def _title_pages(project: Project) -> str:
+    """Line that runs along with the pages of a print."""
+    texts = (project.number, project.name, project.revision)
+    return " · ".join(show_text(text) for text in texts if text)
+
+
+def _list_notes(study: Study, words: Words) -> tuple[str, ...]:
+    """Notes on the whole study, and factors of its profile below one."""
+    own = (words.show(note) for note in study.notes)
+    return (*own, *tables.list_below_one(study.profile, words))
 
 
 def _find_governing_row(study: Study, views: Sequence[RowView]) -> RowView | None:
@@ -306,10 +312,7 @@ def _view_row(
         guideline=row_tables.build_guideline(row, words),
         guideline_sentence=words.show(row.guideline.sentence) if row.guideline else "",
         floor=row_tables.build_floor(row, words),
-        floor_governs=any(
-            one.action is not None and one.action.governs == "guideline"
-            for one in row.checks
-        ),
+        floor_governs=_is_governed_by_floor(row),
         slab_line=opinion_tables.tell_slab(row, words),
         slab=opinion_tables.build_slab(row, words),
         model_form=opinion_tables.build_model_form(row, words),
@@ -319,6 +322,12 @@ def _view_row(
         end_effects=end_tables.build_end_effects(row, words),
         notes=tuple(note for one in row.notes if (note := words.show(one)) not in told),
     )
+
+
+def _is_governed_by_floor(row: RowStudy) -> bool:
+    """The guideline's load governs some check."""
+    actions = [one.action for one in row.checks if one.action is not None]
+    return any(action.governs == "guideline" for action in actions)
 
 
 def _view_figures(row: RowStudy, words: Words) -> Figures:

@@ -35,15 +35,9 @@ from netdesign.study.calibration import find_doubt, is_calibrated
 from netdesign.study.demand import build_demand, tell_governing
 from netdesign.study.dependent import Circumstances, settle_resistance
 from netdesign.study.effects import RowEffects, find_effects
-from netdesign.study.end_note import list_end_notes, record_end_effects
+from netdesign.study.end_note import record_end_effects
 from netdesign.study.floor import find_row_floor, record_floor
-from netdesign.study.notes import (
-    list_case_notes,
-    list_one_anchor_notes,
-    list_row_notes,
-    list_site_notes,
-    list_test_notes,
-)
+from netdesign.study.notes import list_judged_notes, list_site_notes
 from netdesign.study.pulls import (
     AnchorPull,
     build_pull,
@@ -182,7 +176,13 @@ def _audit_judgement(
     place = say("audit.row", row=row.id)
     yield from tell_differences("audit.judged_otherwise", stored, again, place=place)
     yield from _audit_pulls(row, given, effects.lateral_share)
-    notes = _list_notes(row, pulls, effects, basis)
+    notes = list_judged_notes(
+        *(basis.site, given, standard, basis.law),
+        effects=effects,
+        pulls=pulls,
+        checks=row.checks,
+        cases=row.cases,
+    )
     # of histories more is noted, behind these
     shown = row.notes if is_steady else row.notes[: len(notes)]
     yield from tell_differences("audit.other_notes", shown, notes, place=place)
@@ -217,20 +217,6 @@ def _expect_members(
         settled = settle_resistance(one, known)
         members.append(_judge_again(row, check, width, settled, basis))
     return members
-
-
-def _list_notes(
-    row: RowStudy, pulls: Sequence[AnchorPull], effects: RowEffects, basis: _Basis
-) -> list[Message]:
-    """Notes of a row, but for those on histories."""
-    given = basis.row
-    return [
-        *list_row_notes(given, effects, pulls),
-        *list_end_notes(given, basis.site.ranges, basis.law, effects),
-        *list_test_notes(row.checks, basis.standard),
-        *list_one_anchor_notes(row.checks),
-        *list_case_notes(row.cases),
-    ]
 
 
 def _audit_actions(
