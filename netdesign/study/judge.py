@@ -50,7 +50,7 @@ from netdesign.study.records import (
     Study,
     list_verdicts,
 )
-from netdesign.study.row_checks import check_row
+from netdesign.study.row_checks import check_row, distrust
 from netdesign.units import newton_from_kilonewton
 from netdesign.words.message import Message
 
@@ -132,7 +132,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
     loads = find_loads(
         row, task.site.ranges, solved.results, extremes, task.standard, floor
     )
-    checks = check_row(task, extremes, loads)
+    checks, model_form = _check_row(task, extremes, loads)
     cases = [record_case(result, run.creep_law, row) for result in solved.results]
     worst = _find_worst(checks)
     governing = _governing_result(worst, extremes)
@@ -155,7 +155,7 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         guideline=record_guideline(row, foot.governing) if foot else None,
         floor=record_floor(floor, row),
         slab=record_slab(row, foot.governing, run.creep_law) if foot else None,
-        model_form=_find_model_form(task, worst, governing),
+        model_form=model_form,
         panel=record_panel(row, solved.results, extremes, governing),
         notes=_list_notes(task, loads, checks, cases),
         statics=record_statics(row, solved.results, extremes, floor),
@@ -167,6 +167,22 @@ def _judge_row(task: RowCheck, run: CheckRun) -> RowStudy:
         ),
         envelope=_record_search(solved, checks),
     )
+
+
+def _check_row(
+    task: RowCheck, extremes: Mapping[str, Extreme], loads: RowLoads
+) -> tuple[list[CheckRecord], ModelFormRecord | None]:
+    """Checks of a row, and its governing case by other models.
+
+    Where the program fails in one of those, it is not trusted in the checks either.
+    """
+    checks = check_row(task, extremes, loads)
+    worst = _find_worst(checks)
+    before = task.probe.faults if task.probe else 0
+    form = _find_model_form(task, worst, _governing_result(worst, extremes))
+    if task.probe and task.probe.faults > before:
+        checks = [distrust(check) for check in checks]
+    return checks, form
 
 
 def _list_notes(

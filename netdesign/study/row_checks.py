@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from netdesign.checks import CheckResult, check_member
 from netdesign.envelope.extremes import Extreme
+from netdesign.outcome import Verdict
 from netdesign.site.model import NetRow, Resistance
 from netdesign.structure.members import Member, name_in_panel
 from netdesign.structure.row_position import LoadedWidth
@@ -247,6 +248,16 @@ def _record_member(
     )
     is_faulty = task.probe and task.probe.faults > before
     return _distrust(task, one, check) if is_faulty else check
+
+
+def distrust(check: CheckRecord) -> CheckRecord:
+    """Check that passes by its forces, beside which the program failed: not proven."""
+    if check.action is None or check.verdict is not Verdict.PASS:
+        return check
+    reason = tell_governing(
+        say("check.not_proven", gaps=(_FAULT_BESIDE,)), check.action
+    )
+    return replace(check, verdict=Verdict.NOT_PROVEN, reason=reason)
 
 
 def _distrust(task: RowCheck, one: MemberCheck, check: CheckRecord) -> CheckRecord:
