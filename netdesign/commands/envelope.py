@@ -107,15 +107,18 @@ def envelope(
     """
     from netdesign.edge.output import require_free
     from netdesign.envelope.ranges import require_valid
-    from netdesign.files.scene import read_scene
+    from netdesign.files.scene import read_scene_file
 
     given = {name: one for name, one in ranges.items() if one is not None}
     counted = _require_usable(given)
-    scene, _ = read_scene(scene_file, "steady")
+    read = read_scene_file(scene_file, "steady")
+    scene = read.scene
     spans = _build_ranges(given)
     require_valid(scene, spans)
     paths = [out / name for name in (DOCUMENT, *FIGURES)] if out else []
     require_free(paths, overwrite=force)
+    if read.support is not None and not quiet:
+        tell(say("envelope.no_support"), language, err=True)
     start = time.perf_counter()
     with open_phases(
         _list_phases(given, confirm),

@@ -278,3 +278,15 @@ def test_ctrl_c_stops_within_two_seconds_and_tells_how_to_continue(scene, tmp_pa
     again = run("envelope", scene, *RANGES, "--inclination", "25:35", "--json",
                 "--quiet", store=store)  # fmt: skip
     assert json.loads(again.stdout)["cases"]["reused"] >= 9
+
+
+@pytest.mark.parametrize(
+    ("language", "said"), [("en", "[support]"), ("fr", "scène"), ("de", "Szene")]
+)
+def test_a_support_that_is_not_used_is_told(tmp_path, store, language, said):
+    path = tmp_path / "scene.toml"
+    path.write_text(SMALL_SCENE + "\n[support]\npost_spacing_m = 3.37\n")
+    options = ("--density", "250:310", "--accuracy", "0.05", "--language", language)
+    result = run("envelope", path, *options, store=store)
+    assert result.returncode == 0, result.stderr
+    assert said in result.stderr
