@@ -1,1 +1,1 @@
-"""Report as a document of a word processor, in a company's own template if it has one."""
+"""Report as a document of a word processor, in a company's own template."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from netdesign.report.view.check_view import CheckView
 from netdesign.report.view.table import Table
-from netdesign.report.words import MISSING, VERDICTS, VerdictWords
+from netdesign.report.words import MISSING, VERDICTS, VerdictWords, Words
 
 _SYMBOLS = tuple(signs.symbol for signs in VERDICTS.values())
 
@@ -41,7 +41,7 @@ class Grid:
 def plain(text: str) -> Content:
     """Text alone; that of a verdict is bold: its symbol comes first."""
     is_verdict = text in _SYMBOLS or text.startswith(tuple(f"{s} " for s in _SYMBOLS))
-    return (Piece(text, is_bold=is_verdict),)
+    return (Piece(text.replace(" ", "\u00a0", int(is_verdict)), is_bold=is_verdict),)
 
 
 def symbols(text: str) -> Content:
@@ -56,7 +56,7 @@ def small(lines: Sequence[str]) -> Content:
 
 def badge(verdict: VerdictWords) -> Piece:
     """Symbol and word of a verdict."""
-    return Piece(f"{verdict.symbol} {verdict.word}", is_bold=True)
+    return Piece(f"{verdict.symbol}\u00a0{verdict.word}", is_bold=True)
 
 
 def show_utilisation(check: CheckView) -> Content:
@@ -65,7 +65,7 @@ def show_utilisation(check: CheckView) -> Content:
     return (Piece(check.utilisation, is_bold=True), Piece(band))
 
 
-def show_demand(check: CheckView | None) -> Content:
+def show_demand(check: CheckView | None, words: Words) -> Content:
     """One place of a check: verdict, utilisation, demand, what governs, its case."""
     if check is None:
         return plain(MISSING)
@@ -76,7 +76,7 @@ def show_demand(check: CheckView | None) -> Content:
         badge(check.verdict),
         Piece("\n"),
         *show_utilisation(check),
-        Piece("\n" + "; ".join(told), is_small=True, has_symbols=True),
+        Piece("\n" + words.join(told), is_small=True, has_symbols=True),
     )
 
 

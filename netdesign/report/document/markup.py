@@ -16,8 +16,10 @@ POINT = 20  # twentieths of a point, in which widths are counted
 SMALLEST_PT = 7.5
 _CELL_PT = 8.0
 _MARGIN_PT = 3.0  # left and right of the text of a cell
-_SIGN = 0.53  # width of a sign in sizes of the font
-_LONGEST = 46  # signs of a cell that count for the width of its column
+_TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
+_SIGN = 0.57  # width of a sign in sizes of the font
+_LONGEST = 80  # signs of a cell that count for the width of its column
+_LONGEST_WORD = 22
 _FEW_LINES = 6  # of a table that may be turned
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
@@ -78,6 +80,8 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         grid = turn(grid)
         least, wanted = _measure_columns(grid)
     is_tight = sum(least) > width_pt
+    if is_tight:
+        least, wanted = _measure_columns(grid, is_tight=True)
     widths = [round(POINT * w) for w in share_width(least, wanted, width_pt)]
     head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight)]
     lines = [
@@ -85,7 +89,8 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         for line in grid.lines
     ]
     columns = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
-    margin = f'w:w="{round(POINT * _MARGIN_PT)}" w:type="dxa"'
+    margin_pt = _TIGHT_MARGIN_PT if is_tight else _MARGIN_PT
+    margin = f'w:w="{round(POINT * margin_pt)}" w:type="dxa"'
     look = int(bool(grid.headings))
     return (
         f'<w:tbl><w:tblPr><w:tblStyle w:val="{escape(styles[0])}"/>'
@@ -110,7 +115,13 @@ def _write_line(
     taken = [sum(widths)] if spans else widths
     inside = "".join(
         _write_cell(
-            cell, width, style, len(widths) if spans else 1, is_number, is_head, is_tight
+            cell,
+            width,
+            style,
+            len(widths) if spans else 1,
+            is_number,
+            is_head,
+            is_tight,
         )
         for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False)
     )
@@ -142,12 +153,14 @@ def _write_cell(
     )
 
 
-def _measure_columns(grid: Grid) -> tuple[list[float], list[float]]:
+def _measure_columns(
+    grid: Grid, *, is_tight: bool = False
+) -> tuple[list[float], list[float]]:
     """Widths of the longest word and of the longest line of each column [pt]."""
     lines = [line for line in (grid.headings, *grid.lines) if len(line) > 1]
     texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
-    least = [_measure(max(_list_words(column), default=1)) for column in texts]
-    wanted = [_measure(max(_list_lines(column), default=1)) for column in texts]
+    least = [_measure(_list_words(column), is_tight) for column in texts]
+    wanted = [_measure(_list_lines(column), is_tight) for column in texts]
     return least, [max(pair) for pair in zip(least, wanted, strict=True)]
 
 
@@ -157,16 +170,20 @@ def _join(content: Content) -> str:
 
 def _list_words(texts: Iterable[str]) -> list[int]:
     """Lengths of the words, very long ones cut: they break anywhere."""
-    lengths = (len(w) for text in texts for w in re.split(r"[ \n\-/]", text))
-    return [min(length, _LONGEST // 2) for length in lengths]
+    lengths = (len(w) for text in texts for w in re.split(r"[ \n\-]", text))
+    return [min(length, _LONGEST_WORD) for length in lengths]
 
 
 def _list_lines(texts: Iterable[str]) -> list[int]:
     return [min(len(one), _LONGEST) for text in texts for one in text.split("\n")]
 
 
-def _measure(signs: int) -> float:
-    return signs * _SIGN * _CELL_PT + 2.0 * _MARGIN_PT + 1.0
+def _measure(lengths: Sequence[int], is_tight: bool) -> float:
+    """Width that the longest text takes in a cell [pt]."""
+    size, margin = _CELL_PT, _MARGIN_PT
+    if is_tight:
+        size, margin = SMALLEST_PT, _TIGHT_MARGIN_PT
+    return max(lengths, default=1) * _SIGN * size + 2.0 * margin + 1.0
 
 
 def share_width(

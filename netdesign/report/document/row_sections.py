@@ -1,4 +1,4 @@
-"""One net row in a document: the sections that its page has on paper, in their order."""
+"""One net row in a document: what its page has on paper, in the same order."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ class RowWriter:
                 (
                     (Piece(line.title, is_bold=True), Piece(source, is_small=True)),
                     plain(line.resistance),
-                    show_demand(line.inside),
-                    show_demand(line.end),
+                    show_demand(line.inside, t),
+                    show_demand(line.end, t),
                 )
             )
             if line.remarks:
@@ -137,7 +137,7 @@ class RowWriter:
             self.to.table(row.changes)
             self.to.table(row.holds)
         elif row.flips and row.governing:
-            flips = "; ".join(row.flips)
+            flips = t.join(row.flips)
             self.to.text(t("show.label", label=row.governing.title, text=flips))
         else:
             is_empty = not row.changes.rows

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from netdesign.report.document import styles
 from netdesign.report.document.content import (
     Content,
@@ -78,7 +80,9 @@ def write_identification(to: Writer, view: ReportView) -> None:
     """What the report is of, and room for signatures and revisions."""
     t = to.words
     to.heading(plain(t("heading.identification")))
-    to.grid(list_pairs("", [(label, plain(text)) for label, text in view.identification]))
+    to.grid(
+        list_pairs("", [(label, plain(text)) for label, text in view.identification])
+    )
     roles = ("prepared", "checked", "approved")
     names = (view.prepared, view.checked, "")
     _sign(
@@ -97,7 +101,7 @@ def write_identification(to: Writer, view: ReportView) -> None:
 
 
 def _sign(
-    to: Writer, name: str, headings: list[str], lines: list[tuple[str, ...]]
+    to: Writer, name: str, headings: list[str], lines: Sequence[tuple[str, ...]]
 ) -> None:
     to.grid(
         Grid(

@@ -122,16 +122,15 @@ def _add_table_style(document: Document) -> None:
     from netdesign.report.document.markup import NAMESPACE
 
     def line(side: str, eighths: int, colour: str) -> str:
-        return (
-            f'<w:{side} w:val="single" w:sz="{eighths}" w:space="0" w:color="{colour}"/>'
-        )
+        size = f'w:sz="{eighths}" w:space="0"'
+        return f'<w:{side} w:val="single" {size} w:color="{colour}"/>'
 
     document.styles.element.append(
         parse_xml(
             f'<w:style {NAMESPACE} w:type="table" w:customStyle="1" '
             f'w:styleId="netdesignTable"><w:name w:val="{TABLE}"/><w:uiPriority '
             f'w:val="99"/><w:tblPr><w:tblBorders>{line("top", 6, _INK)}'
-            f'{line("bottom", 6, _INK)}{line("insideH", 4, "D3D7DC")}</w:tblBorders>'
+            f"{line('bottom', 6, _INK)}{line('insideH', 4, 'D3D7DC')}</w:tblBorders>"
             f'</w:tblPr><w:tblStylePr w:type="firstRow"><w:tcPr><w:tcBorders>'
             f"{line('bottom', 6, _INK)}</w:tcBorders></w:tcPr></w:tblStylePr></w:style>"
         )

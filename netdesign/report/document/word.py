@@ -87,7 +87,7 @@ def _write_all(to: Writer, study: Study, view: ReportView, detail: Detail) -> No
 
 
 def _write_footer(to: Writer, view: ReportView) -> None:
-    """Running title, section and page below each page; a template's own footer stays."""
+    """Running title, section and page; a template's own footer stays."""
     document = to.document
     section: Any = document.sections[-1]
     if not section.footer.is_linked_to_previous:

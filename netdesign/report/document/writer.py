@@ -160,4 +160,3 @@ def write_field(instruction: str, shown: str = "") -> str:
         + cached
         + _field("end")
     )
-

@@ -14,10 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
-from netdesign.errors import NetDesignError
-
 if TYPE_CHECKING:
-    from matplotlib.backends.backend_agg import RendererAgg
     from matplotlib.path import Path
 
 DOTS_PER_INCH = 200
@@ -33,7 +30,7 @@ Look = Mapping[str, str]
 class _Paper:
     """What is drawn on: a renderer, its height, areas that bound shapes."""
 
-    renderer: RendererAgg
+    renderer: Any  # matplotlib's, which has no types
     height: float  # [pt]
     clips: dict[str, Path]
 
@@ -54,15 +51,16 @@ def render_png(svg: str) -> bytes:
 
     Raises
     ------
-    NetDesignError
+    ValueError
         If the drawing has a shape that is not known here.
     """
-    from matplotlib.backends.backend_agg import RendererAgg
+    from matplotlib.backends import backend_agg
 
+    new_renderer: Any = backend_agg.RendererAgg
     root = ElementTree.fromstring(svg)
     width, height = read_size(svg)
     size = (round(width * _SCALE), round(height * _SCALE))
-    paper = _Paper(RendererAgg(*size, DOTS_PER_INCH), height, {})
+    paper = _Paper(new_renderer(*size, DOTS_PER_INCH), height, {})
     for shape, look in _list_shapes(root, {}):
         _draw(paper, shape, look)
     return _write_png(paper.renderer)
@@ -120,7 +118,7 @@ def _list_corners(kind: str, look: Look) -> list[tuple[float, float]]:
         right, bottom = left + width, top + height
         return [(left, top), (right, top), (right, bottom), (left, bottom)]
     if kind not in ("polyline", "polygon"):
-        raise NetDesignError(f"a drawing has a shape that is not known: {kind}")
+        raise ValueError(f"a drawing has a shape that is not known: {kind}")
     pairs = (pair.split(",") for pair in look["points"].split())
     return [(float(x), float(y)) for x, y in pairs]
 
@@ -156,7 +154,7 @@ def _list_steps(steps: str) -> Iterator[tuple[str, list[float]]]:
     while place < len(signs):
         command = signs[place][0]
         if command not in _SIZES:
-            raise NetDesignError(f"a drawing has a step that is not known: {command}")
+            raise ValueError(f"a drawing has a step that is not known: {command}")
         numbers = signs[place + 1 : place + 1 + _SIZES[command]]
         yield command, [float(number) for _, number in numbers]
         place += 1 + _SIZES[command]
@@ -209,7 +207,7 @@ def _write(paper: _Paper, text: str, look: Look) -> None:
     paper.renderer.draw_text(pen, x, float(look["y"]) * _SCALE, text, font, 0.0)
 
 
-def _write_png(renderer: RendererAgg) -> bytes:
+def _write_png(renderer: Any) -> bytes:
     """PNG on white; few colours, so that a report of many rows can be sent by mail."""
     from PIL import Image
 
