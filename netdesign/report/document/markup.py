@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from html import escape
 from typing import Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.document.content import Content, Grid, Piece, turn
+from netdesign.report.document.content import Content, Grid, Piece, plain, turn
 
 _W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 NAMESPACE = f'xmlns:w="{_W}"'
@@ -20,6 +21,9 @@ _TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
 _SIGN = 0.57  # width of a sign in sizes of the font
 _LONGEST = 80  # signs of a cell that count for the width of its column
 _LONGEST_WORD = 22
+_CAPITAL = 0.35  # more than the width of another sign
+_WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
+_PART = "xxxxx"  # of a word of a heading that may stand alone
 _FEW_LINES = 6  # of a table that may be turned
 _SUBSCRIPT = re.compile(r"_(\w+)")
 
@@ -76,12 +80,15 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         Between the margins of the page [pt].
     """
     least, wanted = _measure_columns(grid)
-    if sum(least) > width_pt and grid.headings and len(grid.lines) <= _FEW_LINES:
+    if sum(least) > width_pt and _may_turn(grid):
         grid = turn(grid)
         least, wanted = _measure_columns(grid)
     is_tight = sum(least) > width_pt
     if is_tight:
-        least, wanted = _measure_columns(grid, is_tight=True)
+        least, wanted = _measure_tight(grid)
+        if sum(least) > width_pt:
+            grid = _loosen(grid)
+            least, wanted = _measure_tight(grid)
     widths = [round(POINT * w) for w in share_width(least, wanted, width_pt)]
     head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight)]
     lines = [
@@ -101,6 +108,12 @@ def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
         f"<w:tblGrid>{columns}</w:tblGrid>"
         f"{''.join(head if grid.headings else [])}{''.join(lines)}</w:tbl>"
     )
+
+
+def _may_turn(grid: Grid) -> bool:
+    """Few lines, all of them of single cells below headings."""
+    is_plain = all(len(line) == len(grid.headings) for line in grid.lines)
+    return is_plain and len(grid.lines) <= _FEW_LINES
 
 
 def _write_line(
@@ -164,13 +177,33 @@ def _measure_columns(
     return least, [max(pair) for pair in zip(least, wanted, strict=True)]
 
 
+def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
+    """The same where words of headings have to break, before any number does."""
+    wanted, _ = _measure_columns(grid, is_tight=True)
+    headings = tuple(plain(_PART) for _ in grid.headings)
+    least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
+    return [_WIDE_FONT * one for one in least], wanted
+
+
+def _loosen(grid: Grid) -> Grid:
+    """The same grid; the symbol of a verdict may stand above its number."""
+
+    def loosen(content: Content) -> Content:
+        return tuple(
+            replace(one, text=one.text.replace("\u00a0", " ")) for one in content
+        )
+
+    lines = tuple(tuple(loosen(cell) for cell in line) for line in grid.lines)
+    return replace(grid, lines=lines)
+
+
 def _join(content: Content) -> str:
     return "".join(piece.text for piece in content)
 
 
-def _list_words(texts: Iterable[str]) -> list[int]:
+def _list_words(texts: Iterable[str]) -> list[float]:
     """Lengths of the words, very long ones cut: they break anywhere."""
-    lengths = (len(w) for text in texts for w in re.split(r"[ \n\-]", text))
+    lengths = (_count(w) for text in texts for w in re.split(r"[ \n\-]", text))
     return [min(length, _LONGEST_WORD) for length in lengths]
 
 
@@ -178,7 +211,12 @@ def _list_lines(texts: Iterable[str]) -> list[int]:
     return [min(len(one), _LONGEST) for text in texts for one in text.split("\n")]
 
 
-def _measure(lengths: Sequence[int], is_tight: bool) -> float:
+def _count(word: str) -> float:
+    """Length in signs of middle width: capitals are wider."""
+    return len(word) + _CAPITAL * sum(sign.isupper() for sign in word)
+
+
+def _measure(lengths: Sequence[float], is_tight: bool) -> float:
     """Width that the longest text takes in a cell [pt]."""
     size, margin = _CELL_PT, _MARGIN_PT
     if is_tight:

@@ -98,7 +98,8 @@ class RowWriter:
                 fails = line.verdict.style != "pass"
                 sign = (badge(line.verdict), Piece("\n")) if fails else ()
                 lines.append(((*sign, *small(line.remarks)),))
-        used = f"{t('heading.utilisation')}, {t('heading.inside').lower()}"
+        inside = t("heading.inside")
+        used = f"{t('heading.utilisation')}, {inside[:1].lower()}{inside[1:]}"
         headings = (
             t("heading.check_clause_resistance"),
             f"{t('heading.resistance')}\n[kN]",

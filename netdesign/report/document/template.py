@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from netdesign.edge.given_files import read_bounded
-from netdesign.errors import NetDesignError
+from netdesign.errors import OutputError
 from netdesign.report.document.styles import add_missing, shape_all
 from netdesign.words.message import say
 
@@ -30,11 +30,11 @@ def require_docx() -> None:
 
     Raises
     ------
-    NetDesignError
+    OutputError
         If the library is not installed.
     """
     if find_spec("docx") is None:
-        raise NetDesignError(say("program.no_python_docx"))
+        raise OutputError(say("program.no_python_docx"))
 
 
 def read_template(path: Path) -> bytes:
@@ -42,7 +42,7 @@ def read_template(path: Path) -> bytes:
 
     Raises
     ------
-    NetDesignError
+    OutputError
         If it cannot be read, or is no docx.
     """
     require_docx()
@@ -51,7 +51,7 @@ def read_template(path: Path) -> bytes:
         open_document(content)
     # Whatever the library makes of a spoilt file, of which it expects little.
     except Exception as error:
-        raise NetDesignError(say("program.no_template", file=str(path))) from error
+        raise OutputError(say("program.no_template", file=str(path))) from error
     return content
 
 

@@ -7,7 +7,7 @@ import pytest
 
 docx = pytest.importorskip("docx")
 
-from netdesign.errors import NetDesignError  # noqa: E402
+from netdesign.errors import OutputError  # noqa: E402
 from netdesign.report.document import template  # noqa: E402
 from netdesign.report.document.template import read_template, require_docx  # noqa: E402
 from netdesign.words.catalogue import render  # noqa: E402
@@ -49,7 +49,7 @@ SPOILT = {
 @pytest.mark.parametrize("name", SPOILT)
 def test_a_file_that_is_no_document_is_refused_by_its_name(tmp_path, name):
     (tmp_path / name).write_bytes(SPOILT[name])
-    with pytest.raises(NetDesignError) as caught:
+    with pytest.raises(OutputError) as caught:
         read_template(tmp_path / name)
     for language, word in (("en", "template"), ("fr", "modèle"), ("de", "Vorlage")):
         told = render(caught.value.message, language)
@@ -58,16 +58,16 @@ def test_a_file_that_is_no_document_is_refused_by_its_name(tmp_path, name):
 
 
 def test_a_template_that_is_not_there_or_too_large_is_refused(tmp_path, monkeypatch):
-    with pytest.raises(NetDesignError, match=r"none\.docx"):
+    with pytest.raises(OutputError, match=r"none\.docx"):
         read_template(tmp_path / "none.docx")
     (tmp_path / "own.docx").write_bytes(WHOLE)
     assert read_template(tmp_path / "own.docx") == WHOLE
     monkeypatch.setattr(template, "_MOST_BYTES", len(WHOLE) - 1)
-    with pytest.raises(NetDesignError, match="20 MB"):
+    with pytest.raises(OutputError, match="20 MB"):
         read_template(tmp_path / "own.docx")
 
 
 def test_without_the_library_the_wish_is_refused(monkeypatch):
     monkeypatch.setattr(template, "find_spec", lambda _name: None)
-    with pytest.raises(NetDesignError, match=r"pip install 'netdesign\[docx\]'"):
+    with pytest.raises(OutputError, match=r"pip install 'netdesign\[docx\]'"):
         require_docx()

@@ -244,8 +244,9 @@ def test_a_template_keeps_its_look_and_loses_its_text():
 def test_libreoffice_opens_it(tmp_path):
     """In three languages and a template, all converted to PDF in one run."""
     soffice = require_program("soffice")
-    made = {name: render_document(STUDY, name) for name in LANGUAGES}
-    made["template"] = render_document(STUDY, template=make_template())
+    details = dict(zip(LANGUAGES, ("full", "summary", "summary"), strict=True))
+    made = {name: render_document(STUDY, name, details[name]) for name in details}
+    made["template"] = render_document(STUDY, "de", "summary", template=make_template())
     for name, content in made.items():
         (tmp_path / f"{name}.docx").write_bytes(content)
     subprocess.run(
@@ -261,4 +262,4 @@ def test_libreoffice_opens_it(tmp_path):
         pytest.skip("LibreOffice has no Writer: nothing was opened in it")
     assert written == sorted(made)
     for path in tmp_path.glob("*.pdf"):
-        assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 5
+        assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 3
