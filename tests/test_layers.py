@@ -43,7 +43,7 @@ ROWS = (
     {"report.words"},
     {"report.view"},
     {"report.drawing"},
-    {"report.page", "report.workbook"},
+    {"report.page", "report.workbook", "report.document"},
     {"report", "public", "examples"},  # examples see the public names only
     {"evidence"},
     {"evidence.verification", "evidence.paper", "evidence.benchmark"},
@@ -102,6 +102,8 @@ THIRD_PARTY = {
     "jinja2": ("report.page.render",),
     "markupsafe": ("report.page.*",),
     "weasyprint": ("report.page.pdf",),
+    "docx": ("report.document.*",),
+    "PIL": ("report.drawing.raster",),  # matplotlib writes PNG by it
     "matplotlib": (
         *("report.drawing.*", "site.template.drawing", "evidence.*"),
         "examples.one_net",
@@ -114,6 +116,8 @@ THIRD_PARTY = {
 # Slow to import: only inside functions, so that help is there at once.
 ONLY_INSIDE_FUNCTIONS = {"openpyxl", "defusedxml", "xlsxwriter", "jinja2"} | {
     "weasyprint",
+    "docx",
+    "PIL",
     "matplotlib",
     "pandas",
     "rich",

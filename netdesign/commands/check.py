@@ -20,7 +20,7 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
-from netdesign.commands.report_options import list_wanted, report_options
+from netdesign.commands.report_options import choose_style, list_wanted, report_options
 from netdesign.commands.running import EXIT_CODES, own_command, report_places, tell_time
 from netdesign.commands.site_input import open_site, site_options, temporary_example
 from netdesign.commands.solving import open_run, solving_options
@@ -85,6 +85,8 @@ def check(
     excel: bool,
     csv: bool,
     pdf: bool,
+    docx: bool,
+    template: Path | None,
     explain: bool,
     as_json: bool,
     dry_run: bool,
@@ -108,7 +110,7 @@ def check(
     """
     from netdesign.coupling.scene import SolverSettings
     from netdesign.edge.output import write_files
-    from netdesign.report.files import ReportStyle, render_files
+    from netdesign.report.files import render_files
     from netdesign.study.cases import CheckRun
     from netdesign.study.check_site import check_site
 
@@ -126,7 +128,10 @@ def check(
     if dry_run:
         count = len(profiles)
         sys.exit(announce(site, run, count, as_json=as_json, language=language))
-    kinds = list_wanted({"html": html, "excel": excel, "csv": csv, "pdf": pdf})
+    reports = {"html": html, "excel": excel, "csv": csv, "pdf": pdf, "docx": docx}
+    looks = {"language": language, "detail": detail, "template": template}
+    kinds = list_wanted({**reports, "template": template})
+    style = choose_style(looks)
     folder = out or (None if as_json else Path(DEFAULT_FOLDER))
     names = _plan_files(folder, profiles, kinds, overwrite=force)
     with open_run(
@@ -140,7 +145,6 @@ def check(
     ) as (runner, progress):
         studies = check_site(site, profiles, run, runner, progress)
         progress.enter("reports")
-        style = ReportStyle(language=language, detail=detail)
         views = [] if as_json else _view_studies(studies, language)
         files = render_files(studies, names, style, views)
     failed = tell_faults(runner.faults, language)

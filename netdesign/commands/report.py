@@ -10,7 +10,7 @@ import click
 
 from netdesign.commands.language import tell
 from netdesign.commands.options import force_option, out_option
-from netdesign.commands.report_options import list_wanted, report_options
+from netdesign.commands.report_options import choose_style, list_wanted, report_options
 from netdesign.commands.stored_study import (
     contradict_command,
     origin_options,
@@ -55,16 +55,17 @@ def report(
     netdesign report netdesign-out/study.json --detail summary --no-excel --force
     """
     from netdesign.edge.output import require_free, write_files
-    from netdesign.report.files import ReportStyle, name_files, render_files
+    from netdesign.report.files import name_files, render_files
     from netdesign.report.words import VERDICTS
     from netdesign.study.document import load_study
 
     study = load_study(study_file)
     language: Language = options["language"]
     names = name_files(out, [study.profile.id], list_wanted(options))
+    style = choose_style(options)
     require_free(names[0], overwrite=force)
     _require_sound(study, study_file, site_file, standard, language)
-    files = render_files([study], names, ReportStyle(**options))
+    files = render_files([study], names, style)
     write_files(files, overwrite=force)
     for path in names[0]:
         tell(say("cli.wrote", path=str(path)), language, err=True)

@@ -19,17 +19,21 @@ STUDY_FILE = "study.json"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportStyle:
-    """Language and detail of the reports; the numbers do not depend on them."""
+    """Language, detail and look of the reports; the numbers do not depend on them."""
 
     language: Language = "en"
     detail: Detail = "full"
+    template: bytes | None = None  # docx that report.docx is written into
 
 
-def list_reports(*, html: bool, excel: bool, csv: bool, pdf: bool = False) -> list[str]:
+def list_reports(
+    *, html: bool, excel: bool, csv: bool, pdf: bool = False, docx: bool = False
+) -> list[str]:
     """Names of the wanted reports."""
     wanted = {
         "report.html": html,
         "report.pdf": pdf,
+        "report.docx": docx,
         "report.xlsx": excel,
         "cases.csv": csv,
     }
@@ -76,7 +80,7 @@ def _render(
 ) -> dict[str, bytes]:
     """Wanted formats of a study; modules of the others are not imported."""
     rendered: dict[str, bytes] = {}
-    if view is None and wanted & {".html", ".pdf", ".xlsx"}:
+    if view is None and wanted & {".html", ".pdf", ".xlsx", ".docx"}:
         from netdesign.report.view.whole import build_view
 
         view = build_view(study, style.language)
@@ -89,6 +93,12 @@ def _render(
         from netdesign.report.page.pdf import render_pdf
 
         rendered[".pdf"] = render_pdf(page)
+    if ".docx" in wanted:
+        from netdesign.report.document.word import render_document
+
+        rendered[".docx"] = render_document(
+            study, style.language, style.detail, view, style.template
+        )
     if ".xlsx" in wanted:
         from netdesign.report.workbook.excel import render_workbook
 

@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict
+from typing import Any
 
 from netdesign.edge.given_files import make_printable
-from netdesign.report.drawing.envelope_figure import draw_envelope
-from netdesign.report.drawing.envelope_maps import (
-    draw_drivers,
-    draw_lines,
-    draw_maps,
-    split_members,
-)
-from netdesign.report.drawing.head_figure import draw_head
-from netdesign.report.drawing.monitoring_figure import (
-    describe_monitoring,
-    draw_monitoring,
-)
-from netdesign.report.drawing.panel_figure import draw_panel
-from netdesign.report.drawing.section_figure import draw_section
+from netdesign.report.drawing.row_drawings import RowDrawings, draw_row
 from netdesign.report.page.render import build_environment, load_style
-from netdesign.report.view.check_view import find_shown_member
 from netdesign.report.view.gate import require_sections
 from netdesign.report.view.whole import Detail, ReportView, build_view
 from netdesign.report.words import Words
-from netdesign.study.records import RowStudy, Study
+from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
-if TYPE_CHECKING:
-    pass
-
+_DRAWINGS = ("section", "envelope", "head", "panel", "monitoring")
 _PAGE_SECTIONS = (
     "verdict",
     "identification",
@@ -95,7 +80,7 @@ def render_html(
         css=load_style("report.css"),
         running_title=Markup(_quote_css(view.running_title)),
         figures=[
-            _draw_row(row, row_view.anchor, words, is_full=is_full)
+            _mark_drawings(draw_row(row, row_view.anchor, words, is_full=is_full))
             for row, row_view in zip(study.rows, view.rows, strict=True)
         ],
     )
@@ -114,40 +99,20 @@ def list_sections(view: ReportView, detail: Detail = "full") -> list[str]:
     return [*of_page, *of_rows]
 
 
-def _draw_row(
-    row: RowStudy, anchor: str, words: Words, *, is_full: bool
-) -> dict[str, Any]:
-    """Drawings of a net row by name; "" where there is nothing to draw.
-
-    ``searched`` has those of each member, the one that governs first.
-    """
+def _mark_drawings(drawings: RowDrawings) -> dict[str, Any]:
+    """Drawings by name as HTML of ours; words beside them are escaped."""
     from markupsafe import Markup, escape
 
-    record = row.envelope if is_full else None
-    members = split_members(record) if record else []
-    first = find_shown_member(row)
-    members.sort(key=lambda one: one.bounds[0].quantity != first)
-    drawn = {
-        "section": draw_section(row.drawing, anchor, words) if row.drawing else "",
-        "envelope": draw_envelope(row, words) if is_full and not record else "",
-        "head": draw_head(row.head, words) if is_full and len(row.head) > 1 else "",
-        "panel": draw_panel(row.panel, words) if row.panel and is_full else "",
-        "monitoring": draw_monitoring(row.monitoring, f"{anchor}-r", words)
-        if is_full
-        else "",
-    }
-    figures = {name: Markup(svg) for name, svg in drawn.items()}
+    named = {name: getattr(drawings, name) for name in _DRAWINGS}
     searched = [
-        {
-            "maps": Markup(draw_maps(one, words)),
-            "lines": Markup(draw_lines(one, words)),
-            "drivers": Markup(draw_drivers(one, words)),
-        }
-        for one in members
+        {name: Markup(svg) for name, svg in asdict(one).items()}
+        for one in drawings.searched
     ]
-    measured = bool(drawn["monitoring"])
-    note = escape(describe_monitoring(row.monitoring, words) if measured else "")
-    return {**figures, "searched": searched, "monitoring_note": note}
+    return {
+        **{name: Markup(svg) for name, svg in named.items()},
+        "searched": searched,
+        "monitoring_note": escape(drawings.monitoring_note),
+    }
 
 
 def _quote_css(text: str) -> str:

@@ -1,0 +1,244 @@
+"""Text and tables as WordprocessingML (ISO/IEC 29500-1)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from html import escape
+from typing import Any
+
+from netdesign.edge.given_files import make_printable
+from netdesign.report.document.content import Content, Grid, Piece, plain, turn
+
+_W = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
+NAMESPACE = f'xmlns:w="{_W}"'
+POINT = 20  # twentieths of a point, in which widths are counted
+SMALLEST_PT = 7.5
+_CELL_PT = 8.0
+_MARGIN_PT = 3.0  # left and right of the text of a cell
+_TIGHT_MARGIN_PT = 1.5  # the same where columns are narrower than their words
+_SIGN = 0.57  # width of a sign in sizes of the font
+_LONGEST = 80  # signs of a cell that count for the width of its column
+_LONGEST_WORD = 22
+_CAPITAL = 0.35  # more than the width of another sign
+_WIDE_FONT = 1.15  # of a template, against the font that _SIGN is of
+_PART = "xxxxx"  # of a word of a heading that may stand alone
+_FEW_LINES = 6  # of a table that may be turned
+_SUBSCRIPT = re.compile(r"_(\w+)")
+
+
+def parse(markup: str) -> Any:
+    """Element of one paragraph or table."""
+    from docx.oxml import parse_xml
+
+    return parse_xml(f"<w:body {NAMESPACE}>{markup}</w:body>")[0]
+
+
+def write_runs(content: Content, small_pt: float = SMALLEST_PT) -> str:
+    """Runs of some pieces of text."""
+    return "".join(_write_piece(piece, small_pt) for piece in content)
+
+
+def _write_piece(piece: Piece, small_pt: float) -> str:
+    look = "<w:b/>" if piece.is_bold else ""
+    look += f'<w:sz w:val="{round(2 * small_pt)}"/>' if piece.is_small else ""
+    parts = _SUBSCRIPT.split(piece.text) if piece.has_symbols else [piece.text]
+    lowered = look + '<w:vertAlign w:val="subscript"/>'
+    return "".join(
+        _write_run(part, lowered if place % 2 else look)
+        for place, part in enumerate(parts)
+        if part
+    )
+
+
+def _write_run(text: str, look: str) -> str:
+    lines = make_printable(text).split("\n")
+    inside = "<w:br/>".join(
+        f'<w:t xml:space="preserve">{escape(line)}</w:t>' if line else ""
+        for line in lines
+    )
+    return f"<w:r><w:rPr>{look}</w:rPr>{inside}</w:r>"
+
+
+def write_paragraph(runs: str, style: str, look: str = "") -> str:
+    """Paragraph of a style, by its id."""
+    named = f'<w:pStyle w:val="{escape(style)}"/>'
+    return f"<w:p><w:pPr>{named}{look}</w:pPr>{runs}</w:p>"
+
+
+def write_table(grid: Grid, styles: tuple[str, str], width_pt: float) -> str:
+    """Table over the whole width; its headings are repeated on each page.
+
+    Parameters
+    ----------
+    grid : Grid
+        Turned where its columns do not fit on the paper.
+    styles : tuple of str
+        Ids of the style of tables and of that of the paragraphs in a cell.
+    width_pt : float
+        Between the margins of the page [pt].
+    """
+    least, wanted = _measure_columns(grid)
+    if sum(least) > width_pt and _may_turn(grid):
+        grid = turn(grid)
+        least, wanted = _measure_columns(grid)
+    is_tight = sum(least) > width_pt
+    if is_tight:
+        least, wanted = _measure_tight(grid)
+        if sum(least) > width_pt:
+            grid = _loosen(grid)
+            least, wanted = _measure_tight(grid)
+    widths = [round(POINT * w) for w in share_width(least, wanted, width_pt)]
+    head = [_write_line(grid.headings, grid, widths, styles[1], True, is_tight)]
+    lines = [
+        _write_line(line, grid, widths, styles[1], False, is_tight)
+        for line in grid.lines
+    ]
+    columns = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
+    margin_pt = _TIGHT_MARGIN_PT if is_tight else _MARGIN_PT
+    margin = f'w:w="{round(POINT * margin_pt)}" w:type="dxa"'
+    look = int(bool(grid.headings))
+    return (
+        f'<w:tbl><w:tblPr><w:tblStyle w:val="{escape(styles[0])}"/>'
+        f'<w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:tblLayout w:type="fixed"/>'
+        f"<w:tblCellMar><w:left {margin}/><w:right {margin}/></w:tblCellMar>"
+        f'<w:tblLook w:firstRow="{look}" w:lastRow="0" w:firstColumn="0" '
+        f'w:lastColumn="0" w:noHBand="1" w:noVBand="1"/></w:tblPr>'
+        f"<w:tblGrid>{columns}</w:tblGrid>"
+        f"{''.join(head if grid.headings else [])}{''.join(lines)}</w:tbl>"
+    )
+
+
+def _may_turn(grid: Grid) -> bool:
+    """Few lines, all of them of single cells below headings."""
+    is_plain = all(len(line) == len(grid.headings) for line in grid.lines)
+    return is_plain and len(grid.lines) <= _FEW_LINES
+
+
+def _write_line(
+    cells: Sequence[Content],
+    grid: Grid,
+    widths: Sequence[int],
+    style: str,
+    is_head: bool,
+    is_tight: bool,
+) -> str:
+    spans = len(cells) == 1 < len(widths)
+    taken = [sum(widths)] if spans else widths
+    inside = "".join(
+        _write_cell(
+            cell,
+            width,
+            style,
+            len(widths) if spans else 1,
+            is_number,
+            is_head,
+            is_tight,
+        )
+        for cell, width, is_number in zip(cells, taken, grid.numbers, strict=False)
+    )
+    repeated = "<w:tblHeader/>" if is_head else ""
+    return f"<w:tr><w:trPr><w:cantSplit/>{repeated}</w:trPr>{inside}</w:tr>"
+
+
+def _write_cell(
+    content: Content,
+    width: int,
+    style: str,
+    span: int,
+    is_number: bool,
+    is_head: bool,
+    is_tight: bool,
+) -> str:
+    if is_head or is_tight:
+        content = tuple(
+            Piece(one.text, one.is_bold or is_head, is_tight, one.has_symbols)
+            for one in content
+        )
+    spanned = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
+    look = "<w:keepNext/>" if is_head else ""
+    look += '<w:jc w:val="right"/>' if is_number and span == 1 else ""
+    paragraph = write_paragraph(write_runs(content), style, look)
+    return (
+        f'<w:tc><w:tcPr><w:tcW w:w="{width}" w:type="dxa"/>{spanned}</w:tcPr>'
+        f"{paragraph}</w:tc>"
+    )
+
+
+def _measure_columns(
+    grid: Grid, *, is_tight: bool = False
+) -> tuple[list[float], list[float]]:
+    """Widths of the longest word and of the longest line of each column [pt]."""
+    lines = [line for line in (grid.headings, *grid.lines) if len(line) > 1]
+    texts = [[_join(cell) for cell in column] for column in zip(*lines, strict=True)]
+    least = [_measure(_list_words(column), is_tight) for column in texts]
+    wanted = [_measure(_list_lines(column), is_tight) for column in texts]
+    return least, [max(pair) for pair in zip(least, wanted, strict=True)]
+
+
+def _measure_tight(grid: Grid) -> tuple[list[float], list[float]]:
+    """The same where words of headings have to break, before any number does."""
+    wanted, _ = _measure_columns(grid, is_tight=True)
+    headings = tuple(plain(_PART) for _ in grid.headings)
+    least, _ = _measure_columns(replace(grid, headings=headings), is_tight=True)
+    return [_WIDE_FONT * one for one in least], wanted
+
+
+def _loosen(grid: Grid) -> Grid:
+    """The same grid; the symbol of a verdict may stand above its number."""
+
+    def loosen(content: Content) -> Content:
+        return tuple(
+            replace(one, text=one.text.replace("\u00a0", " ")) for one in content
+        )
+
+    lines = tuple(tuple(loosen(cell) for cell in line) for line in grid.lines)
+    return replace(grid, lines=lines)
+
+
+def _join(content: Content) -> str:
+    return "".join(piece.text for piece in content)
+
+
+def _list_words(texts: Iterable[str]) -> list[float]:
+    """Lengths of the words, very long ones cut: they break anywhere."""
+    lengths = (_count(w) for text in texts for w in re.split(r"[ \n\-]", text))
+    return [min(length, _LONGEST_WORD) for length in lengths]
+
+
+def _list_lines(texts: Iterable[str]) -> list[int]:
+    return [min(len(one), _LONGEST) for text in texts for one in text.split("\n")]
+
+
+def _count(word: str) -> float:
+    """Length in signs of middle width: capitals are wider."""
+    return len(word) + _CAPITAL * sum(sign.isupper() for sign in word)
+
+
+def _measure(lengths: Sequence[float], is_tight: bool) -> float:
+    """Width that the longest text takes in a cell [pt]."""
+    size, margin = _CELL_PT, _MARGIN_PT
+    if is_tight:
+        size, margin = SMALLEST_PT, _TIGHT_MARGIN_PT
+    return max(lengths, default=1) * _SIGN * size + 2.0 * margin + 1.0
+
+
+def share_width(
+    least: Sequence[float], wanted: Sequence[float], width: float
+) -> list[float]:
+    """Widths of columns that add up to ``width``: least ones first, then by wish.
+
+    Examples
+    --------
+    >>> share_width([10.0, 10.0], [10.0, 30.0], 30.0)
+    [10.0, 20.0]
+    >>> share_width([20.0, 40.0], [20.0, 40.0], 30.0)
+    [10.0, 20.0]
+    """
+    if sum(least) >= width:
+        return [width * one / sum(least) for one in least]
+    if sum(wanted) <= width:
+        return [width * one / sum(wanted) for one in wanted]
+    share = (width - sum(least)) / (sum(wanted) - sum(least))
+    return [low + share * (high - low) for low, high in zip(least, wanted, strict=True)]

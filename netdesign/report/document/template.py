@@ -1,0 +1,95 @@
+"""Document to write into: a company's template without its text, or an empty one."""
+
+from __future__ import annotations
+
+import io
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from netdesign.edge.given_files import read_bounded
+from netdesign.errors import OutputError
+from netdesign.report.document.styles import add_missing, shape_all
+from netdesign.words.message import say
+
+if TYPE_CHECKING:
+    from docx.document import Document
+
+_MOST_BYTES = 20 * 2**20
+# Relations of a document that hold without a place in its text.
+_KEPT = (
+    *("styles", "stylesWithEffects", "settings", "webSettings", "theme", "fontTable"),
+    *("numbering", "header", "footer", "footnotes", "endnotes"),
+)
+_A4_MM = (210.0, 297.0)
+_MARGIN_MM = 20.0
+
+
+def require_docx() -> None:
+    """Refuse a wish for a document before anything is solved.
+
+    Raises
+    ------
+    OutputError
+        If the library is not installed.
+    """
+    if find_spec("docx") is None:
+        raise OutputError(say("program.no_python_docx"))
+
+
+def read_template(path: Path) -> bytes:
+    """Content of a template that a document can be written into.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be read, or is no docx.
+    """
+    require_docx()
+    try:
+        content = read_bounded(path, _MOST_BYTES)
+        open_document(content)
+    # Whatever the library makes of a spoilt file, of which it expects little.
+    except Exception as error:
+        raise OutputError(say("program.no_template", file=str(path))) from error
+    return content
+
+
+def open_document(template: bytes | None) -> Document:
+    """Empty document; a template keeps styles, page, header and footer."""
+    import docx
+
+    if template is None:
+        document = docx.Document()
+        _set_paper(document)
+    else:
+        document = docx.Document(io.BytesIO(template))
+        _drop_text(document)
+    add_missing(document)
+    if template is None:
+        shape_all(document)
+    return document
+
+
+def _set_paper(document: Document) -> None:
+    from docx.shared import Mm
+
+    section = document.sections[0]
+    section.page_width, section.page_height = (Mm(side) for side in _A4_MM)
+    section.left_margin = section.right_margin = Mm(_MARGIN_MM)
+    section.top_margin = section.bottom_margin = Mm(_MARGIN_MM)
+
+
+def _drop_text(document: Document) -> None:
+    """Take out the text of a template, which may be that of an older report.
+
+    Pictures, links and comments of that text go with it: nobody would see them, and
+    they would be sent along.
+    """
+    body = document.element.body
+    for element in list(body):
+        if element is not body.sectPr:
+            body.remove(element)
+    for name, relation in list(document.part.rels.items()):
+        if relation.reltype.rpartition("/")[2] not in _KEPT:
+            del document.part.rels[name]

@@ -1,0 +1,117 @@
+"""Study -> docx: the page's sections in headings, tables and pictures of its own.
+
+Shows what the page shows on paper, in its order: from the same view, by the same words.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from netdesign.report.document import site_sections as site
+from netdesign.report.document import styles
+from netdesign.report.document.content import plain
+from netdesign.report.document.markup import POINT, parse, write_runs
+from netdesign.report.document.package import pack, set_properties
+from netdesign.report.document.row_sections import RowWriter
+from netdesign.report.document.template import open_document
+from netdesign.report.document.writer import Writer, write_field
+from netdesign.report.drawing.row_drawings import draw_row
+from netdesign.report.view.whole import Detail, ReportView, build_view
+from netdesign.report.words import Words
+from netdesign.study.records import Study
+from netdesign.words.catalogue import Language
+
+
+def render_document(
+    study: Study,
+    language: Language = "en",
+    detail: Detail = "full",
+    view: ReportView | None = None,
+    template: bytes | None = None,
+) -> bytes:
+    """Document of a study; the same study and template give the same bytes.
+
+    Parameters
+    ----------
+    study : Study
+        What is shown.
+    language : str
+        ``en``, ``fr`` or ``de``.
+    detail : str
+        As of the page on paper: ``figures`` has every figure of the checks.
+    view : ReportView, optional
+        Of this study in this language, where it is there already.
+    template : bytes, optional
+        Docx whose styles, page, header and footer are kept.
+
+    Raises
+    ------
+    NetDesignError
+        If the study contradicts its own numbers.
+    """
+    words = Words(language)
+    view = view or build_view(study, language)
+    document = open_document(template)
+    styles.set_language(document, language)
+    to = Writer(document=document, words=words)
+    _write_footer(to, view)
+    _write_all(to, study, view, detail)
+    set_properties(
+        document,
+        title=words("heading.anchor_check"),
+        subject=view.running_title,
+        author=view.prepared,
+        started=study.provenance.started,
+    )
+    return pack(document)
+
+
+def _write_all(to: Writer, study: Study, view: ReportView, detail: Detail) -> None:
+    is_full = detail != "summary"
+    site.write_verdict(to, view)
+    to.text(to.words("heading.contents"), styles.CONTENTS_HEADING)
+    last: Any = to.document.element.body.sectPr.getprevious()
+    site.write_identification(to, view)
+    after_contents: Any = last.getnext()
+    site.write_summary(to, view)
+    site.write_basis(to, view, is_full=is_full)
+    for row, shown in zip(study.rows, view.rows, strict=True):
+        drawn = draw_row(row, shown.anchor, to.words, is_full=is_full)
+        RowWriter(to, shown, drawn, detail).write()
+    if detail == "figures":
+        site.write_formulas(to, view)
+    if is_full:
+        site.write_profile(to, view)
+    site.write_end(to, view)
+    to.contents(after_contents)
+
+
+def _write_footer(to: Writer, view: ReportView) -> None:
+    """Running title, section and page; a template's own footer stays."""
+    document = to.document
+    section: Any = document.sections[-1]
+    if not section.footer.is_linked_to_previous:
+        return
+    section.footer.is_linked_to_previous = False
+    paragraph = section.footer.paragraphs[0]
+    paragraph.style = document.styles[styles.SMALL]
+    right = round(POINT * to.width_pt)
+    tab = "<w:r><w:tab/></w:r>"
+    runs = (
+        write_runs(plain(view.running_title))
+        + tab
+        + write_field("STYLEREF 1")
+        + tab
+        + write_field("PAGE", "1")
+        + write_runs(plain(" / "))
+        + write_field("NUMPAGES", "1")
+    )
+    look = (
+        f'<w:tabs><w:tab w:val="center" w:pos="{right // 2}"/>'
+        f'<w:tab w:val="right" w:pos="{right}"/></w:tabs>'
+    )
+    filled = parse(f"<w:p><w:pPr>{look}</w:pPr>{runs}</w:p>")
+    named: Any = paragraph._p.get_or_add_pPr()
+    named.append(filled[0][0])
+    for run in list(filled)[1:]:
+        paragraph._p.append(run)

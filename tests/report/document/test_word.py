@@ -1,0 +1,265 @@
+"""The document: what the page says, as Word has it."""
+
+import io
+import os
+import re
+import subprocess
+import zipfile
+
+import pytest
+
+docx = pytest.importorskip("docx")
+
+from netdesign.report.document.word import render_document  # noqa: E402
+from netdesign.report.page.html import render_html  # noqa: E402
+from netdesign.report.view.whole import build_view  # noqa: E402
+from netdesign.report.words import Words  # noqa: E402
+from tests.hostile.test_texts_in_outputs import ATTACKS, spoilt_study  # noqa: E402
+from tests.programs import REQUIRED, require_program  # noqa: E402
+from tests.report.build_study import build_study  # noqa: E402
+from tests.report.document.reading import (  # noqa: E402
+    W,
+    list_parts,
+    list_tables,
+    open_word,
+    squeeze,
+)
+from tests.report.reading import PageReader  # noqa: E402
+
+STUDY = build_study()
+LANGUAGES = ("en", "fr", "de")
+BLIP = "{http://schemas.microsoft.com/office/drawing/2016/SVG/main}svgBlip"
+
+
+@pytest.fixture(scope="module", params=LANGUAGES)
+def language(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def content(language):
+    return render_document(STUDY, language, "figures")
+
+
+def list_checks(view):
+    return [check for row in view.rows for check in row.checks]
+
+
+def test_every_check_stands_in_the_document_with_its_figures(content, language):
+    """Verdict, demand, resistance, utilisation and band of each, at its place."""
+    view, tables = build_view(STUDY, language), list_tables(content)
+    head = Words(language)("heading.check_clause_resistance")
+    of_rows = [table for table in tables if table[0][0] == head]
+    assert len(of_rows) == len(view.rows)
+    found = 0
+    for row, table in zip(view.rows, of_rows, strict=True):
+        lines = [cells for cells in table[1:] if len(cells) > 1]
+        for line, cells in zip(row.lines, lines, strict=True):
+            assert cells[0].startswith(line.title)
+            assert cells[1] == line.resistance
+            for check, cell in ((line.inside, cells[2]), (line.end, cells[3])):
+                if check is None:
+                    assert cell == "-"
+                    continue
+                found += 1
+                verdict = f"{check.verdict.symbol}{check.verdict.word}"
+                band = check.band if check.bar else ""
+                told = f"{verdict}{check.utilisation}{band}Ed{check.demand}"
+                assert squeeze(cell).startswith(squeeze(told).removesuffix("Ed-"))
+    unloaded = sum(len(row.requirements) for row in view.rows)
+    assert found + unloaded == len(list_checks(view)) > 10
+
+
+@pytest.mark.parametrize(
+    ("language", "detail"), [("de", "summary"), ("fr", "full"), ("en", "figures")]
+)
+def test_every_cell_of_the_page_on_paper_is_in_the_document(detail, language):
+    """Cell by cell; what only a screen shows may lack, and no cell says else."""
+    page = PageReader(render_html(STUDY, language, detail))
+    shown = render_document(STUDY, language, detail)
+    cells = {squeeze(c) for t in list_tables(shown) for line in t for c in line}
+    paper = {
+        squeeze(cell)
+        for section, tables in page.tables.items()
+        if not section.endswith(("-extremes", "-inputs", "-figures", "formulas"))
+        or (detail == "figures" and section.endswith("-figures"))
+        for table in tables
+        for line in table
+        for cell in line
+    }
+    numbers = {cell for cell in paper if re.fullmatch(r"[✓✗?†]?[-+]?\d[\d.,]*", cell)}
+    on_screen = {
+        squeeze(cell.text)
+        for row in build_view(STUDY, language).rows
+        for table in (row.pulls, row.head, row.slab, row.floor, row.model_form)
+        for line in table.rows
+        for cell in line
+    }
+    on_screen |= {
+        squeeze(c.text)
+        for row in build_view(STUDY, language).rows
+        for t in (row.drivers, row.spreads)
+        for line in t.rows
+        for c in line
+    }
+    assert len(numbers) > 15
+    assert numbers - cells - on_screen == set()
+
+
+def test_sections_stand_in_the_order_of_the_page(content, language):
+    view = build_view(STUDY, language)
+    t = Words(language)
+    headings = [
+        p.text.replace("\u00a0", " ")
+        for p in open_word(content).paragraphs
+        if p.style.name == "Heading 1"
+    ]
+    rows = [
+        f"{t('heading.net_row')} {row.id} {row.verdict.symbol} {row.verdict.word}"
+        for row in view.rows
+    ]
+    first = ("identification", "summary_of_rows", "basis")
+    last = ("formulas", "limit_profile", "solver_quality", "checklist", "provenance")
+    assert headings == [
+        *(t(f"heading.{one}") for one in first),
+        *rows,
+        *(t(f"heading.{one}") for one in last),
+    ]
+
+
+def test_verdicts_are_bold_and_numbers_to_the_right(content, language):
+    document = open_word(content)
+    verdict = next(
+        p for p in document.paragraphs if p.style.name == "netdesign verdict"
+    )
+    shown = build_view(STUDY, language).verdict
+    assert verdict.text == f"{shown.symbol}\u00a0{shown.word}"
+    assert all(run.bold for run in verdict.runs)
+    cells = [cell for table in document.tables for cell in table._tbl.iter(f"{W}tc")]
+    right = [cell for cell in cells if cell.find(f".//{W}jc") is not None]
+    assert len(right) > 100
+    assert all(cell.find(f".//{W}jc").get(f"{W}val") == "right" for cell in right)
+
+
+def test_every_table_with_headings_repeats_them(content):
+    tables = open_word(content).tables
+    repeated = [table._tbl.find(f".//{W}tblHeader") is not None for table in tables]
+    assert repeated.count(False) == 2  # facts of the verdict, identification
+    for table in tables:
+        assert all(
+            line.find(f".//{W}cantSplit") is not None for line in table._tbl.tr_lst
+        )
+
+
+def test_every_picture_is_a_drawing_with_a_fallback_and_words(content):
+    document = open_word(content)
+    parts = document.part.related_parts
+    drawings = list(document.element.body.iter(f"{W}drawing"))
+    assert len(drawings) >= len(STUDY.rows)
+    for drawing in drawings:
+        (words,) = (one.get("descr") for one in drawing.iter() if "docPr" in one.tag)
+        assert len(words) > 10
+        (svg,) = (value for one in drawing.iter(BLIP) for value in one.attrib.values())
+        assert parts[svg].blob.startswith(b"<svg")
+        assert parts[svg].content_type == "image/svg+xml"
+        (png,) = (
+            one.attrib.values()[0]
+            for one in drawing.iter()
+            if one.tag.endswith("}blip")
+        )
+        assert parts[png].blob.startswith(b"\x89PNG")
+
+
+def test_contents_list_every_section_and_are_a_field(content):
+    document = open_word(content)
+    lines = [p for p in document.paragraphs if p.style.name == "toc 1"]
+    headings = [p for p in document.paragraphs if p.style.name == "Heading 1"]
+    links = [p._p.find(f"{W}hyperlink") for p in lines]
+    assert ["".join(x.text for x in link.iter(f"{W}t")) for link in links] == [
+        p.text for p in headings
+    ]
+    marks = [p._p.find(f"{W}bookmarkStart").get(f"{W}name") for p in headings]
+    assert [link.get(f"{W}anchor") for link in links] == marks
+    assert "TOC" in "".join(x.text for x in lines[0]._p.iter(f"{W}instrText"))
+
+
+def test_equal_studies_give_equal_bytes(content, language):
+    assert render_document(STUDY, language, "figures") == content
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        assert {one.date_time[0] for one in archive.infolist()} == {1980}
+    known = open_word(content).core_properties
+    assert known.created.isoformat()[:10] == STUDY.provenance.started[:10]
+
+
+@pytest.fixture(scope="module")
+def expected():
+    """Parts of the document of a study whose texts attack nobody."""
+    return set(list_parts(render_document(spoilt_study("plain"), detail="summary")))
+
+
+@pytest.mark.parametrize("place", range(len(ATTACKS)))
+def test_a_document_of_hostile_texts_opens_and_holds_them_as_text(place, expected):
+    parts = list_parts(render_document(spoilt_study(ATTACKS[place]), detail="summary"))
+    document = parts["word/document.xml"].decode()
+    told = re.findall("<w:instrText[^>]*>([^<]*)<", document)
+    assert [one.split()[0] for one in told] == ["TOC"]
+    assert set(parts) == expected
+    assert not any(b'TargetMode="External"' in one for one in parts.values())
+    shown = "".join(re.findall("<w:t[^>]*>([^<]*)<", document))
+    assert all(sign.isprintable() or sign == "\u00a0" for sign in shown)
+
+
+def make_template():
+    """Template of a company: its own heading, header, footer, text and a link."""
+    document = docx.Document()
+    document.styles["Heading 1"].font.size = docx.shared.Pt(31)
+    document.sections[0].header.paragraphs[0].text = "Bureau Dupré"
+    document.sections[0].footer.paragraphs[0].text = "confidential"
+    document.sections[0].page_width = docx.shared.Mm(200)
+    document.add_paragraph("old report: PASS")
+    document.styles["Caption"].delete()
+    buffer = io.BytesIO()
+    document.save(buffer)
+    return buffer.getvalue()
+
+
+def test_a_template_keeps_its_look_and_loses_its_text():
+    content = render_document(STUDY, "fr", "summary", template=make_template())
+    document = open_word(content)
+    assert document.styles["Heading 1"].font.size.pt == 31
+    assert document.sections[0].header.paragraphs[0].text == "Bureau Dupré"
+    assert document.sections[0].footer.paragraphs[0].text == "confidential"
+    assert document.sections[0].page_width.mm == pytest.approx(200, abs=0.1)
+    assert b"old report" not in b"".join(list_parts(content).values())
+    assert any(p.style.name.lower() == "caption" for p in document.paragraphs)
+    widths = [
+        sum(int(one.get(f"{W}w")) for one in table._tbl.iter(f"{W}gridCol"))
+        for table in document.tables
+    ]
+    section = document.sections[0]
+    room = section.page_width - section.left_margin - section.right_margin
+    assert max(widths) <= room / 635 + 20
+
+
+def test_libreoffice_opens_it(tmp_path):
+    """In three languages and a template, all converted to PDF in one run."""
+    soffice = require_program("soffice")
+    details = dict(zip(LANGUAGES, ("full", "summary", "summary"), strict=True))
+    made = {name: render_document(STUDY, name, details[name]) for name in details}
+    made["template"] = render_document(STUDY, "de", "summary", template=make_template())
+    for name, content in made.items():
+        (tmp_path / f"{name}.docx").write_bytes(content)
+    subprocess.run(
+        [
+            *(soffice, f"-env:UserInstallation=file://{tmp_path}/profile"),
+            *("--headless", "--convert-to", "pdf", "--outdir", str(tmp_path)),
+            *(str(tmp_path / f"{name}.docx") for name in made),
+        ],
+        check=False, capture_output=True, timeout=180,
+    )  # fmt: skip
+    written = sorted(path.stem for path in tmp_path.glob("*.pdf"))
+    if not written and not os.environ.get(REQUIRED):
+        pytest.skip("LibreOffice has no Writer: nothing was opened in it")
+    assert written == sorted(made)
+    for path in tmp_path.glob("*.pdf"):
+        assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 3

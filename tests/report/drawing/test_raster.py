@@ -1,0 +1,77 @@
+"""Drawings as PNG: the same shapes at the same places, on every machine."""
+
+import io
+
+import pytest
+from PIL import Image
+
+from netdesign.report.drawing.raster import (
+    DOTS_PER_INCH,
+    read_size,
+    read_title,
+    render_png,
+)
+from netdesign.report.drawing.sketch import Sketch
+
+
+def draw(sketch):
+    svg = sketch.write(72.0, "A <title>", width=144.0)
+    return Image.open(io.BytesIO(render_png(svg))).convert("RGB")
+
+
+def look(picture, x, y):
+    """Colour at a place in points."""
+    scale = DOTS_PER_INCH / 72.0
+    return picture.getpixel((int(x * scale), int(y * scale)))
+
+
+def test_shapes_stand_where_the_drawing_has_them():
+    sketch = Sketch()
+    sketch.rectangle(10.0, 10.0, 20.0, 10.0, "#b23a1e")
+    sketch.area([(60.0, 10.0), (90.0, 10.0), (90.0, 40.0), (60.0, 40.0)], "#7d838b")
+    sketch.line([(0.0, 61.3), (144.0, 61.3)], stroke="#1b1e22", width=4.0)
+    sketch.tiles([(100.0, 20.0, 12.0, 8.0, "#d3d7dc")])
+    sketch.dot((120.0, 50.0), 5.0, fill="#b23a1e")
+    picture = draw(sketch)
+    assert picture.size == (400, 200)
+    assert look(picture, 20, 15) == look(picture, 120, 50) == (0xB2, 0x3A, 0x1E)
+    assert look(picture, 75, 30) == (0x7D, 0x83, 0x8B)
+    assert look(picture, 40, 61.3) == (0x1B, 0x1E, 0x22)
+    assert look(picture, 106, 24) == (0xD3, 0xD7, 0xDC)
+    assert look(picture, 20, 30) == look(picture, 40, 15) == (255, 255, 255)
+
+
+def test_an_area_bounds_loose_lines():
+    sketch = Sketch()
+    sketch.clip_area("half", [(0, 0), (72, 0), (72, 72), (0, 72)])
+    ends = [((10.0, 36.2), (130.0, 36.2))]
+    sketch.segments(ends, stroke="#1b1e22", width=5.0, clip="half")
+    picture = draw(sketch)
+    assert look(picture, 40, 36.2) == (0x1B, 0x1E, 0x22)
+    assert look(picture, 100, 36.2) == (255, 255, 255)
+
+
+@pytest.mark.parametrize(
+    ("anchor", "left"), [("start", 72), ("middle", 50), ("end", 20)]
+)
+def test_words_are_set_by_their_anchor(anchor, left):
+    """A sign that the font lacks is a question mark, and no warning."""
+    sketch = Sketch()
+    sketch.words((72.0, 40.0), "MMMMM$_{\u4e2d", anchor=anchor, bold=True)
+    picture = draw(sketch).convert("L").point(lambda level: 255 * (level < 128))
+    found = picture.getbbox()[0] * 72.0 / DOTS_PER_INCH
+    assert found == pytest.approx(left, abs=8.0)
+
+
+def test_bytes_words_and_size_of_a_drawing():
+    svg = Sketch().write(72.0, "A <title>", width=144.0)
+    assert render_png(svg) == render_png(svg)
+    assert read_title(svg) == "A <title>"
+    assert read_size(svg) == (144.0, 72.0)
+
+
+@pytest.mark.parametrize("shape", ['<image x="1"/>', '<path d="M0 0Q1 1 2 2"/>'])
+def test_an_unknown_shape_is_a_fault_never_a_gap(shape):
+    svg = Sketch().write(72.0, "A", width=144.0).replace("</svg>", f"{shape}</svg>")
+    with pytest.raises(ValueError, match="not known"):
+        render_png(svg)
