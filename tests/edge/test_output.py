@@ -166,6 +166,9 @@ WRITING = {
     "--inclination 25:30 --out {}",
     ("bench",): "bench --quick --plot {}/plot.svg",
     ("paper",): "paper --out {}",
+    ("winter",): "winter --example --out {}",
+    ("validate",): "validate --out {}",
+    ("verify",): "verify --out {}",
     ("standards", "copy"): "standards copy eurocode {}/mine",
 }
 
@@ -174,6 +177,7 @@ TAKEN = (
     "site.map.toml",
     *("study.json", "copy.xlsx", "solution.html", "envelope.json", "plot.svg"),
     *("paper.html", "index.html", "mine/document.toml"),
+    *("winter.json", "validation.html"),
 )
 
 

@@ -1,4 +1,4 @@
-"""What a document says of all rows together: verdict, signatures, summary, basis."""
+"""Sections of a document about all rows together: verdict, signatures, summary, basis."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _list_governing(to: Writer, row: RowView | None) -> list[tuple[str, Content]
 
 
 def write_identification(to: Writer, view: ReportView) -> None:
-    """What the report is of, and room for signatures and revisions."""
+    """Subject of the report, and room for signatures and revisions."""
     t = to.words
     to.heading(plain(t("heading.identification")))
     to.grid(
@@ -166,7 +166,7 @@ def _sum_up(to: Writer, row: RowView) -> list[tuple[Content, ...]]:
 
 
 def write_basis(to: Writer, view: ReportView, *, is_full: bool) -> None:
-    """What holds for all rows: scope, reading, ranges, inputs, notes, assumptions."""
+    """Statements that hold for all rows: scope, reading, ranges, inputs, notes, assumptions."""
     t = to.words
     to.heading(plain(t("heading.basis")))
     to.subheading("heading.scope")

@@ -93,7 +93,7 @@ class Writer:
             self.text(text, styles.ITEM)
 
     def none(self, text: str) -> None:
-        """What stands where there is nothing to show."""
+        """Line that stands where there is nothing to show."""
         self.paragraph(small([text]))
 
     def grid(self, grid: Grid) -> None:

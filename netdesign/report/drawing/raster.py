@@ -28,7 +28,7 @@ Look = Mapping[str, str]
 
 @dataclass(frozen=True, slots=True)
 class _Paper:
-    """What is drawn on: a renderer, its height, areas that bound shapes."""
+    """Surface to draw on: a renderer, its height, areas that bound shapes."""
 
     renderer: Any  # matplotlib's, which has no types
     height: float  # [pt]

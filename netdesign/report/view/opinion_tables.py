@@ -12,7 +12,6 @@ from netdesign.report.view.table import (
     text_column,
 )
 from netdesign.report.words import (
-    MISSING,
     Words,
     name_case,
     show_member,
@@ -36,6 +35,7 @@ _SLAB = (
     "load_difference_percent",
     "foot_difference_percent",
 )
+_ANSWERS = {"yes": "show.yes", "no": "show.no"}
 _FORCES = ("foot_anchor_kN", "uphill_guy_kN", "post_kN")
 
 
@@ -125,12 +125,17 @@ def _list_variant(one: VariantRecord, words: Words) -> tuple[Cell, ...]:
         text_cell(show_text(one.creep_law)),
         given_cell(one.exponent),
         number_cell(_SLIP, one.slip_length_m),
-        text_cell(words(f"show.{one.stated}") if one.stated else MISSING),
+        text_cell(_tell(one.stated, words)),
         text_cell(words("show.yes" if one.is_calibrated else "show.no")),
         *(number_cell(key, getattr(one, key)) for key in _FORCES),
         number_cell("change_percent", change),
         text_cell(words.show(one.reason)),
     )
+
+
+def _tell(answer: str, words: Words) -> str:
+    """``yes`` or ``no`` in the language; whatever else a study may hold, as it is."""
+    return words(_ANSWERS[answer]) if answer in _ANSWERS else show_text(answer)
 
 
 def tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
