@@ -1,4 +1,4 @@
-"""Sections of a document about all rows together: verdict, signatures, summary, basis."""
+"""Sections of a document about all rows: verdict, signatures, summary, basis."""
 
 from __future__ import annotations
 
@@ -166,7 +166,7 @@ def _sum_up(to: Writer, row: RowView) -> list[tuple[Content, ...]]:
 
 
 def write_basis(to: Writer, view: ReportView, *, is_full: bool) -> None:
-    """Statements that hold for all rows: scope, reading, ranges, inputs, notes, assumptions."""
+    """Statements for all rows: scope, reading, ranges, inputs, notes, assumptions."""
     t = to.words
     to.heading(plain(t("heading.basis")))
     to.subheading("heading.scope")
