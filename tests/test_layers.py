@@ -92,7 +92,7 @@ THIRD_PARTY = {
         "evidence.verification.snow_in_space",
     ),
     "openpyxl": ("site.cells.xlsx", "site.template.annotate"),
-    "defusedxml": ("site.cells.xlsx", "site.cells.ods"),
+    "defusedxml": ("site.cells.xlsx", "site.cells.ods", "site.cells.limits"),
     "xlsxwriter": ("site.template.*", "report.workbook.*"),
     "pydantic": (
         *("checks.schema", "files.scene", "files.support_tables", "study.document"),

@@ -1,6 +1,6 @@
 """A drawing in a document: SVG, with a PNG for programs that show none.
 
-The SVG is named by svgBlip, an extension of Word 2016 (namespace below, described in
+The SVG is named by svgBlip, an extension of Word (namespace below, described in
 Microsoft's Open Specification MS-ODRAWXML). Programs without it show the PNG.
 """
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import zipfile
+import zlib
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +18,11 @@ if TYPE_CHECKING:
     from docx.document import Document
 
 _MOST_BYTES = 20 * 2**20
+# What zipfile, the XML parser and python-docx raise on a file that is no document.
+_DAMAGE = (
+    *(ArithmeticError, AttributeError, EOFError, LookupError, OSError, RuntimeError),
+    *(SyntaxError, TypeError, ValueError, zipfile.BadZipFile, zlib.error),
+)
 # Relations of a document that hold without a place in its text.
 _KEPT = (
     *("styles", "stylesWithEffects", "settings", "webSettings", "theme", "fontTable"),
@@ -46,11 +53,12 @@ def read_template(path: Path) -> bytes:
         If it cannot be read, or is no docx.
     """
     require_docx()
+    from docx.opc.exceptions import OpcError
+
     try:
         content = read_bounded(path, _MOST_BYTES)
         open_document(content)
-    # Whatever the library makes of a spoilt file, of which it expects little.
-    except Exception as error:
+    except (*_DAMAGE, OpcError) as error:
         raise OutputError(say("program.no_template", file=str(path))) from error
     return content
 

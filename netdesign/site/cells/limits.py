@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 import zlib
 from collections.abc import Iterable
+from contextlib import suppress
 from io import BytesIO
 
 from netdesign.errors import SiteDataError
@@ -67,6 +68,40 @@ def guard_archive(file: str, content: bytes) -> None:
             marks += marks_here
             if marks > MAX_MARKS:
                 raise _refuse_expansion(file)
+            _forbid_entities(archive, entry)
+
+
+class _AtRootError(Exception):
+    """The first element of a part: nothing can be declared behind it."""
+
+
+def _forbid_entities(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
+    """Refuse a part that declares entities.
+
+    openpyxl reads with lxml where that is installed, and lxml would leave such an
+    entity out of its cell without a word: this does not rest on the parser it takes.
+
+    Raises
+    ------
+    defusedxml.common.EntitiesForbidden
+        As defusedxml does.
+    """
+    from xml.parsers.expat import ExpatError, ParserCreate
+
+    from defusedxml.common import EntitiesForbidden
+
+    def forbid(name: str, _: bool, value: str | None, *place: str | None) -> None:
+        raise EntitiesForbidden(name, value, *place)
+
+    def stop(*_: object) -> None:
+        raise _AtRootError
+
+    parser = ParserCreate()
+    parser.EntityDeclHandler, parser.StartElementHandler = forbid, stop
+    with archive.open(entry) as part, suppress(_AtRootError, ExpatError):
+        # what is no XML at all is told by whoever reads the part
+        while chunk := part.read(_CHUNK):
+            parser.Parse(chunk)
 
 
 def _expand(
