@@ -31,7 +31,7 @@ def build_matrix(study: Study, words: Words) -> Table:
     known = {one.member for row in study.rows for one in row.checks if _is_force(one)}
     members = [one for one in (*CARRYING_MEMBERS, *EndMember) if one in known]
     columns = [show_member(words, one) for one in members]
-    headings = [words("heading.net_row"), *columns, words("heading.requirements")]
+    headings = [words("heading.net_row"), *columns, words("heading.rest")]
     return Table(
         caption=words("caption.matrix"),
         columns=name_columns(headings, numbers=()),
