@@ -42,6 +42,23 @@ def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[s
     return told.split("\n") if told else []
 
 
+_HIDDEN = """<script>
+const gone = [...document.querySelectorAll("section")].filter(
+  (one) => getComputedStyle(one).display === "none").map((one) => one.id);
+document.body.innerHTML = "<pre>" + gone.join("\\n") + "</pre>";
+</script></body>"""
+
+
+def list_hidden(page: str, folder) -> set[str]:
+    """Sections that paper does not show."""
+    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
+    page = page.replace("@media print", "@media all").replace("</body>", _HIDDEN)
+    (told,) = re.findall(
+        "<pre>(.*?)</pre>", _open(page, folder, "--dump-dom"), re.DOTALL
+    )
+    return set(told.split())
+
+
 def _open(page: str, folder, *arguments: str) -> str:
     path = folder / "page.html"
     path.write_text(page, encoding="utf-8")

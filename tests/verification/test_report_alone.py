@@ -19,7 +19,13 @@ from netdesign.site.template.workbook import write_site_workbook
 from netdesign.study.cases import CheckRun, search_site
 from netdesign.study.judge import judge_site
 from netdesign.words.catalogue import LANGUAGES
-from tests.report.printing import PAPER_PX, PHONE_PX, count_pages, list_too_wide
+from tests.report.printing import (
+    PAPER_PX,
+    PHONE_PX,
+    count_pages,
+    list_hidden,
+    list_too_wide,
+)
 from tests.report.reading import PageReader
 from tests.verification.page_again import read_page, work_out, work_out_page
 from tests.verification.untidy_site import PROFILE, write_untidy_site
@@ -159,3 +165,12 @@ def test_on_a_phone_only_tables_are_moved_sideways(twelve, tmp_path, language):
     page = render_html(twelve, language, "summary")
     wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
     assert {one.split()[1] for one in wide} <= {"table", "svg"}
+
+
+def test_paper_leaves_out_only_what_is_meant(twelve, tmp_path):
+    """A fold in another section once took that section with it."""
+    hidden = list_hidden(render_html(twelve), tmp_path)
+    kinds = {re.sub(r"^row-\d+-", "", one) for one in hidden}
+    assert kinds == {"figures", "extremes", "inputs", "formulas"}
+    opened = list_hidden(render_html(twelve, detail="figures"), tmp_path)
+    assert {re.sub(r"^row-\d+-", "", one) for one in opened} == {"extremes", "inputs"}
