@@ -34,6 +34,7 @@ __all__ = [
     "build_layered_snowpack",
     "check_site",
     "load_standard",
+    "read_scene",
     "read_site",
     "solve_rigid",
     "solve_steady",

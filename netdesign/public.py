@@ -17,6 +17,7 @@ from netdesign.coupling.steady.rigid import solve_rigid as solve_rigid
 from netdesign.coupling.steady.solve import solve_steady as solve_steady
 from netdesign.errors import NetDesignError as NetDesignError
 from netdesign.errors import SolveError as SolveError
+from netdesign.files.scene import read_scene as read_scene
 from netdesign.site.reader import read_site as read_site
 from netdesign.snow.ground import GroundLaw as GroundLaw
 from netdesign.snow.ground import (

@@ -6,7 +6,7 @@ import difflib
 import hashlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -139,7 +139,7 @@ class Standard:
 
     ``choice`` names the set of factors taken from ``choices.toml``; "" for none.
     ``floor`` is what no demand lies below: the guideline's load, unless the profile
-    says "none".
+    says "none"; ``is_floor_overruled`` tells that somebody chose the other one.
     """
 
     id: str
@@ -153,6 +153,7 @@ class Standard:
     what_it_is_not: str
     choice: str = ""
     floor: Floor = "guideline"
+    is_floor_overruled: bool = False
     values: tuple[StandardValue, ...]
     tables: tuple[StandardTable, ...] = ()
     sha256: str
@@ -162,6 +163,11 @@ class Standard:
         """All values, those of the tables included."""
         rows = (value for table in self.tables for value in table.values)
         return (*self.values, *rows)
+
+    def overrule_floor(self, floor: Floor) -> Standard:
+        """The profile with that floor, marked where it is not the profile's own."""
+        is_own = floor == self.floor
+        return self if is_own else replace(self, floor=floor, is_floor_overruled=True)
 
     @property
     def assumed(self) -> tuple[StandardValue, ...]:

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.checks import Standard
+    from netdesign.checks.schema import Floor
     from netdesign.report.view.whole import Detail, ReportView
     from netdesign.site.model import Site
     from netdesign.study.records import Study
@@ -60,6 +61,11 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
     show_default=True,
     help="Steady states; transient confirms governing cases by their histories.",
 )
+@click.option(
+    "--floor",
+    type=click.Choice(["guideline", "none"]),
+    help="What no demand lies below [the limit profile's]; told on the first page.",
+)
 @solving_options
 @out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
 @report_options
@@ -75,6 +81,7 @@ def check(
     standards: tuple[str, ...],
     accuracy: float,
     method: Literal["steady", "transient"],
+    floor: Floor | None,
     jobs: int | None,
     executor: str,
     cache: bool,
@@ -118,6 +125,8 @@ def check(
         raise UsageRefusal(say("usage.site_or_example"))
     site = _read_site(site_file, overwrite=force, language=language, **reading)
     profiles = _choose_profiles(standards, site)
+    if floor is not None:
+        profiles = [one.overrule_floor(floor) for one in profiles]
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,

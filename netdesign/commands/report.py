@@ -125,10 +125,10 @@ def _find_profile(
     study: Study, standard: str | None, language: Language
 ) -> Standard | None:
     """Profile of the study, where it is at hand; one that is given has to be it."""
-    from netdesign.checks import load_standard
+    from netdesign.study.record_provenance import load_own_profile
 
     try:
-        profile = load_standard(standard or study.profile.id)
+        profile = load_own_profile(study.profile, standard)
     except NetDesignError as error:
         if standard is not None:
             raise

@@ -9,7 +9,12 @@ from pathlib import Path
 
 import click
 
-from netdesign.commands.options import force_option, out_option, quiet_option
+from netdesign.commands.options import (
+    force_option,
+    json_option,
+    out_option,
+    quiet_option,
+)
 
 _FAIL, _NOT_PROVEN = 1, 4
 
@@ -19,9 +24,12 @@ _FAIL, _NOT_PROVEN = 1, 4
     "structures", required=False, type=click.Path(path_type=Path), metavar="[FILE.toml]"
 )
 @out_option("Folder of the page and its document.", required=True)
+@json_option("validation")
 @force_option
 @quiet_option
-def validate(structures: Path | None, out: Path, *, force: bool, quiet: bool) -> None:
+def validate(
+    structures: Path | None, out: Path, *, as_json: bool, force: bool, quiet: bool
+) -> None:
     """Write one page: verification, settling of snow, measured structures.
 
     With a file, its structures stand first: one whose inputs are all values gets a
@@ -32,11 +40,13 @@ def validate(structures: Path | None, out: Path, *, force: bool, quiet: bool) ->
     \b
     netdesign validate --out validation
     netdesign validate my-net.toml --out validation
+    netdesign validate --out validation --json > validation.json
     """
     import sys
 
     from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_progress
+    from netdesign.edge.streams import print_json
     from netdesign.evidence.validation.gather import (
         count_parts,
         gather,
@@ -44,12 +54,15 @@ def validate(structures: Path | None, out: Path, *, force: bool, quiet: bool) ->
         read_all,
         write_page,
     )
+    from netdesign.evidence.validation.page import write_validation
 
     require_free(list_pages(out), overwrite=force)
     known = read_all(structures)
     with show_progress(count_parts(known), "parts", quiet=quiet) as advance:
         evidence = gather(known, advance)
     write_page(evidence, out, force=force)
+    if as_json:
+        print_json(write_validation(evidence))
     if not quiet:
         click.echo(f"wrote {list_pages(out)[0]}", err=True)
     if not all(case.passes for case in evidence.cases):

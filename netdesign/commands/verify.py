@@ -125,16 +125,16 @@ def _verify_study(
     language: Language,
 ) -> int:
     """Exit code; inputs that are not those of the study are not solved."""
-    from netdesign.checks import load_standard
     from netdesign.study.audit import audit_study
     from netdesign.study.check_site import check_site
     from netdesign.study.document import load_study
+    from netdesign.study.record_provenance import load_own_profile
     from netdesign.study.repeat import build_run, is_of_ties, list_differences
 
     study = load_study(path)
     run = build_run(study, jobs or os.cpu_count() or 1)
     site = read_own_site(study, path, site_file)
-    profile = load_standard(standard or study.profile.id)
+    profile = load_own_profile(study.profile, standard)
     show, made = _Shown(language), study.provenance
     hashes = [
         show.hash(say("verify.site_file"), made.site_sha256, site.sha256),

@@ -7,7 +7,7 @@ import platform
 from dataclasses import replace
 
 from netdesign import __version__
-from netdesign.checks import Standard, StandardValue
+from netdesign.checks import Standard, StandardValue, load_standard
 from netdesign.checks.schema import GLIDE_FACTORS
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
@@ -28,11 +28,26 @@ def record_profile(standard: Standard) -> ProfileRecord:
         version=standard.version,
         choice=standard.choice,
         floor=standard.floor,
+        is_floor_overruled=standard.is_floor_overruled,
         values=[
             *map(_record_value, standard.listed),
             *map(_record_value, _list_floor_values(standard)),
         ],
     )
+
+
+def load_own_profile(record: ProfileRecord, named: str | None = None) -> Standard:
+    """Profile of a study, by its id or another name, with the floor chosen for it.
+
+    Raises
+    ------
+    StandardError
+        If there is no such profile.
+    """
+    profile = load_standard(named or record.id)
+    if not record.is_floor_overruled:
+        return profile
+    return profile.overrule_floor("guideline" if profile.floor == "none" else "none")
 
 
 def _list_floor_values(standard: Standard) -> list[StandardValue]:

@@ -306,6 +306,7 @@ class ProfileRecord:
     version: str = ""
     choice: str = ""  # set of factors in force; "" where the profile has none
     floor: str = "guideline"  # what no demand lies below: or "none"
+    is_floor_overruled: bool = False  # the profile itself takes the other one
 
 
 @dataclass(frozen=True, kw_only=True)

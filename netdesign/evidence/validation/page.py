@@ -74,11 +74,15 @@ def render_validation(evidence: Evidence) -> dict[str, bytes]:
     evidence : Evidence
         As computed.
     """
-    document = json.dumps(write_evidence(evidence), indent=1, allow_nan=False)
     return {
         PAGE_FILE: _render_page(evidence).encode(),
-        DOCUMENT_FILE: document.encode(),
+        DOCUMENT_FILE: write_validation(evidence).encode(),
     }
+
+
+def write_validation(evidence: Evidence) -> str:
+    """Document ``netdesign.validation/1`` as JSON."""
+    return json.dumps(write_evidence(evidence), indent=1, allow_nan=False)
 
 
 def _render_page(evidence: Evidence) -> str:

@@ -446,8 +446,16 @@ def _count_all(study: Study, words: Words) -> tuple[tuple[str, str], ...]:
 
 def _tell_floor(study: Study, words: Words) -> str:
     """Floor of the demands, and how often it governs."""
+    told = _count_by_floor(study, words)
+    if not study.profile.is_floor_overruled:
+        return told
+    return words.join([words("floor.overruled", profile=study.profile.id), told])
+
+
+def _count_by_floor(study: Study, words: Words) -> str:
     if study.profile.floor == "none":
-        return words("floor.none")
+        is_own = not study.profile.is_floor_overruled
+        return words("floor.none" if is_own else "floor.none_chosen")
     actions = [c.action for row in study.rows for c in row.checks if c.action]
     governed = sum(one.governs == "guideline" for one in actions)
     profiles = {row.floor.profile for row in study.rows if row.floor}

@@ -1,0 +1,78 @@
+"""``check --floor``: against the profile, said wherever a verdict is read."""
+
+import json
+import re
+
+import pytest
+
+from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.short_example import write_short_example
+
+QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--no-cache", "--quiet")
+OWN = re.compile(r'^load\.floor = "guideline"', re.M)
+
+
+@pytest.fixture
+def site(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_short_example(tmp_path / "site.xlsx", ["R1"])
+    return tmp_path
+
+
+def read_profile(folder):
+    return json.loads((folder / "study.json").read_text())["profile"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_floor_is_said_and_verified(site, call, language):
+    ended = call("check", "site.xlsx", *QUICK, "--floor", "none", "--out", "a",
+                 "--language", language, "--no-excel")  # fmt: skip
+    assert ended.code in (0, 1, 4), ended.err
+    profile = read_profile(site / "a")
+    assert (profile["floor"], profile["is_floor_overruled"]) == ("none", True)
+    said = load_texts(language)["floor.none_chosen"]
+    assert said in ended.out
+    page = (site / "a" / "report.html").read_text(encoding="utf-8")
+    card = page[page.index('id="verdict"') : page.index('id="identification"')]
+    assert "--floor" in card
+    assert said in card.replace("&#39;", "'")
+    assert call("verify", "--study", "a/study.json", "--site", "site.xlsx").code == 0
+    again = call("report", "a/study.json", "--site", "site.xlsx", "--out", "b")
+    assert (again.code, again.err.count("audit")) == (0, 0)
+
+
+def test_a_study_cannot_say_that_its_floor_was_chosen(site, call):
+    """Nor that it was not: the digest aside, the profile says otherwise."""
+    for options, overruled in ((("--floor", "none"), False), ((), True)):
+        assert call("check", "site.xlsx", *QUICK, *options, "--out", "a", "--no-html",
+                    "--no-excel", "--force").code in (0, 1, 4)  # fmt: skip
+        document = json.loads((site / "a" / "study.json").read_text())
+        document["profile"]["is_floor_overruled"] = overruled
+        (site / "a" / "study.json").write_text(json.dumps(document))
+        refused = call("report", "a/study.json", "--site", "site.xlsx", "--out", "b")
+        assert refused.code != 0
+        assert not (site / "b").exists()
+
+
+def test_the_guideline_may_be_asked_of_a_profile_without_it(site, call):
+    assert call("standards", "copy", "eurocode", "mine").code == 0
+    place = site / "mine" / "document.toml"
+    text = place.read_text(encoding="utf-8")
+    own = OWN.sub('load.floor = "none"', text)
+    assert own != text
+    place.write_text(own, encoding="utf-8")
+    own = call("check", "site.xlsx", *QUICK, "--standard", "mine", "--out", "a",
+               "--floor", "guideline", "--no-excel")  # fmt: skip
+    assert own.code in (0, 1, 4), own.err
+    profile = read_profile(site / "a")
+    assert (profile["floor"], profile["is_floor_overruled"]) == ("guideline", True)
+    assert "swiss-guideline-2007" in own.out
+
+
+def test_the_profile_s_own_floor_is_nothing_to_tell(site, call):
+    ended = call(
+        "check", "site.xlsx", *QUICK, "--floor", "guideline", "--out", "a", "--no-excel"
+    )
+    assert read_profile(site / "a")["is_floor_overruled"] is False
+    assert "Floor of the demands" in ended.out
+    assert "--floor" not in ended.out
