@@ -390,6 +390,7 @@ def _keep_rest(study: Study) -> object:
         "profile": {
             "title": study.profile.title,
             "sha256": study.profile.sha256,
+            "is_floor_overruled": study.profile.is_floor_overruled,
             "values": [replace(one, value=0.0) for one in study.profile.values],
         },
         "rows": {"order": ", ".join(row.id for row in study.rows)},
