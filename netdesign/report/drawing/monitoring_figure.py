@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.report.drawing.charts import Line, Panel, draw_panels
-from netdesign.report.words import ENGLISH, Words, show_member
+from netdesign.report.words import ENGLISH, Words, show_member, show_share
 from netdesign.study.records import MonitoringRecord
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -21,11 +21,28 @@ def draw_monitoring(
     return draw_panels(
         panels,
         place,
-        words("drawing.monitoring"),
+        _describe(panels, words),
         is_log=False,
         panel_in=1.5,
         time_label=words("drawing.days"),
     )
+
+
+def _describe(panels: Sequence[Panel], words: Words) -> str:
+    """Words for what the drawing says, with the range of each line."""
+    values = [
+        words(
+            "show.label",
+            label=words("drawing.of_member", member=panel.title, what=line.label),
+            text=words(
+                "show.band", low=show_share(min(line.y)), high=show_share(max(line.y))
+            ),
+        )
+        for panel in panels
+        for line in panel.lines
+    ]
+    what = words("drawing.monitoring")
+    return words("drawing.with_values", what=what, values=tuple(values))
 
 
 def describe_monitoring(

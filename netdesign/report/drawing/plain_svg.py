@@ -9,12 +9,15 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
+from itertools import pairwise
 
 from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
+from netdesign.report.drawing.letters import measure_words
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _TICK = 2.5  # length of a tick [pt]
+_APART = 3.0  # least space between the numbers of two ticks [pt]
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
 
 
@@ -137,11 +140,12 @@ class Chart:
         """Lines at the left and below, with few round ticks."""
         left, bottom = frame.left, frame.top + frame.height
         path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
-        for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
+        for value in list_loose_ticks(frame) if x_ticks else ():
             x = frame.x(value)
             path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
             self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
-        for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
+        most = max(2, min(5, int(frame.height / (1.4 * TEXT_PT))))
+        for value in list_ticks(frame.y_low, frame.y_high, most) if y_ticks else ():
             y = frame.y(value)
             path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
             self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
@@ -221,6 +225,17 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
     first = math.ceil(low / step - 1e-9)
     last = math.floor(high / step + 1e-9)
     return [round(k * step, 12) for k in range(first, last + 1)]
+
+
+def list_loose_ticks(frame: Frame) -> list[float]:
+    """Round numbers along the page, as many as stand apart; the first at least."""
+    for most in (5, 4, 3, 2):
+        ticks = list_ticks(frame.x_low, frame.x_high, most)
+        wide = max((measure_words(f"{one:g}", TEXT_PT) for one in ticks), default=0.0)
+        gaps = [frame.x(b) - frame.x(a) for a, b in pairwise(ticks)]
+        if not gaps or min(gaps) > wide + _APART:
+            return ticks
+    return ticks[:1]
 
 
 def shade(value: float, low: float, high: float) -> str:
