@@ -14,10 +14,7 @@ from netdesign.report.words import (
     ENGLISH,
     Words,
     name_heading,
-    show_given,
     show_member,
-    show_number,
-    show_with_unit,
 )
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.records import RowStudy
@@ -51,7 +48,7 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
         [case.friction_deg for case in governing],
         _MOST_LINES,
     )
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     _draw_legend(sketch, frictions, words, has_failed=_has_failed(row.cases))
     for place, member in enumerate(members):
         top = _LEGEND + place * (_HEAD + _PANEL) + _HEAD
@@ -60,7 +57,7 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
             panel = _Panel(sketch, frame, row, member, words)
             panel.draw(inclination, frictions, is_first=column == 0)
             if place == 0:
-                text = f"θ = {show_given(inclination)}°"
+                text = f"θ = {words.show_given(inclination)}°"
                 sketch.words((frame.left + frame.width, top - 5), text, anchor="end")
             if place == len(members) - 1:
                 panel.label_densities()
@@ -69,7 +66,7 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
         words(
             "show.force_of",
             member=show_member(words, extreme.quantity),
-            force=show_with_unit("max_kN", extreme.max_kN),
+            force=words.show_with_unit("max_kN", extreme.max_kN),
         )
         for extreme in row.extremes
     ]
@@ -156,7 +153,7 @@ class _Panel:
             self._sketch.line([(frame.left, y), (right, y)], stroke=PALE, width=0.4)
             if is_first:
                 at = (frame.left - 3.0, y + TEXT_PT / 3)
-                self._sketch.words(at, f"{value:g}", anchor="end")
+                self._sketch.words(at, self._sketch.write_tick(value), anchor="end")
         bottom = frame.top + frame.height
         self._sketch.line(
             [(frame.left, bottom), (right, bottom)], stroke=GREY, width=0.5
@@ -170,7 +167,7 @@ class _Panel:
         frame, base = self._frame, self._frame.top + self._frame.height
         for value in list_ticks(frame.x_low, frame.x_high, 5):
             at = (frame.x(value), base + 2.0 + TEXT_PT)
-            self._sketch.words(at, f"{value:g}", anchor="middle")
+            self._sketch.words(at, self._sketch.write_tick(value), anchor="middle")
         text = name_heading(self._words, "density_kg_m3")
         middle = (frame.left + frame.width / 2, base + 5.0 + 2.2 * TEXT_PT)
         self._sketch.words(middle, text, anchor="middle")
@@ -210,7 +207,7 @@ class _Panel:
         is_left = x < frame.left + frame.width / 2
         at = (x + 6.0 if is_left else x - 6.0, y - 3.5)
         anchor = "start" if is_left else "end"
-        text = show_number("max_kN", extreme.max_kN)
+        text = self._words.show_number("max_kN", extreme.max_kN)
         self._sketch.words(at, text, anchor=anchor, fill=ACCENT)
 
 
@@ -238,7 +235,7 @@ def _draw_legend(
     for friction, (shade, dash, marker) in zip(frictions, _LINES, strict=False):
         sketch.line([(left, y), (left + 20.0, y)], stroke=shade, dash=dash)
         draw_marker(sketch, (left + 10.0, y), marker, shade)
-        left = _write_key(sketch, left + 24.0, y, f"φ = {show_given(friction)}°")
+        left = _write_key(sketch, left + 24.0, y, f"φ = {words.show_given(friction)}°")
     sketch.ring(left + 4.0, y, ACCENT)
     left = _write_key(sketch, left + 12.0, y, words("drawing.governing_case"))
     if has_failed:

@@ -24,10 +24,6 @@ from netdesign.report.words import (
     ENGLISH,
     Words,
     name_heading,
-    show_band,
-    show_given,
-    show_number,
-    show_with_unit,
 )
 from netdesign.study.envelope_records import (
     BoundRecord,
@@ -59,7 +55,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.maps]
     if not bounds:
         return ""
-    chart = Chart()
+    chart = Chart(language=words.language)
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
@@ -77,7 +73,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         pairs = list(zip(frames, bound.maps, strict=True))
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
-            _name_map(chart, frame, one)
+            _name_map(chart, frame, one, words)
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
@@ -96,7 +92,7 @@ def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
         return ""
-    chart, top = Chart(), 0.0
+    chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         for start in range(0, len(bound.lines), _ACROSS):
@@ -138,7 +134,7 @@ def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.drivers]
     if not bounds:
         return ""
-    chart, top = Chart(), 0.0
+    chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         top += 14.0
@@ -169,12 +165,12 @@ def _list_cells(
     return cells
 
 
-def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     """Axes of a map and their symbols, too short to meet."""
     chart.text(
         frame.left + frame.width,
         frame.top - 5.5,
-        f"θ = {show_given(round(one.inclination_deg, 3))}°",
+        f"θ = {words.show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
     chart.text(frame.left, frame.top - 5.5, "φ [°]")
@@ -196,7 +192,7 @@ def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
             1.0 - ((value - low) / (high - low) if high > low else 0.5)
         )
         places.append((left + wide, y))
-        chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
+        chart.text(left + wide + 4.0, y + TEXT_PT / 3, chart.write_tick(value))
     chart.ticks(places)
 
 
@@ -330,18 +326,18 @@ def _show_forces(
     """Least and largest of the drawn forces, and where the largest of all is."""
     low, high = bounds_of(forces)
     at = ", ".join(
-        f"{QUANTITIES[key].symbol} {show_with_unit(key, value)}"
+        f"{QUANTITIES[key].symbol} {words.show_with_unit(key, value)}"
         for key, value in bound.case.items()
     )
     return words(
         "drawing.forces_in_words",
         member=_name(bound, record, words),
-        forces=show_band(words, "max_kN", low, high),
-        largest=show_number("max_kN", bound.max_kN),
+        forces=words.show_band("max_kN", low, high),
+        largest=words.show_number("max_kN", bound.max_kN),
         case=at,
     )
 
 
 def _show_driver(one: DriverRecord, words: Words) -> str:
-    forces = show_band(words, "max_kN", one.least_kN, one.most_kN)
+    forces = words.show_band("max_kN", one.least_kN, one.most_kN)
     return words("show.label", label=name_heading(words, one.key), text=forces)

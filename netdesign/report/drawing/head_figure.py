@@ -10,7 +10,7 @@ from netdesign.report.drawing.figures import ACCENT, INK
 from netdesign.report.drawing.label_board import LabelBoard, write_label
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.structure.members import Member
 from netdesign.study.support_records import HeadForce
 
@@ -27,7 +27,7 @@ def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
         sum(x for x, _ in corners[:count]) / count,
         sum(y for _, y in corners[:count]) / count,
     )
-    sketch, values = Sketch(), []
+    sketch, values = Sketch(language=words.language), []
     board = LabelBoard(width=_WIDTH, height=height)
     for start, end in pairwise(corners):
         board.avoid([start, end])
@@ -35,7 +35,7 @@ def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
         colour = ACCENT if force.member == Member.NET else INK
         sketch.arrow(start, end, stroke=colour, width=1.2)
         at, outward = _point_outward(start, end, middle)
-        size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
+        size = words.show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
         member = show_member(words, force.member)
         text = words("show.force_of", member=member, force=size)
         values.append(text)

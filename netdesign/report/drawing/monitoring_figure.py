@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from netdesign.report.drawing.charts import Line, Panel, draw_panels
-from netdesign.report.words import ENGLISH, Words, show_member, show_share
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
 from netdesign.words.message import Message
 from netdesign.words.names import name
@@ -25,6 +25,7 @@ def draw_monitoring(
         is_log=False,
         panel_in=1.5,
         time_label=words("drawing.days"),
+        language=words.language,
     )
 
 
@@ -35,7 +36,9 @@ def _describe(panels: Sequence[Panel], words: Words) -> str:
             "show.label",
             label=words("drawing.of_member", member=panel.title, what=line.label),
             text=words(
-                "show.band", low=show_share(min(line.y)), high=show_share(max(line.y))
+                "show.band",
+                low=words.show_share(min(line.y)),
+                high=words.show_share(max(line.y)),
             ),
         )
         for panel in panels

@@ -21,7 +21,7 @@ from netdesign.report.drawing.figures import (
     use_style,
     write_svg,
 )
-from netdesign.report.words import ENGLISH, Words, show_share
+from netdesign.report.words import ENGLISH, Words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,7 +56,7 @@ def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
         )
         what = words("net_drawing.forces")
         title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title)
+        return write_svg(figure, name, title, language=words.language)
 
 
 def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
@@ -104,7 +104,7 @@ def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
         what = words("net_drawing.stick_slip")
         values = (_show_range("net_drawing.over_limit", used, words),)
         title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title)
+        return write_svg(figure, name, title, language=words.language)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -150,12 +150,15 @@ def draw_meshes(
         what = words("net_drawing.mesh")
         values = (_show_range("net_drawing.density", np.array([low, high]), words),)
         title = words("drawing.with_values", what=what, values=values)
-        return write_svg(figure, name, title)
+        return write_svg(figure, name, title, language=words.language)
 
 
 def _show_range(key: str, values: Floats, words: Words) -> str:
     """Least and largest of some values under their name."""
-    low, high = show_share(float(values.min())), show_share(float(values.max()))
+    low, high = (
+        words.show_share(float(values.min())),
+        words.show_share(float(values.max())),
+    )
     text = words("show.band", low=low, high=high)
     return words("show.label", label=words(key), text=text)
 

@@ -21,7 +21,7 @@ from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.panel_tables import name_rope
-from netdesign.report.words import ENGLISH, Words, show_with_unit
+from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord
 
 SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
@@ -55,7 +55,7 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     drawn = panel.drawing
     if drawn is None or not _is_whole(drawn):
         return ""
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     views = [_place_view(drawn, part, place) for place, part in enumerate((1, 0))]
     bottoms = [bottom for _, bottom in views]
     height = max(*bottoms, _TOP + _CHART + 5 * LINE_PT)
@@ -66,7 +66,7 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
         if is_named:
             _name_supports(sketch, board, bottom, words)
         _draw_view(sketch, view, drawn)
-        _draw_forces(sketch, board, view, drawn)
+        _draw_forces(sketch, board, view, drawn, words)
     _draw_tensions(sketch, panel, drawn, words)
     return sketch.write(height, _describe(panel, drawn, words))
 
@@ -97,7 +97,7 @@ def _describe(panel: PanelRecord, drawn: PanelDrawing, words: Words) -> str:
         words(
             "show.force_of",
             member=name_rope(rope, words),
-            force=show_with_unit("size_kN", max(tensions[rope.rope])),
+            force=words.show_with_unit("size_kN", max(tensions[rope.rope])),
         )
         for rope in panel.ropes
         if rope.rope in tensions
@@ -165,7 +165,7 @@ def _draw_view(sketch: Sketch, view: _View, drawn: PanelDrawing) -> None:
 
 
 def _draw_forces(
-    sketch: Sketch, board: LabelBoard, view: _View, drawn: PanelDrawing
+    sketch: Sketch, board: LabelBoard, view: _View, drawn: PanelDrawing, words: Words
 ) -> None:
     """Half a bay and the ropes' pull on the last support, a bay on the inner one."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
@@ -184,7 +184,7 @@ def _draw_forces(
             sketch.arrow(start, tip)
             board.avoid([start, tip])
             size = math.hypot(along * rope, share * math.hypot(*force))
-            name = show_with_unit("size_kN", size)
+            name = words.show_with_unit("size_kN", size)
             side = (-1.0 if place == 0.0 else 1.0, 0.0)
             labels.append(write_label(name, start, side, ACCENT))
     for label in labels:

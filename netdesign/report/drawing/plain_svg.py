@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
 from netdesign.report.drawing.letters import measure_words
+from netdesign.words.numerals import Language, set_marks
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
@@ -57,6 +58,7 @@ class Chart:
 
     shapes: list[str] = field(default_factory=list)
     labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
+    language: Language = "en"  # of its numbers
 
     def rectangle(
         self, left: float, top: float, width: float, height: float, fill: str
@@ -136,6 +138,10 @@ class Chart:
             f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
         )
 
+    def write_tick(self, value: float) -> str:
+        """Round number beside an axis or a dimension, with the language's mark."""
+        return set_marks(f"{value:g}", self.language)
+
     def axes(self, frame: Frame, *, y_ticks: bool = True, x_ticks: bool = True) -> None:
         """Lines at the left and below, with few round ticks."""
         left, bottom = frame.left, frame.top + frame.height
@@ -143,12 +149,22 @@ class Chart:
         for value in list_loose_ticks(frame) if x_ticks else ():
             x = frame.x(value)
             path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
-            self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
+            self.text(
+                x,
+                bottom + _TICK + TEXT_PT + 1.5,
+                self.write_tick(value),
+                anchor="middle",
+            )
         most = max(2, min(5, int(frame.height / (1.4 * TEXT_PT))))
         for value in list_ticks(frame.y_low, frame.y_high, most) if y_ticks else ():
             y = frame.y(value)
             path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
-            self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+            self.text(
+                left - _TICK - 3.5,
+                y + TEXT_PT / 3,
+                self.write_tick(value),
+                anchor="end",
+            )
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )

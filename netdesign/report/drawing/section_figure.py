@@ -32,7 +32,7 @@ from netdesign.report.drawing.section_pressure import (
     list_pressures,
 )
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
@@ -50,7 +50,7 @@ def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     has_pressure = len(list_pressures(drawing)) > 1
     paper = fit_paper(frame, CHART_BOTTOM if has_pressure else LEGEND_BOTTOM)
     board = LabelBoard(width=WIDTH, height=paper.height)
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     _draw_snow(sketch, paper, f"{name}-snow")
     _draw_ground(sketch, paper)
     draw_legend(sketch, words, board)
@@ -74,7 +74,7 @@ def _describe(paper: Paper, words: Words) -> str:
     for arrow in drawing.arrows:
         size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
         member = show_member(words, arrow.member)
-        force = show_with_unit("max_kN", size)
+        force = words.show_with_unit("max_kN", size)
         values.append(words("show.force_of", member=member, force=force))
     values += describe_pressure(drawing, words)
     what = words("drawing.section")
@@ -162,7 +162,7 @@ def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow, words: Words) -> Lab
     start = (arrow.x_m, arrow.y_m)
     named = (
         (show_member(words, arrow.member), INK),
-        (show_with_unit("max_kN", size), ACCENT),
+        (words.show_with_unit("max_kN", size), ACCENT),
     )
     if size <= _SLACK * largest:
         return _draw_anchor(sketch, paper, start, _aim(frame, start), named)

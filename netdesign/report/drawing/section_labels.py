@@ -29,7 +29,7 @@ def draw_scale_bar(sketch: Sketch, paper: Paper, board: LabelBoard) -> None:
     right = left + length * paper.scale
     sketch.line([(left, bottom), (right, bottom)], width=1.6)
     middle = ((left + right) / 2, bottom - 4.5)
-    sketch.words(middle, f"{length:g} m", anchor="middle")
+    sketch.words(middle, f"{sketch.write_tick(length)} m", anchor="middle")
     board.reserve(Box(left, bottom - 2 * TEXT_PT, right, bottom))
 
 

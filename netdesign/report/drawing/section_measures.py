@@ -9,7 +9,7 @@ from netdesign.report.drawing.figures import GREY
 from netdesign.report.drawing.label_board import Label, LabelBoard, write_label
 from netdesign.report.drawing.section_frame import Paper, Point
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import Words, show_with_unit
+from netdesign.report.words import Words
 
 # All in heights of the head.
 _CHAIN = 0.21  # depth of the distances below the ground
@@ -27,18 +27,18 @@ def draw_measures(
     """Draw the lines of all measures; their labels, the most confined first."""
     return [
         *_draw_tilts(sketch, paper, words),
-        *_draw_distances(sketch, paper, board),
-        *_draw_heights(sketch, paper, board),
-        _draw_slope(sketch, paper),
+        *_draw_distances(sketch, paper, words, board),
+        *_draw_heights(sketch, paper, words, board),
+        _draw_slope(sketch, paper, words),
     ]
 
 
-def show_heights(paper: Paper) -> tuple[str, str]:
+def show_heights(paper: Paper, words: Words) -> tuple[str, str]:
     """Height of the net and thickness of the snow, across the slope."""
     drawing = paper.frame.drawing
     return (
-        f"Dk = {show_with_unit('snow_thickness_m', drawing.head_m[1])}",
-        f"d = {show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}",
+        f"Dk = {words.show_with_unit('snow_thickness_m', drawing.head_m[1])}",
+        f"d = {words.show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}",
     )
 
 
@@ -57,10 +57,12 @@ def list_distances(paper: Paper) -> list[tuple[float, float]]:
     return [pair for pair in pairwise(places) if pair[1] - pair[0] > _LEAST_LENGTH]
 
 
-def _draw_heights(sketch: Sketch, paper: Paper, board: LabelBoard) -> list[Label]:
+def _draw_heights(
+    sketch: Sketch, paper: Paper, words: Words, board: LabelBoard
+) -> list[Label]:
     """Thickness of the snow at its cut end, the height of the net outside of it."""
     frame, drawing = paper.frame, paper.frame.drawing
-    net, snow = show_heights(paper)
+    net, snow = show_heights(paper, words)
     heights = [(drawing.snow_thickness_m, snow), (drawing.head_m[1], net)]
     if abs(heights[0][0] - heights[1][0]) < _SAME:
         heights = [(drawing.head_m[1], net.replace(" ", " = d ", 1))]
@@ -77,7 +79,9 @@ def _draw_heights(sketch: Sketch, paper: Paper, board: LabelBoard) -> list[Label
     return labels
 
 
-def _draw_distances(sketch: Sketch, paper: Paper, board: LabelBoard) -> list[Label]:
+def _draw_distances(
+    sketch: Sketch, paper: Paper, words: Words, board: LabelBoard
+) -> list[Label]:
     """Chain of distances along the slope, below the ground."""
     y = -_CHAIN * paper.frame.unit
     below = _turn_down(paper)
@@ -86,7 +90,7 @@ def _draw_distances(sketch: Sketch, paper: Paper, board: LabelBoard) -> list[Lab
         _draw_span(sketch, paper, (left, y), (right, y))
         board.avoid(paper.all_at([(left, y), (right, y)]))
         at = paper.at(((left + right) / 2, y))
-        text = show_with_unit("snow_thickness_m", right - left)
+        text = words.show_with_unit("snow_thickness_m", right - left)
         labels.append(write_label(text, at, below))
     return labels
 
@@ -113,10 +117,10 @@ def _draw_tilts(sketch: Sketch, paper: Paper, words: Words) -> list[Label]:
     drawing = paper.frame.drawing
     net = math.atan2(*drawing.head_m)
     post = math.radians(find_post_tilt(paper))
-    shown = show_with_unit("inclination_deg", drawing.case.inclination_deg)
+    shown = words.show_with_unit("inclination_deg", drawing.case.inclination_deg)
     labels = [_draw_angle(sketch, paper, (0.0, net), _ARC_NET, f"θ = {shown}")]
     if abs(post) > 1e-3:
-        angle = show_with_unit("slope_deg", math.degrees(post))
+        angle = words.show_with_unit("slope_deg", math.degrees(post))
         text = words("drawing.post_angle", angle=angle)
         base = (drawing.post_base_m[0], post)
         labels.append(_draw_angle(sketch, paper, base, _ARC_POST, text))
@@ -139,7 +143,7 @@ def _draw_angle(
     return write_label(text, at, (-up[0] - 0.6, -up[1]))
 
 
-def _draw_slope(sketch: Sketch, paper: Paper) -> Label:
+def _draw_slope(sketch: Sketch, paper: Paper, words: Words) -> Label:
     """Angle of the slope at its low end."""
     frame = paper.frame
     x, y = paper.at((frame.low_end - 0.36 * frame.unit, 0.0))
@@ -150,22 +154,22 @@ def _draw_slope(sketch: Sketch, paper: Paper) -> Label:
     sketch.line(arc, stroke=GREY, width=0.5)
     half = frame.slope / 2
     at = (x + radius * math.cos(half), y + radius * math.sin(half))
-    text = f"ψ = {show_with_unit('slope_deg', frame.drawing.slope_deg)}"
+    text = f"ψ = {words.show_with_unit('slope_deg', frame.drawing.slope_deg)}"
     return write_label(text, at, (1.0, 0.0))
 
 
 def describe_measures(paper: Paper, words: Words) -> list[str]:
     """All measures in words, for those who cannot see them."""
     drawing = paper.frame.drawing
-    angle = show_with_unit("slope_deg", find_post_tilt(paper))
-    inclination = show_with_unit("inclination_deg", drawing.case.inclination_deg)
+    angle = words.show_with_unit("slope_deg", find_post_tilt(paper))
+    inclination = words.show_with_unit("inclination_deg", drawing.case.inclination_deg)
     lengths = [
-        show_with_unit("snow_thickness_m", right - left)
+        words.show_with_unit("snow_thickness_m", right - left)
         for left, right in list_distances(paper)
     ]
     return [
-        f"ψ = {show_with_unit('slope_deg', drawing.slope_deg)}",
-        *show_heights(paper),
+        f"ψ = {words.show_with_unit('slope_deg', drawing.slope_deg)}",
+        *show_heights(paper, words),
         f"θ = {inclination}",
         words("drawing.post_angle", angle=angle),
         words("drawing.distances", lengths=tuple(lengths)),

@@ -7,7 +7,7 @@ from netdesign.report.drawing.label_board import Box, LabelBoard
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.section_labels import LEGEND_BOTTOM
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.words import Words, show_share
+from netdesign.report.words import Words
 from netdesign.study.support_records import Drawing
 
 CHART_WIDTH = 150.0  # of all that stands right of the section [pt]
@@ -58,6 +58,6 @@ def describe_pressure(drawing: Drawing, words: Words) -> list[str]:
     known = [pressure for pressure, _ in list_pressures(drawing)]
     if len(known) < 2:
         return []
-    low, high = show_share(min(known)), show_share(max(known))
+    low, high = words.show_share(min(known)), words.show_share(max(known))
     band = words("show.band", low=low, high=high)
     return [words("show.label", label=words("drawing.pressure"), text=band)]

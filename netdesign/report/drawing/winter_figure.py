@@ -11,7 +11,8 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.label_board import LINE_PT
 from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
-from netdesign.report.words import Words, show_member, show_number
+from netdesign.report.words import Words, show_member
+from netdesign.words.numerals import set_marks
 
 _LEFT, _RIGHT = 36.0, 158.0  # beside the panels [pt]
 # Above the first panel, whose days are named on two lines over its title; between two.
@@ -49,7 +50,7 @@ def draw_winter(
     if not days:
         return ""
     first, last = _find_span(days)
-    chart, top = Chart(), _HEAD
+    chart, top = Chart(language=words.language), _HEAD
     pulls = [
         (words("winter_column.foot"), _pick(days, first, "foot_kN_per_m")),
         (words("winter_column.head"), _pick(days, first, "head_kN_per_m")),
@@ -88,7 +89,7 @@ def _describe(
         words(
             "show.force_of",
             member=name,
-            force=show_number("max_kN", max(value for _, value in points)),
+            force=words.show_number("max_kN", max(value for _, value in points)),
         )
         for name, points in lines
         if points
@@ -190,10 +191,11 @@ class _Panel:
             y = max(frame.y(value), low + _LABEL_GAP)
             low = y
             x = frame.left + frame.width + 4.0
+            shown = set_marks(f"{value:.1f}", self._chart.language)
             self._chart.line(
                 ((x, y - 2.5), (x + 9.0, y - 2.5)), stroke=stroke, width=1.4
             )
-            self._chart.text(x + 12.0, y, f"{value:.1f} {name}")
+            self._chart.text(x + 12.0, y, f"{shown} {name}")
 
     def _draw_scale(self, frame: Frame) -> None:
         """Greys of some densities at the right."""
