@@ -6,7 +6,7 @@ import subprocess
 from tests.programs import require_program
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-PAPER_PX = 680  # width of the print area at 96 dots per inch: 210 mm less both margins
+PAPER_PX = 695  # width of the print area at 96 dots per inch: 210 mm less both margins
 PHONE_PX = 400
 _QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage")
 # What lies further right than the page, each with the section that it stands in; what
