@@ -5,6 +5,7 @@ import json
 import pytest
 
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.numerals import set_marks
 from tests.short_example import write_short_example
 
 HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
@@ -73,7 +74,8 @@ def test_page_shows_the_document_in_each_language(
     document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
     (winter,) = document["rows"][0]["winters"]
     assert f'lang="{language}"' in page
-    assert f">{winter['foot_peak_kN_per_m']:.1f}<" in page
+    peak = set_marks(f"{winter['foot_peak_kN_per_m']:.1f}", language)
+    assert f">{peak}<" in page
     assert page.count("<svg") == 1
     assert winter["why"].split(":")[0] in page
     assert "<script" not in page
