@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
 
-MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
+MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # the first is the default
 _FOLDER = "winter"
 _PHASE = 150  # solves of a row and winter, about; a table has 63
 EXAMPLE_HEIGHTS = "winter_2000.csv"

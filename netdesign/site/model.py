@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from typing import get_args
 
 from netdesign.checks import Declaration
@@ -328,6 +329,8 @@ class MonitoringSeries:
         [K]; None where a line has none.
     source : str
         First cell.
+    start : datetime or None
+        Of the first reading; None where times are given without a date.
     """
 
     row_id: str
@@ -336,6 +339,7 @@ class MonitoringSeries:
     tensions: tuple[float | None, ...]
     air_temperatures: tuple[float | None, ...]
     source: str
+    start: datetime | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

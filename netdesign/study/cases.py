@@ -195,6 +195,7 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panel=row.panel.panel if row.panel else None,
+        has_end=row.row_end is not None,
     )
 
 

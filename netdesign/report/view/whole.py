@@ -51,11 +51,9 @@ from netdesign.report.view.table import Table
 from netdesign.report.words import (
     VerdictWords,
     Words,
-    name_case,
     name_heading,
     show_check,
     show_member,
-    show_quantity,
     show_text,
     show_verdict,
 )
@@ -294,7 +292,7 @@ def _view_row(
         main_lines=choose_lines(lines),
         requirements=list_requirements(row.checks, words),
         worked=work_out(shown, words) if shown else None,
-        drawn_case=name_case(row.drawing.case if row.drawing else None),
+        drawn_case=words.name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row, words),
         extremes=tables.build_extremes(row, words),
         searched=envelope_tables.describe_search(row, words),
@@ -499,7 +497,7 @@ def _fold_keys(values: Sequence[tuple[str, str]]) -> list[str]:
 def _list_assumed(study: Study, words: Words) -> str:
     """Values of the profile and axes of anchors that nobody has confirmed."""
     assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
-    names = _fold_keys([(v.id, show_quantity(v.value, v.unit)) for v in assumed])
+    names = _fold_keys([(v.id, words.show_quantity(v.value, v.unit)) for v in assumed])
     axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
     kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
     for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):
