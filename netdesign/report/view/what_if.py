@@ -11,7 +11,6 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     show_member,
-    show_number,
     show_text,
     show_verdict,
 )
@@ -86,7 +85,7 @@ def _tell_sized(one: SizedCell, words: Words) -> str:
         return words(
             "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
         )
-    used = show_number("utilisation", one.used)
+    used = words.show_number("utilisation", one.used)
     return words(
         "what_if.type",
         **place,
