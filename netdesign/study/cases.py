@@ -199,6 +199,13 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
     )
 
 
+def have_same_forces(
+    row: NetRow, ranges: Ranges, other: NetRow, others: Ranges, run: CheckRun
+) -> bool:
+    """Two rows over their ranges are solved alike, whatever bears their forces."""
+    return _build_search(row, ranges, run) == _build_search(other, others, run)
+
+
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
     """Scenes of a row without what decides no force, and is no part of a name."""
     bare = replace(
@@ -206,6 +213,8 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         inputs=(),
         resistances=(),
         end_resistances=None,
+        anchors=(),
+        end_anchors=None,
         panel=None,
         row_end=None,
         panel_lack=None,
