@@ -240,27 +240,41 @@ def _solve(
     from netdesign.coupling.scene import SolverSettings
     from netdesign.files.winter import WinterRun
     from netdesign.snowpack.follow import MODELS as KNOWN
+    from netdesign.study.measured_pulls import (
+        compare_row,
+        list_measured_pulls,
+        name_measured_winters,
+    )
     from netdesign.study.winter_row import build_winter_row, require_plausible_heights
     from netdesign.winter.day import DaySolver
     from netdesign.winter.row_winters import follow_station, follow_winters
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
+    pulls = [list_measured_pulls(site, row.id) for row in rows]
     if is_checked:
         require_plausible_heights(rows, site.rows, station)
     models = [KNOWN[model], *(one for name, one in KNOWN.items() if name != model)]
     packs = follow_station(station.series, models)
     settings = SolverSettings(accuracy=accuracy)
+    results = [
+        follow_winters(
+            packs,
+            DaySolver(row=row, settings=settings, runner=runner),
+            every,
+            name_measured_winters(measured),
+        )
+        for row, measured in zip(rows, pulls, strict=True)
+    ]
     return WinterRun(
         site=site,
         winter=station,
         rows=rows,
-        results=[
-            follow_winters(
-                packs, DaySolver(row=row, settings=settings, runner=runner), every
-            )
-            for row in rows
-        ],
+        results=results,
         packs=packs,
+        compared=[
+            compare_row(measured, result, row, station.series)
+            for measured, result, row in zip(pulls, results, rows, strict=True)
+        ],
         is_smoothed=is_smoothed,
         accuracy=accuracy,
         step=every,
