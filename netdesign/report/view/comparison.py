@@ -15,8 +15,6 @@ from netdesign.report.words import (
     Words,
     show_check,
     show_member,
-    show_number,
-    show_quantity,
     show_text,
     show_verdict,
 )
@@ -146,7 +144,7 @@ def _show_checks(checks: Sequence[CheckRecord], words: Words) -> Cell:
     governing = find_governing(checks)
     if governing is None:
         return text_cell(words("compare.not_checked"))
-    used = show_number("utilisation", governing.utilisation)
+    used = words.show_number("utilisation", governing.utilisation)
     parts = [f"{VERDICTS[governing.verdict].symbol} {used}"]
     if used == MISSING:
         parts = [show_verdict(governing.verdict, words).word]
@@ -180,7 +178,10 @@ def _find_verdict(checks: Sequence[CheckRecord]) -> str | None:
 def _build_values(studies: Sequence[Study], words: Words) -> Table:
     """Values of the profiles by their names, where they are not all alike."""
     by_profile = [
-        {one.id: show_quantity(one.value, one.unit) for one in study.profile.values}
+        {
+            one.id: words.show_quantity(one.value, one.unit)
+            for one in study.profile.values
+        }
         for study in studies
     ]
     names = dict.fromkeys(name for values in by_profile for name in values)

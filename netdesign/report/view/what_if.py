@@ -11,7 +11,6 @@ from netdesign.report.words import (
     VerdictWords,
     Words,
     show_member,
-    show_number,
     show_text,
     show_verdict,
 )
@@ -27,7 +26,9 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
     return replace(
         plain,
         word=words("what_if.verdict", verdict=plain.word),
-        meaning=words("what_if.meaning", meaning=plain.meaning, cells=_list(study)),
+        meaning=words(
+            "what_if.meaning", meaning=plain.meaning, cells=_list(study, words)
+        ),
     )
 
 
@@ -44,9 +45,10 @@ def mark_title(study: Study, title: str, words: Words) -> str:
     return " · ".join(one for one in (words("what_if.mark"), title) if one)
 
 
-def _list(study: Study) -> str:
-    told = (_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if)
-    return "; ".join(told)
+def _list(study: Study, words: Words) -> str:
+    return words.join(
+        _tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if
+    )
 
 
 def _tell_cell(cell: str, was: str, now: str) -> str:
@@ -86,7 +88,7 @@ def _tell_sized(one: SizedCell, words: Words) -> str:
         return words(
             "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
         )
-    used = show_number("utilisation", one.used)
+    used = words.show_number("utilisation", one.used)
     return words(
         "what_if.type",
         **place,
