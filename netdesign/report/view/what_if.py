@@ -27,7 +27,7 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
         plain,
         word=words("what_if.verdict", verdict=plain.word),
         meaning=words(
-            "what_if.meaning", meaning=plain.meaning, cells=_list(study, words)
+            "what_if.meaning", meaning=plain.meaning, cells=words.join(_list(study))
         ),
     )
 
@@ -45,10 +45,8 @@ def mark_title(study: Study, title: str, words: Words) -> str:
     return " · ".join(one for one in (words("what_if.mark"), title) if one)
 
 
-def _list(study: Study, words: Words) -> str:
-    return words.join(
-        _tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if
-    )
+def _list(study: Study) -> list[str]:
+    return [_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if]
 
 
 def _tell_cell(cell: str, was: str, now: str) -> str:
