@@ -379,6 +379,7 @@ def _list_settings(study: Study) -> Named:
     return {
         say("diff.version"): provenance.version,
         say("diff.site_file"): provenance.site_file,
+        **{say("diff.what_if", cell=one.cell): one.now for one in study.what_if},
         **{name("setting", key): value for key, value in settings},
         **{as_given(key): value for key, value in provenance.libraries.items()},
     }

@@ -104,7 +104,7 @@ def _list_invariants() -> list[VerificationCase]:
     scene = build_row_scene(ground)
     one = _solve(scene, ())
     split = _solve(scene, (Layer(thickness=0.9, density=320.0),) * 2)
-    fluid = _solve(replace(scene, fluidity=10.0 * scene.fluidity), ())
+    fluid = _solve(replace(scene, fluidity=10.0 * scene.creep_fluidity), ())
     pairs = (
         ("winter-equal-layers", "two equal layers are one, on sliding ground", split),
         ("winter-fluidity", "snow ten times as fluid pulls the same", fluid),

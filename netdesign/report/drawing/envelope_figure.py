@@ -57,7 +57,7 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
             panel = _Panel(sketch, frame, row, member, words)
             panel.draw(inclination, frictions, is_first=column == 0)
             if place == 0:
-                text = f"θ = {words.show_given(inclination)}°"
+                text = f"θ = {words.show_with_unit('inclination_deg', inclination)}"
                 sketch.words((frame.left + frame.width, top - 5), text, anchor="end")
             if place == len(members) - 1:
                 panel.label_densities()
@@ -235,7 +235,8 @@ def _draw_legend(
     for friction, (shade, dash, marker) in zip(frictions, _LINES, strict=False):
         sketch.line([(left, y), (left + 20.0, y)], stroke=shade, dash=dash)
         draw_marker(sketch, (left + 10.0, y), marker, shade)
-        left = _write_key(sketch, left + 24.0, y, f"φ = {words.show_given(friction)}°")
+        text = f"φ = {words.show_with_unit('friction_deg', friction)}"
+        left = _write_key(sketch, left + 24.0, y, text)
     sketch.ring(left + 4.0, y, ACCENT)
     left = _write_key(sketch, left + 12.0, y, words("drawing.governing_case"))
     if has_failed:

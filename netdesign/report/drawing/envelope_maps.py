@@ -170,7 +170,7 @@ def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     chart.text(
         frame.left + frame.width,
         frame.top - 5.5,
-        f"θ = {words.show_given(round(one.inclination_deg, 3))}°",
+        f"θ = {words.show_with_unit('inclination_deg', one.inclination_deg)}",
         anchor="end",
     )
     chart.text(frame.left, frame.top - 5.5, "φ [°]")

@@ -10,10 +10,14 @@ from netdesign.report.words import MISSING, Words, name_heading, show_text
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """Text that a reader sees, and the number behind it if it is one."""
+    """Text that a reader sees, and the number behind it if it is one.
+
+    ``ends`` are the numbers of an interval; the workbook gives each a cell.
+    """
 
     text: str
     number: float | None = None
+    ends: tuple[float | None, float | None] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +77,11 @@ def number_cell(words: Words, key: str, value: float | None) -> Cell:
     return Cell(text=words.show_number(key, value), number=value)
 
 
+def band_cell(words: Words, key: str, low: float | None, high: float | None) -> Cell:
+    """Interval of the quantity ``key``."""
+    return Cell(text=words.show_band(key, low, high), ends=(low, high))
+
+
 def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
     """Number with so many decimals; "-" for none."""
     return Cell(text=words.show_fixed(value, decimals), number=value)
@@ -90,11 +99,6 @@ def given_cell(words: Words, value: float | str) -> Cell:
     return Cell(text=words.show_given(value), number=value)
 
 
-def digits_cell(words: Words, value: float | None) -> Cell:
-    """Number to six digits; "-" for none."""
-    return text_cell(MISSING) if value is None else given_cell(words, value)
-
-
 def short_cell(words: Words, value: float | None) -> Cell:
-    """Number to five digits, in tables of many columns."""
+    """Number to five digits, enough to redo what follows from it; "-" for none."""
     return Cell(text=words.show_digits(value), number=value)

@@ -15,6 +15,7 @@ from netdesign.report.view.table import (
     Cell,
     Column,
     Table,
+    band_cell,
     given_cell,
     name_columns,
     number_cell,
@@ -55,7 +56,7 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
 
 
 def _case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
-    return tuple(given_cell(words, value) for value in case.values.values())
+    return tuple(number_cell(words, *one) for one in case.values.items())
 
 
 def build_extremes(row: RowStudy, words: Words) -> Table:
@@ -73,7 +74,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, extreme.quantity)),
                 number_cell(words, "max_kN", extreme.max_kN),
-                text_cell(words.show_band("max_kN", extreme.low_kN, extreme.high_kN)),
+                band_cell(words, "max_kN", extreme.low_kN, extreme.high_kN),
                 *_case(extreme.case, words),
                 *(
                     number_cell(

@@ -27,6 +27,7 @@ from netdesign.report.view import (
     site_tables,
     statics_tables,
     tables,
+    what_if,
 )
 from netdesign.report.view.check_lines import (
     CheckLine,
@@ -143,6 +144,8 @@ class ReportView:
     date: str
     running_title: str
     verdict: VerdictWords
+    mark: str  # of a what-if; "" of a site as built
+    what_if: Table
     verification: tuple[tuple[str, str], ...]  # how a reader can verify the report
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
@@ -196,8 +199,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         checked=_name_person(project.checker),
         revision=show_text(project.revision),
         date=show_text(study.provenance.started[:10]),
-        running_title=_title_pages(project),
-        verdict=show_verdict(study.verdict, words),
+        running_title=what_if.mark_title(study, _title_pages(project), words),
+        verdict=what_if.mark_verdict(study, words),
+        mark=words("what_if.mark") if study.what_if else "",
+        what_if=what_if.build_what_if(study, words),
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study, words),
