@@ -21,7 +21,12 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.running import EXIT_CODES, report_places
-from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.site_input import (
+    build_text_format,
+    open_site,
+    site_options,
+    temporary_example,
+)
 from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.streams import print_json
@@ -32,6 +37,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.files.winter import WinterRun
+    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
@@ -125,7 +131,12 @@ def winter(
     names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
     require_free(names, overwrite=force)
     site = _read_site(site_file, overwrite=force, language=language, **reading)
-    station = _find_heights(site, heights, median, example=example, language=language)
+    text_format = build_text_format(
+        delimiter=reading["delimiter"], decimal_mark=reading["decimal_mark"]
+    )
+    station = _find_heights(
+        site, heights, text_format, median, example=example, language=language
+    )
     chosen = _choose_rows(site, row_ids)
     with open_phases(
         _list_phases(chosen),
@@ -168,6 +179,7 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
 def _find_heights(
     site: Site,
     heights: Path | None,
+    text_format: TextFormat,
     median: bool,
     *,
     example: bool,
@@ -182,7 +194,7 @@ def _find_heights(
 
     found = site.winter
     if heights is not None:
-        found, remarks = read_height_file(heights)
+        found, remarks = read_height_file(heights, text_format)
         for remark in remarks:
             tell(remark.message, language, err=True)
     elif found is None and example:
