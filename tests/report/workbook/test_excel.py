@@ -278,10 +278,9 @@ def test_sheets_are_ready_to_read_and_print(content):
     )
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_no_text_runs_out_of_its_sheet(language):
+def test_no_text_runs_out_of_its_sheet():
     """One that does makes the whole sheet small on paper, down to 4 pt as seen."""
-    book = read_workbook(render_workbook(STUDY, language))
+    book = read_workbook(render_workbook(STUDY, "de"))  # whose words are the longest
     for sheet in list(book)[1:]:
         table = find_table_columns(sheet)
         merged = {str(area).split(":")[0] for area in sheet.merged_cells.ranges}
