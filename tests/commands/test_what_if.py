@@ -72,7 +72,7 @@ def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
     ("options", "said"),
     [
         (("--what-if", "P2=A40"), "accepted is CELL=TEXT"),
-        (("--what-if", "Nets.P2=A28-computed", "--what-if", "Nets!p2=x"), "given twice"),
+        (("--what-if", "Nets.P2=A28", "--what-if", "Nets!p2=x"), "given twice"),
         (("--what-if", "Nets.ZZ2=1"), "Nets!ZZ2: nothing that is read of the site"),
         (("--what-if", "Nets.P2=A28-computed", "--size"), "looks for the cells itself"),
         (("--size", "--json"), "give --out"),

@@ -32,7 +32,8 @@ _ABOVE = 5  # links that stand one line higher, at the end of it
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Summary": overall verdict, net rows, assumed values, signatures."""
-    sheet = book.add_sheet("summary", book.words("heading.anchor_check"))
+    titles = (view.mark, book.words("heading.anchor_check"))
+    sheet = book.add_sheet("summary", " · ".join(one for one in titles if one))
     sheet.write_string(1, 0, view.running_title or MISSING, book.text())
     last = _HEAD_ROW + max(len(study.rows), 1)
     _write_overall(book, sheet, study, last)
