@@ -347,6 +347,19 @@ def test_factors_are_read_from_the_profile():
     assert tendons
 
 
+def test_a_number_has_as_many_digits_as_on_the_page(content):
+    """A decimal comma is a mark, too: without it a cell showed all sixteen digits."""
+    english, german = (
+        [
+            [cell.number_format for line in sheet.iter_rows() for cell in line]
+            for sheet in read_workbook(book)
+        ]
+        for book in (content, render_workbook(STUDY, "de"))
+    )
+    assert english == german
+    assert sum(form.startswith("0.0") for sheet in english for form in sheet) > 500
+
+
 def test_ends_of_intervals_are_numbers(content):
     lines = read_rows(read_workbook(content)["Envelope"], "Net row")
     ends = [(one.low_kN, one.high_kN) for row in STUDY.rows for one in row.extremes]
