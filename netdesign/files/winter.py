@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 from netdesign.checks.result import Band
+from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.follow import MODELS
 from netdesign.snowpack.pack import DayPack
@@ -16,6 +18,7 @@ from netdesign.units import (
     kilonewton_from_newton,
 )
 from netdesign.winter.day import RowDay, WinterRow
+from netdesign.winter.fit import SeasonFit
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.row_winters import RowWinters, list_complete, split_packs
@@ -46,6 +49,8 @@ class WinterRun:
         Of each solve [-].
     step : int
         Days between those of a curve.
+    fits : mapping of str to SeasonFit
+        To measured forces, by row; empty where none was asked for.
     """
 
     site: Site
@@ -55,6 +60,7 @@ class WinterRun:
     is_smoothed: bool
     accuracy: float
     step: int
+    fits: Mapping[str, SeasonFit] = field(default=MappingProxyType({}))
 
 
 def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:
@@ -112,6 +118,7 @@ def _write_row(
     packs = split_packs(run.winter.series, MODELS[result.model])
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
+    fitted = run.fits.get(row.id)
     winters = [
         _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
         | {
@@ -139,7 +146,7 @@ def _write_row(
         "winters": winters,
         "statistics": _write_statistics(result.statistics, result.maxima, complete),
         "equivalent_density": _write_range(result, run, language),
-        "fit": None,
+        "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
     }
 
 
