@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
 
-MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
+MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # the first is the default
 _FOLDER = "winter"
 _PHASE = 150  # solves of a row and winter, about; a table has 63
 EXAMPLE_HEIGHTS = "winter_2000.csv"
@@ -230,12 +230,13 @@ def _solve(
     from netdesign.snowpack.follow import MODELS as KNOWN
     from netdesign.study.winter_row import build_winter_row, require_plausible_heights
     from netdesign.winter.day import DaySolver
-    from netdesign.winter.row_winters import follow_winters
+    from netdesign.winter.row_winters import follow_station, follow_winters
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
     if is_checked:
         require_plausible_heights(rows, site.rows, station)
     models = [KNOWN[model], *(one for name, one in KNOWN.items() if name != model)]
+    packs = follow_station(station.series, models)
     settings = SolverSettings(accuracy=accuracy)
     return WinterRun(
         site=site,
@@ -243,13 +244,11 @@ def _solve(
         rows=rows,
         results=[
             follow_winters(
-                station.series,
-                models,
-                DaySolver(row=row, settings=settings, runner=runner),
-                every,
+                packs, DaySolver(row=row, settings=settings, runner=runner), every
             )
             for row in rows
         ],
+        packs=packs,
         is_smoothed=is_smoothed,
         accuracy=accuracy,
         step=every,

@@ -10,7 +10,6 @@ from typing import Any
 from netdesign.checks.result import Band
 from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
-from netdesign.snowpack.follow import MODELS
 from netdesign.snowpack.pack import DayPack
 from netdesign.units import (
     celsius_from_kelvin,
@@ -21,7 +20,7 @@ from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
-from netdesign.winter.row_winters import RowWinters, list_complete, split_packs
+from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
 from netdesign.winter.season import Season
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -43,6 +42,8 @@ class WinterRun:
         As loaded.
     results : sequence of RowWinters
         Of each row.
+    packs : StationPacks
+        Snow of the station, from which they come.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -57,6 +58,7 @@ class WinterRun:
     winter: StationWinter
     rows: Sequence[WinterRow]
     results: Sequence[RowWinters]
+    packs: StationPacks
     is_smoothed: bool
     accuracy: float
     step: int
@@ -115,7 +117,7 @@ def _write_row(
     row: WinterRow, result: RowWinters, run: WinterRun, language: Language
 ) -> dict[str, Any]:
     scene, net = row.scene, row.scene.net
-    packs = split_packs(run.winter.series, MODELS[result.model])
+    packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
     fitted = run.fits.get(row.id)

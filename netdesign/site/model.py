@@ -170,6 +170,15 @@ class InputEcho:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReplacedCell:
+    """A cell that is read as if another text were typed there: a what-if."""
+
+    cell: str  # "Nets!P8"
+    was: str  # as typed in the workbook, "" where nothing is
+    now: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NetRow:
     """One row of nets. SI units; angles in radians.
 
@@ -395,6 +404,8 @@ class Site:
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
     winter: StationWinter | None = None
+    catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
+    what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
 
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""

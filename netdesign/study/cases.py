@@ -195,7 +195,15 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panel=row.panel.panel if row.panel else None,
+        has_end=row.row_end is not None,
     )
+
+
+def have_same_forces(
+    row: NetRow, ranges: Ranges, other: NetRow, others: Ranges, run: CheckRun
+) -> bool:
+    """Two rows over their ranges are solved alike, whatever bears their forces."""
+    return _build_search(row, ranges, run) == _build_search(other, others, run)
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
@@ -205,6 +213,8 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         inputs=(),
         resistances=(),
         end_resistances=None,
+        anchors=(),
+        end_anchors=None,
         panel=None,
         row_end=None,
         panel_lack=None,

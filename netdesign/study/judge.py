@@ -115,6 +115,7 @@ def judge_site(
         range_inputs=list(site.range_inputs),
         notes=list_site_notes(site, run.creep_law),
         provenance=record_provenance(site, run),
+        what_if=list(site.what_if),
     )
 
 

@@ -82,7 +82,7 @@ def build_clock(series: MonitoringSeries, scene: Scene) -> Clock:
     if known[0][0] > 0.0:
         known.insert(0, (0.0, known[0][1]))
     times, kelvins = (np.array(part) for part in zip(*known, strict=True))
-    return Clock.of_temperatures(times, kelvins, scene.fluidity)
+    return Clock.of_temperatures(times, kelvins, scene.creep_fluidity)
 
 
 def _guard(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from netdesign.outcome import Verdict
-from netdesign.site.model import InputEcho, Project
+from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
@@ -341,4 +341,5 @@ class Study:
     range_inputs: list[InputEcho]
     notes: list[Text]
     provenance: Provenance
+    what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there

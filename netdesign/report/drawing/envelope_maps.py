@@ -17,7 +17,7 @@ from netdesign.report.drawing.plain_svg import (
     list_ticks,
     shade,
 )
-from netdesign.report.words import ENGLISH, Words, name_heading, show_given
+from netdesign.report.words import ENGLISH, Words, name_heading
 from netdesign.study.envelope_records import (
     BoundRecord,
     EnvelopeRecord,
@@ -46,7 +46,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.maps]
     if not bounds:
         return ""
-    chart = Chart()
+    chart = Chart(language=words.language)
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
@@ -64,7 +64,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         pairs = list(zip(frames, bound.maps, strict=True))
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
-            _name_map(chart, frame, one)
+            _name_map(chart, frame, one, words)
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
@@ -77,7 +77,7 @@ def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
         return ""
-    chart = Chart()
+    chart = Chart(language=words.language)
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
@@ -103,7 +103,7 @@ def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.drivers]
     if not bounds:
         return ""
-    chart, top = Chart(), 0.0
+    chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         top += 14.0
@@ -133,12 +133,12 @@ def _list_cells(
     return cells
 
 
-def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     """Axes of a map and their symbols, too short to meet."""
     chart.text(
         frame.left + frame.width,
         frame.top - 5.5,
-        f"θ = {show_given(round(one.inclination_deg, 3))}°",
+        f"θ = {words.show_given(round(one.inclination_deg, 3))}°",
         anchor="end",
     )
     chart.text(frame.left - 14.0, frame.top - 5.5, "φ [°]")
@@ -160,7 +160,7 @@ def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
             1.0 - ((value - low) / (high - low) if high > low else 0.5)
         )
         places.append((left + wide, y))
-        chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
+        chart.text(left + wide + 4.0, y + TEXT_PT / 3, chart.write_tick(value))
     chart.ticks(places)
 
 

@@ -9,7 +9,7 @@ from itertools import accumulate, pairwise
 from netdesign.report.drawing.figures import ACCENT, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.sketch import Point, Sketch
-from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.structure.members import Member
 from netdesign.study.support_records import HeadForce
 
@@ -26,12 +26,12 @@ def draw_head(forces: Sequence[HeadForce], words: Words = ENGLISH) -> str:
         sum(x for x, _ in corners[:count]) / count,
         sum(y for _, y in corners[:count]) / count,
     )
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     for force, (start, end) in zip(forces, pairwise(corners), strict=True):
         colour = ACCENT if force.member == Member.NET else INK
         sketch.arrow(start, end, stroke=colour, width=1.2)
         at, anchor = _place_name(start, end, middle)
-        size = show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
+        size = words.show_with_unit("size_kN", math.hypot(force.x_kN, force.y_kN))
         member = show_member(words, force.member)
         text = words("show.force_of", member=member, force=size)
         sketch.words(at, text, anchor=anchor, fill=colour)

@@ -25,6 +25,7 @@ def draw_monitoring(
         is_log=False,
         panel_in=1.5,
         time_label=words("drawing.days"),
+        language=words.language,
     )
 
 

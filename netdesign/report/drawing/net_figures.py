@@ -135,7 +135,9 @@ def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
         right = figure.add_axes((0.55, 0.14, 0.44, 0.76))
         _draw_arrows(left, face, words)
         _draw_tractions(right, face, words)
-        return write_svg(figure, name, words("net_drawing.forces"))
+        return write_svg(
+            figure, name, words("net_drawing.forces"), language=words.language
+        )
 
 
 def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
@@ -180,7 +182,9 @@ def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
         figure.legend(
             loc="center left", bbox_to_anchor=(0.7, 0.55), frameon=False, numpoints=1
         )
-        return write_svg(figure, name, words("net_drawing.stick_slip"))
+        return write_svg(
+            figure, name, words("net_drawing.stick_slip"), language=words.language
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -223,7 +227,9 @@ def draw_meshes(
             axes.set_xlim(edge, edge + WIDTH_IN / scale)
             axes.set_ylim(-0.05 * tall, 1.02 * tall)
         _draw_scale(figure, (low, high), height, words)
-        return write_svg(figure, name, words("net_drawing.mesh"))
+        return write_svg(
+            figure, name, words("net_drawing.mesh"), language=words.language
+        )
 
 
 def _find_ends(picture: MeshPicture) -> tuple[float, float]:

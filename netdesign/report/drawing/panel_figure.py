@@ -14,7 +14,7 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.panel_tables import name_rope
-from netdesign.report.words import ENGLISH, Words, show_with_unit
+from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord
 
 _LEFT, _SPAN = 150.0, 160.0  # of the panel on paper [pt]
@@ -45,7 +45,7 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
         return ""
     spacing = 2.0 * drawn.places_m[-1]
     scale = _SPAN / spacing
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     per_kn = _LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
     bottom = _EDGE
     for part, title in ((1, "panel_view.elevation"), (0, "panel_view.plan")):
@@ -127,7 +127,7 @@ def _draw_forces(
             tip = (start[0] + along * rope * per_kn, start[1] + across * per_kn)
             sketch.arrow(start, tip)
             size = math.hypot(along * rope, share * math.hypot(*force))
-            name = show_with_unit("size_kN", size)
+            name = words.show_with_unit("size_kN", size)
             side = "end" if place == 0.0 else "start"
             label = (start[0] + (-6.0 if place == 0.0 else 6.0), start[1] - 3.0)
             sketch.words(label, name, anchor=side, fill=ACCENT)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from html import escape
 
 from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
+from netdesign.words.numerals import Language, set_marks
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
@@ -54,6 +55,7 @@ class Chart:
 
     shapes: list[str] = field(default_factory=list)
     labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
+    language: Language = "en"  # of its numbers
 
     def rectangle(
         self, left: float, top: float, width: float, height: float, fill: str
@@ -140,14 +142,28 @@ class Chart:
         for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
             x = frame.x(value)
             path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
-            self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
+            self.text(
+                x,
+                bottom + _TICK + TEXT_PT + 1.5,
+                self.write_tick(value),
+                anchor="middle",
+            )
         for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
             y = frame.y(value)
             path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
-            self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+            self.text(
+                left - _TICK - 3.5,
+                y + TEXT_PT / 3,
+                self.write_tick(value),
+                anchor="end",
+            )
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
+
+    def write_tick(self, value: float) -> str:
+        """Round number beside an axis or a dimension, with the language's mark."""
+        return set_marks(f"{value:g}", self.language)
 
     def write(self, height: float, title: str, width: float = WIDTH) -> str:
         """SVG element of the chart, the same bytes each time."""

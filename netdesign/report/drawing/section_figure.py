@@ -26,7 +26,7 @@ from netdesign.report.drawing.section_labels import (
     place_labels,
 )
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
@@ -37,14 +37,14 @@ _CHORDS = 6  # straight pieces that are drawn between two nodes of the net
 def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     """SVG of the section in the case of ``drawing``; ``name`` keeps its ids apart."""
     paper = fit_paper(Frame(slope=math.radians(drawing.slope_deg), drawing=drawing))
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     _draw_snow(sketch, paper, f"{name}-snow")
     _draw_ground(sketch, paper)
     _draw_support(sketch, paper)
     _draw_net(sketch, paper)
     labels = [_draw_arrow(sketch, paper, arrow, words) for arrow in drawing.arrows]
     sketch.dot(paper.at(drawing.head_m), 1.9, fill="#fff")
-    draw_dimensions(sketch, paper)
+    draw_dimensions(sketch, paper, words)
     place_labels(sketch, labels)
     draw_scale_bar(sketch, paper)
     draw_legend(sketch, words)
@@ -110,7 +110,7 @@ def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow, words: Words) -> Lab
     size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
     largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
     start = (arrow.x_m, arrow.y_m)
-    named = show_member(words, arrow.member), show_with_unit("max_kN", size)
+    named = show_member(words, arrow.member), words.show_with_unit("max_kN", size)
     if size <= _SLACK * largest:
         return _draw_anchor(sketch, paper, start, _aim(frame, start), named)
     along = (arrow.force_x_kN / size, arrow.force_y_kN / size)

@@ -10,7 +10,7 @@ from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH
 from netdesign.report.drawing.section_frame import LABEL, Paper, Point
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import Words, show_with_unit
+from netdesign.report.words import Words
 
 SLIP_DASH = "2.2 1.5"  # of the net where the snow slips on it
 _LINE = 11.0  # from one line of a label to the next [pt]
@@ -52,7 +52,7 @@ def draw_scale_bar(sketch: Sketch, paper: Paper) -> None:
     left = right - length * paper.scale
     sketch.line([(left, bottom), (right, bottom)], width=1.6)
     middle = ((left + right) / 2, bottom - 4.5)
-    sketch.words(middle, f"{length:g} m", anchor="middle")
+    sketch.words(middle, f"{sketch.write_tick(length)} m", anchor="middle")
 
 
 def draw_legend(sketch: Sketch, words: Words) -> None:
@@ -65,7 +65,7 @@ def draw_legend(sketch: Sketch, words: Words) -> None:
         sketch.words((right - 25.0, y + 2.6), words(key), anchor="end")
 
 
-def draw_dimensions(sketch: Sketch, paper: Paper) -> None:
+def draw_dimensions(sketch: Sketch, paper: Paper, words: Words) -> None:
     """Thickness of the snow at its cut end, angle of the slope at the low end."""
     frame, drawing, unit = paper.frame, paper.frame.drawing, paper.frame.unit
     x = frame.top_end - 0.08 * unit
@@ -76,12 +76,12 @@ def draw_dimensions(sketch: Sketch, paper: Paper) -> None:
         tick = paper.all_at([(x - reach, y), (x + reach, y)])
         sketch.line(tick, stroke=GREY, width=0.5)
     at = paper.at((x - 0.05 * unit, drawing.snow_thickness_m / 2))
-    text = f"d = {show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}"
+    text = f"d = {words.show_with_unit('snow_thickness_m', drawing.snow_thickness_m)}"
     sketch.words((at[0] - 2.0, at[1]), text, anchor="end")
-    _draw_angle(sketch, paper)
+    _draw_angle(sketch, paper, words)
 
 
-def _draw_angle(sketch: Sketch, paper: Paper) -> None:
+def _draw_angle(sketch: Sketch, paper: Paper, words: Words) -> None:
     frame = paper.frame
     x, y = paper.at((frame.low_end - 0.42 * frame.unit, 0.0))
     radius = 0.34 * frame.unit * paper.scale
@@ -91,5 +91,5 @@ def _draw_angle(sketch: Sketch, paper: Paper) -> None:
     sketch.line(arc, stroke=GREY, width=0.5)
     half = frame.slope / 2
     at = (x + 1.15 * radius * math.cos(half), y + 1.15 * radius * math.sin(half) + 2.6)
-    text = f"ψ = {show_with_unit('slope_deg', frame.drawing.slope_deg)}"
+    text = f"ψ = {words.show_with_unit('slope_deg', frame.drawing.slope_deg)}"
     sketch.words(at, text)

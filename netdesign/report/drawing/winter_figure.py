@@ -9,6 +9,7 @@ from typing import Any
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
 from netdesign.report.words import Words, show_member
+from netdesign.words.numerals import set_marks
 
 _LEFT, _RIGHT = 36.0, 116.0  # beside the panels [pt]
 _HEAD, _GAP = 16.0, 24.0  # above the first panel, between two [pt]
@@ -45,7 +46,7 @@ def draw_winter(
     if not days:
         return ""
     first, last = _find_span(days)
-    chart, top = Chart(), _HEAD
+    chart, top = Chart(language=words.language), _HEAD
     pulls = [
         (words("winter_column.foot"), _pick(days, first, "foot_kN_per_m")),
         (words("winter_column.head"), _pick(days, first, "head_kN_per_m")),
@@ -165,10 +166,11 @@ class _Panel:
             y = max(frame.y(value), low + _LABEL_GAP)
             low = y
             x = frame.left + frame.width + 4.0
+            shown = set_marks(f"{value:.1f}", self._chart.language)
             self._chart.line(
                 ((x, y - 2.5), (x + 9.0, y - 2.5)), stroke=stroke, width=1.4
             )
-            self._chart.text(x + 12.0, y, f"{value:.1f} {name}")
+            self._chart.text(x + 12.0, y, f"{shown} {name}")
 
     def _draw_scale(self, frame: Frame) -> None:
         """Greys of some densities at the right."""

@@ -12,7 +12,13 @@ from typing import Any
 from netdesign.edge.given_files import make_printable
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import build_environment, load_style, mark_safe
-from netdesign.report.view.table import Cell, Table, name_columns, text_cell
+from netdesign.report.view.table import (
+    Cell,
+    Table,
+    fixed_cell,
+    name_columns,
+    text_cell,
+)
 from netdesign.report.words import MISSING, Words, show_member, show_text
 from netdesign.words.catalogue import Language
 
@@ -121,16 +127,16 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
     rows = tuple(
         (
             _unbroken(one["name"]),
-            _number(one["height_max_m"], 2),
+            fixed_cell(words, one["height_max_m"], 2),
             _unbroken(one["height_max_date"]),
-            _number(one["swe_max_kg_m2"], 0),
-            _number(one["foot_peak_kN_per_m"], 1),
-            _number(one["head_peak_kN_per_m"], 1),
+            fixed_cell(words, one["swe_max_kg_m2"], 0),
+            fixed_cell(words, one["foot_peak_kN_per_m"], 1),
+            fixed_cell(words, one["head_peak_kN_per_m"], 1),
             _unbroken(one["governing_date"] or MISSING),
-            _number(one["foot_at_height_max_kN_per_m"], 1),
-            _number(one["uniform_peak_kN_per_m"], 1),
-            _number(one["equivalent_density_kg_m3"], 0),
-            _number(one["days_above_90_percent"], 0),
+            fixed_cell(words, one["foot_at_height_max_kN_per_m"], 1),
+            fixed_cell(words, one["uniform_peak_kN_per_m"], 1),
+            fixed_cell(words, one["equivalent_density_kg_m3"], 0),
+            fixed_cell(words, one["days_above_90_percent"], 0),
             text_cell(words(f"winter_outcome.{one['outcome']}")),
         )
         for one in row["winters"]
@@ -153,7 +159,7 @@ def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
         rows=tuple(
             (
                 _unbroken(one["name"]),
-                *(_number(one["members_peak_kN"].get(m), 1) for m in members),
+                *(fixed_cell(words, one["members_peak_kN"].get(m), 1) for m in members),
             )
             for one in shown
             if members
@@ -174,9 +180,12 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
         rows.append(
             (
                 _unbroken(one["name"]),
-                *(_number(part.get("uniform_peak_kN_per_m"), 1) for part in every),
                 *(
-                    _number(part.get("uniform_equivalent_density_kg_m3"), 0)
+                    fixed_cell(words, part.get("uniform_peak_kN_per_m"), 1)
+                    for part in every
+                ),
+                *(
+                    fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
                     for part in every
                 ),
             )
@@ -206,9 +215,9 @@ def _tabulate_statistics(
         columns=name_columns(headings, numbers=headings),
         rows=tuple(
             (
-                _number(one["period_a"], 0),
-                _number(one["foot_kN_per_m"], 1),
-                _number(one["standard_error_kN_per_m"], 1),
+                fixed_cell(words, one["period_a"], 0),
+                fixed_cell(words, one["foot_kN_per_m"], 1),
+                fixed_cell(words, one["standard_error_kN_per_m"], 1),
             )
             for one in statistics["return_values"]
         ),
@@ -243,9 +252,3 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
 def _unbroken(text: str) -> Cell:
     """Date, or name of a winter, that stays on one line."""
     return text_cell(text.replace("-", "\u2011").replace("/", "\u2060/\u2060"))
-
-
-def _number(value: float | None, decimals: int) -> Cell:
-    return Cell(
-        text=MISSING if value is None else f"{value:.{decimals}f}", number=value
-    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from netdesign.outcome import Verdict
 from netdesign.report.view.table import Table, given_cell, name_columns, text_cell
-from netdesign.report.words import Words, name_heading, show_check, show_given
+from netdesign.report.words import Words, name_heading, show_check
 from netdesign.study.records import CheckRecord, HoldRecord, RowStudy
 
 
@@ -29,7 +29,9 @@ def build_holds(row: RowStudy, words: Words) -> Table:
                 text_cell(words.join([show_check(words, one) for one in checks])),
                 text_cell(limits),
                 text_cell(spans),
-                given_cell(sum(hold.solves for one in checks for hold in one.holds)),
+                given_cell(
+                    words, sum(hold.solves for one in checks for hold in one.holds)
+                ),
             )
             for (limits, spans), checks in told.items()
         ),
@@ -47,7 +49,7 @@ def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
             key,
             quantity=name_heading(words, hold.quantity),
             limit=_show_limit(check, hold, words),
-            now=show_given(hold.now),
+            now=words.show_given(hold.now),
         )
         for hold in check.holds
         if hold.least is not None or hold.most is not None
@@ -73,7 +75,7 @@ def _carries(check: CheckRecord) -> bool:
 
 def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
     limits = [
-        f"{sign} {show_given(value)}"
+        f"{sign} {words.show_given(value)}"
         for sign, value in (("≥", hold.least), ("≤", hold.most))
         if value is not None
     ]
@@ -93,7 +95,7 @@ def _list_spans(check: CheckRecord, words: Words) -> list[str]:
 
 
 def _name_span(hold: HoldRecord, words: Words) -> str:
-    low, high = show_given(hold.low), show_given(hold.high)
+    low, high = words.show_given(hold.low), words.show_given(hold.high)
     text = words("show.band", low=low, high=high)
     if hold.note is not None:
         text = words("show.with_note", text=text, note=words.show(hold.note))

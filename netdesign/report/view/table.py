@@ -5,16 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from netdesign.report.words import (
-    MISSING,
-    Words,
-    name_heading,
-    show_digits,
-    show_given,
-    show_number,
-    show_share,
-    show_text,
-)
+from netdesign.report.words import MISSING, Words, name_heading, show_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,28 +68,33 @@ def text_cell(text: str) -> Cell:
     return Cell(text=show_text(text))
 
 
-def number_cell(key: str, value: float | None) -> Cell:
+def number_cell(words: Words, key: str, value: float | None) -> Cell:
     """Number of the quantity ``key``, with its decimals."""
-    return Cell(text=show_number(key, value), number=value)
+    return Cell(text=words.show_number(key, value), number=value)
 
 
-def share_cell(value: float | None) -> Cell:
+def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
+    """Number with so many decimals; "-" for none."""
+    return Cell(text=words.show_fixed(value, decimals), number=value)
+
+
+def share_cell(words: Words, value: float | None) -> Cell:
     """Pure number of any size, three significant digits."""
-    return Cell(text=show_share(value), number=value)
+    return Cell(text=words.show_share(value), number=value)
 
 
-def given_cell(value: float | str) -> Cell:
+def given_cell(words: Words, value: float | str) -> Cell:
     """Number that somebody chose or counted: no decimals are added."""
     if isinstance(value, str):
         return text_cell(value)
-    return Cell(text=show_given(value), number=value)
+    return Cell(text=words.show_given(value), number=value)
 
 
-def digits_cell(value: float | None) -> Cell:
+def digits_cell(words: Words, value: float | None) -> Cell:
     """Number to six digits; "-" for none."""
-    return text_cell(MISSING) if value is None else given_cell(value)
+    return text_cell(MISSING) if value is None else given_cell(words, value)
 
 
-def short_cell(value: float | None) -> Cell:
+def short_cell(words: Words, value: float | None) -> Cell:
     """Number to five digits, in tables of many columns."""
-    return Cell(text=show_digits(value), number=value)
+    return Cell(text=words.show_digits(value), number=value)

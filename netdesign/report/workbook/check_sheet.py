@@ -23,17 +23,15 @@ from netdesign.report.view.check_formulas import (
     write_verdict,
 )
 from netdesign.report.view.check_view import CheckView, find_case
-from netdesign.report.view.table import Cell, Column
+from netdesign.report.view.table import Cell, Column, number_cell
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
-    name_further,
     name_heading,
     number_format,
-    show_number,
     show_text,
 )
 from netdesign.report.workbook.writer import A3, Book, count_lines
@@ -172,7 +170,7 @@ _FIELDS = (*_SHOWN, *_HIDDEN, _FURTHER)
 def has_further(study: Study) -> bool:
     """True if more than the usual three quantities range."""
     checks = (check for row in study.rows for check in row.checks)
-    return any(name_further(check.case) for check in checks)
+    return any(len(check.case.values) > 3 for check in checks if check.case)
 
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -261,7 +259,7 @@ class _CheckLine:
         case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
-        self._put(_FURTHER, Cell(text=name_further(case)))
+        self._put(_FURTHER, Cell(text=self._book.words.name_further(case)))
         self._write_loads(check, view)
         texts = (show_text(name), view.title, view.clause)
         for field, text in zip(_LEAD[1:], texts, strict=True):
@@ -357,9 +355,7 @@ class _CheckLine:
     ) -> None:
         """Write a number; with ``formula`` it is live, and "-" without its parts."""
         if not formula:
-            self._put(
-                field, Cell(text=show_number(field.quantity, value), number=value)
-            )
+            self._put(field, number_cell(self._book.words, field.quantity, value))
             return
         form = self._book.format(
             align="right", num_format=number_format(field.quantity)

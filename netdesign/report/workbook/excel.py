@@ -120,7 +120,9 @@ def _add_inputs(book: Book, view: ReportView) -> None:
     inputs += [(row.id, row.inputs) for row in view.rows]
     caption = book.words("heading.typed_and_understood")
     title = book.words("heading.inputs")
-    book.add_table_sheet("inputs", title, [_stack(book, caption, inputs)])
+    replaced = [view.what_if] if view.mark else []
+    shown = [*replaced, _stack(book, caption, inputs)]
+    book.add_table_sheet("inputs", title, shown)
 
 
 def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:

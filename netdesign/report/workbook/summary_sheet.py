@@ -10,7 +10,7 @@ from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, name_further, number_format
+from netdesign.report.words import MISSING, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
@@ -150,9 +150,10 @@ def _write_governing(
     line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
     none = book.words("heading.no_check")
     first, second, third = (
-        f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
+        _write_mark(f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})", book)
+        for n in (1, 2, 3)
     )
-    has_further = any(name_further(check.case) for check in row.checks)
+    has_further = any(book.words.name_further(check.case) for check in row.checks)
     further = f"&INDEX(check_case_further,{line})" if has_further else ""
     case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
     load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
@@ -181,14 +182,26 @@ def _tell_case(book: Book, row: RowStudy, shown: RowView) -> str:
     if check is None or view is None:
         return MISSING
     case = find_case(check)
-    return show_load(check, view, book.words) if case is None else _show_case(case)
+    return (
+        show_load(check, view, book.words)
+        if case is None
+        else _show_case(case, book.words)
+    )
 
 
-def _show_case(case: CasePoint) -> str:
+def _write_mark(number: str, book: Book) -> str:
+    """Formula of a number in a text, with the decimal mark of the study's language."""
+    mark = book.words.write(".")
+    return number if mark == "." else f'SUBSTITUTE({number},".","{mark}")'
+
+
+def _show_case(case: CasePoint, words: Words) -> str:
     """Case as the formula shows it."""
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
-    first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
-    return f"{first} kg/m³, φ {second}°, θ {third}°{name_further(case)}"
+    first, second, third = (
+        words.write(f"{round(one, _CASE_DECIMALS):.15g}") for one in values
+    )
+    return f"{first} kg/m³, φ {second}°, θ {third}°{words.name_further(case)}"
 
 
 def _write_reasons(

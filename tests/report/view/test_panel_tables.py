@@ -11,7 +11,7 @@ from netdesign.report.page.html import list_sections, render_html
 from netdesign.report.view.demand_steps import describe_load, describe_widths
 from netdesign.report.view.panel_tables import view_panel
 from netdesign.report.view.whole import build_view
-from netdesign.report.words import Words
+from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.reading import read_workbook
@@ -89,7 +89,7 @@ def test_the_workbook_has_the_same_tables(study):
 
 def test_the_worked_check_gives_the_demand(study):
     check = checks_of(study)["uphill_guy.rope"]
-    steps = describe_widths(check)
+    steps = describe_widths(check, ENGLISH)
     symbols = [step[0] for step in steps]
     assert symbols[-1] == "E_k = max(E_c; E_p; E_g)"
     assert any(one.startswith("E_p = ") for one in symbols)
@@ -99,13 +99,13 @@ def test_the_worked_check_gives_the_demand(study):
 
 def test_the_worked_check_of_the_end_gives_its_demand(study):
     check = checks_of(study)["end_guy.rope.end"]
-    steps = describe_widths(check)
+    steps = describe_widths(check, ENGLISH)
     assert steps[0][0].startswith("b_e = b + f_R")
     assert steps[-1][2] == f"{check.action_kN:.1f} kN"
     action = check.action
     value = action.share * action.solved_kN * action.loaded_width_m
     assert check.action_kN == pytest.approx(value / action.post_spacing_m, rel=1e-12)
-    post = describe_widths(checks_of(study)["post.compression.end"])
+    post = describe_widths(checks_of(study)["post.compression.end"], ENGLISH)
     assert any("H · tan γ" in step[0] for step in post)
 
 
