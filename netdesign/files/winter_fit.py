@@ -58,6 +58,7 @@ def write_fit(
         "misfit_refused": REFUSED,
         "unconstrained_above": UNCONSTRAINED,
         "band": BAND,
+        "known": sorted(fitted.known),
         "parameters": _write_parameters(fitted),
         "correlations": _write_correlations(fitted),
         "residuals": _write_residuals(fitted, series),
@@ -73,9 +74,7 @@ def _explain(fitted: SeasonFit) -> Message:
     if fitted.ending == "few":
         return say("fit.few", days=len({one.index for one in fitted.readings}))
     if fitted.ending == "misfit":
-        return say(
-            "fit.misfit", rms=fitted.rms, ratio=fitted.misfit, most=REFUSED
-        )
+        return say("fit.misfit", rms=fitted.rms, ratio=fitted.misfit, most=REFUSED)
     if fitted.ending == "far":
         return say("fit.far", names=tuple(_name(one) for one in _list_far(fitted)))
     if fitted.ending == "unsettled":
@@ -136,9 +135,7 @@ def _write_correlations(fitted: SeasonFit) -> list[list[float]]:
     return [[round(float(one), 4) for one in line] for line in table]
 
 
-def _write_residuals(
-    fitted: SeasonFit, series: HeightSeries
-) -> list[dict[str, Any]]:
+def _write_residuals(fitted: SeasonFit, series: HeightSeries) -> list[dict[str, Any]]:
     return [
         {
             "date": series.day(reading.index).isoformat(),

@@ -16,7 +16,6 @@ from netdesign.checks.result import Band
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats
-from netdesign.snowpack.series import HeightSeries
 from netdesign.structure.members import Member
 from netdesign.winter.day import DaySolver, RowDay, WinterRow
 from netdesign.winter.fit_parameters import list_parameters, vary_day, vary_row
@@ -28,8 +27,8 @@ from netdesign.winter.fit_readings import (
 )
 from netdesign.winter.gauss_newton import Fit, Parameter, fit_gauss_newton
 
-# The same three meshes for every state: their error of some 0.4 % is in all of them, and
-# differences are smooth.
+# The same three meshes for every state: their error of some 0.4 % is in all of them,
+# and differences are smooth.
 FIT_SETTINGS = SolverSettings(accuracy=2e-3, levels=MESH_LEVELS[:3])
 REFUSED = 2.0  # misfit over the noise: a model that misses by more is wrong
 # Part of the prior's deviation that is left: above it data hardly told anything.
@@ -83,8 +82,10 @@ class SeasonFit:
         Those that were taken.
     noise : Noise
         As stated.
+    known : frozenset of str
+        Parameters that were surveyed.
     parameters : tuple of Parameter
-        With their priors.
+        Those that were fitted, with their priors.
     fit : Fit or None
         None of few readings.
     computed : tuple of float
@@ -94,7 +95,7 @@ class SeasonFit:
     rms : float
         Of the logarithm of measured over computed [-]; NaN where nothing was computed.
     misfit : float
-        The same over the noise, eq. (Y13) [-]; NaN likewise.
+        The same over the noise, eq. (Y25) [-]; NaN likewise.
     governing : int or None
         Place of the governing day.
     forces : tuple of ForceBand
@@ -105,6 +106,7 @@ class SeasonFit:
     ending: FitEnding
     readings: tuple[FitReading, ...]
     noise: Noise
+    known: frozenset[str] = frozenset()
     parameters: tuple[Parameter, ...] = ()
     fit: Fit | None = None
     computed: tuple[float, ...] = ()
@@ -177,6 +179,7 @@ def fit_season(task: FitTask) -> SeasonFit:
         ending="few",
         readings=task.readings,
         noise=task.noise,
+        known=task.known,
         governing=task.governing,
     )
     if len({one.index for one in task.readings}) < LEAST_DAYS:
@@ -298,7 +301,7 @@ def _judge(
 def _bound(
     fit: Fit, place: int, case: ForceCase, member: Member, ended: SeasonFit
 ) -> ForceBand:
-    """Band of one target before and after, eq. (Y14)."""
+    """Band of one target before and after, eq. (Y26)."""
     variances = np.diag([one.deviation**2 for one in ended.parameters])
     slopes = fit.prior.slopes[place]
     before = math.sqrt(slopes @ variances @ slopes)

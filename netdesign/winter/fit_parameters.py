@@ -108,7 +108,7 @@ def vary_row(row: WinterRow, values: Mapping[str, float]) -> WinterRow:
 
 
 def vary_day(day: RowDay, row: WinterRow, values: Mapping[str, float]) -> RowDay:
-    """Day with its snow scaled, eq. (Y9): no layers are joined anew.
+    """Day with its snow scaled, eq. (Y20): no layers are joined anew.
 
     Parameters
     ----------

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from netdesign.snowpack.follow import SettlingModel
 from netdesign.snowpack.pack import DayPack
-from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.day import DaySolver, RowDay
 from netdesign.winter.fit import FIT_SETTINGS, FitTask
 from netdesign.winter.fit_readings import FitReading, Noise, choose_readings
 from netdesign.winter.measured import MeasuredPulls
-from netdesign.winter.row_winters import RowWinters, split_packs
+from netdesign.winter.row_winters import RowWinters, StationPacks
 
 # Thickest snow of a reading over the net's height: one deviation of the height factor
 # is left for snow that was higher than at the station.
@@ -21,8 +19,7 @@ _ROOM = 0.92
 
 def choose_fit(
     result: RowWinters,
-    series: HeightSeries,
-    model: SettlingModel,
+    station: StationPacks,
     measured: Sequence[MeasuredPulls],
     solver: DaySolver,
     *,
@@ -36,10 +33,8 @@ def choose_fit(
     ----------
     result : RowWinters
         Of the row, solved.
-    series : HeightSeries
-        Of the station.
-    model : SettlingModel
-        Of the layers.
+    station : StationPacks
+        By the settling model of the result.
     measured : sequence of MeasuredPulls
         Of the row, at least one.
     solver : DaySolver
@@ -51,9 +46,9 @@ def choose_fit(
     design_density : float, optional
         Density of the design case, snow of the row's own thickness [kg/m3].
     """
-    winters = split_packs(series, model)
+    winters = station.packs[result.model]
     readings = {
-        name: choose_readings(measured, series, _list_days(packs, solver))
+        name: choose_readings(measured, station.series, _list_days(packs, solver))
         for name, packs in winters.items()
     }
     winter = max(readings, key=lambda name: len(readings[name]), default="")

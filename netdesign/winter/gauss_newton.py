@@ -116,7 +116,7 @@ def fit_gauss_newton(
     noise: Floats,
     parameters: Sequence[Parameter],
 ) -> Fit:
-    """Posterior of the parameters, eqs (Y10) to (Y12).
+    """Posterior of the parameters, eqs (Y22) to (Y24).
 
     Parameters
     ----------
@@ -138,10 +138,11 @@ def fit_gauss_newton(
     problem = _Problem(measured, noise, parameters)
     values = problem.means
     response = respond(values)
-    first: State | None = None
-    for count in range(1, MOST_ROUNDS + 1):
+    states: list[State] = []
+    is_settled = False
+    while len(states) < MOST_ROUNDS:
         state = differentiate(respond, values, response, parameters)
-        first, is_settled = first or state, False
+        states.append(state)
         if not state.is_known:
             break
         step = problem.find_step(state)
@@ -151,10 +152,10 @@ def fit_gauss_newton(
         if gain < SETTLED:
             break
     return Fit(
-        prior=first or state,
-        posterior=state,
-        covariance=problem.find_covariance(state),
-        rounds=count,
+        prior=states[0],
+        posterior=states[-1],
+        covariance=problem.find_covariance(states[-1]),
+        rounds=len(states),
         is_settled=is_settled,
     )
 
@@ -201,7 +202,7 @@ class _Problem:
         self.means: Floats = np.array([one.mean for one in parameters])
 
     def measure(self, values: Floats, response: Floats) -> float:
-        """Objective (Y10) [-]; NaN where the model has no answer."""
+        """Objective (Y22) [-]; NaN where the model has no answer."""
         misfit = self._measured - response[: self._measured.size]
         away = values - self.means
         return float(
@@ -209,7 +210,7 @@ class _Problem:
         )
 
     def find_step(self, state: State) -> Floats:
-        """Step of (Y11) from a state, inside the ends of all parameters."""
+        """Step of (Y23) from a state, inside the ends of all parameters."""
         n = self._measured.size
         misfit = self._measured - state.response[:n]
         pull = state.slopes[:n].T @ self._weights @ misfit
@@ -223,7 +224,7 @@ class _Problem:
         return float(0.5 * step @ self._find_curvature(state) @ step)
 
     def find_covariance(self, state: State) -> Floats:
-        """Covariance (Y12) at a state; NaN where that is not known."""
+        """Covariance (Y24) at a state; NaN where that is not known."""
         if not state.is_known:
             return np.full((self.means.size, self.means.size), np.nan)
         return np.asarray(np.linalg.inv(self._find_curvature(state)))
@@ -251,7 +252,7 @@ def _walk(
 def _step_inside(
     curvature: Floats, pull: Floats, values: Floats, parameters: Sequence[Parameter]
 ) -> Floats:
-    """Step of (Y11); what would leave its ends stops there, the others follow.
+    """Step of (Y23); what would leave its ends stops there, the others follow.
 
     No parameter moves by more than one deviation of its prior.
     """

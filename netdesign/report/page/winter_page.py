@@ -12,6 +12,7 @@ from typing import Any
 from netdesign.edge.given_files import make_printable
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.page.winter_fit import view_fit
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -106,6 +107,7 @@ def _view_row(
         "statistics": _tabulate_statistics(row["statistics"], words),
         "without_statistics": words("winter_page.no_statistics"),
         "range": _describe_range(row, document, words),
+        "fit": view_fit(row["fit"], document["check_density_kg_m3"][1], words),
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
