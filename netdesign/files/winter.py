@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import Any
 
 from netdesign.checks.result import Band
@@ -62,7 +61,7 @@ class WinterRun:
     is_smoothed: bool
     accuracy: float
     step: int
-    fits: Mapping[str, SeasonFit] = field(default=MappingProxyType({}))
+    fits: Mapping[str, SeasonFit] = field(default_factory=dict)
 
 
 def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from netdesign.checks.result import Band
 from netdesign.snowpack.series import HeightSeries
 from netdesign.units import degree_from_radian, kilonewton_from_newton
@@ -47,6 +45,7 @@ def write_fit(
         "winter": fitted.winter,
         "days": len({one.index for one in fitted.readings}),
         "readings": len(fitted.readings),
+        "days_left_out": [series.day(one).isoformat() for one in fitted.left_out],
         "rounds": fitted.fit.rounds if fitted.fit else 0,
         "noise": {
             "reading": noise.reading,
@@ -70,7 +69,7 @@ def write_fit(
 
 
 def _explain(fitted: SeasonFit) -> Message:
-    """What the fit is good for, or why nothing follows of it."""
+    """Sentence on how well it fits, or why nothing follows of it."""
     if fitted.ending == "few":
         return say("fit.few", days=len({one.index for one in fitted.readings}))
     if fitted.ending == "misfit":
@@ -89,7 +88,7 @@ def _name(parameter: str) -> Message:
 
 
 def _list_far(fitted: SeasonFit) -> list[str]:
-    values = fitted.fit.posterior.values if fitted.fit else np.empty(0)
+    values = fitted.fit.posterior.values if fitted.fit else ()
     pairs = zip(fitted.parameters, map(float, values), strict=True)
     return [one.name for one, value in pairs if one.is_far(value)]
 
@@ -98,8 +97,7 @@ def _write_parameters(fitted: SeasonFit) -> list[dict[str, Any]]:
     if fitted.fit is None:
         return []
     loose = list_unconstrained(fitted)
-    left = np.sqrt(np.diag(fitted.fit.covariance))
-    values = fitted.fit.posterior.values
+    left, values = fitted.fit.deviations, fitted.fit.posterior.values
     return [
         {
             "name": one.name,
@@ -128,11 +126,9 @@ def _scale(one: Parameter, deviation: float) -> float:
 
 
 def _write_correlations(fitted: SeasonFit) -> list[list[float]]:
-    if fitted.fit is None or not np.isfinite(fitted.fit.covariance).all():
+    if fitted.fit is None or not fitted.fit.posterior.is_known:
         return []
-    left = np.sqrt(np.diag(fitted.fit.covariance))
-    table = fitted.fit.covariance / np.outer(left, left)
-    return [[round(float(one), 4) for one in line] for line in table]
+    return [[round(float(x), 4) for x in line] for line in fitted.fit.correlations]
 
 
 def _write_residuals(fitted: SeasonFit, series: HeightSeries) -> list[dict[str, Any]]:

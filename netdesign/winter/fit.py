@@ -82,6 +82,8 @@ class SeasonFit:
         Those that were taken.
     noise : Noise
         As stated.
+    left_out : tuple of int
+        Places of the days that have no force in the row as designed.
     known : frozenset of str
         Parameters that were surveyed.
     parameters : tuple of Parameter
@@ -95,7 +97,7 @@ class SeasonFit:
     rms : float
         Of the logarithm of measured over computed [-]; NaN where nothing was computed.
     misfit : float
-        The same over the noise, eq. (Y25) [-]; NaN likewise.
+        The same over the noise, eq. (Y13) [-]; NaN likewise.
     governing : int or None
         Place of the governing day.
     forces : tuple of ForceBand
@@ -106,6 +108,7 @@ class SeasonFit:
     ending: FitEnding
     readings: tuple[FitReading, ...]
     noise: Noise
+    left_out: tuple[int, ...] = ()
     known: frozenset[str] = frozenset()
     parameters: tuple[Parameter, ...] = ()
     fit: Fit | None = None
@@ -157,7 +160,7 @@ class FitTask:
 
     @property
     def row(self) -> WinterRow:
-        """As designed."""
+        """Row as designed."""
         return self.solver.row
 
 
@@ -169,15 +172,16 @@ def fit_season(task: FitTask) -> SeasonFit:
     task : FitTask
         Days, readings, noise.
 
-    Raises
-    ------
-    ModelError
-        If the row has no support: nothing of it can be measured.
+    Notes
+    -----
+    Days that have no force in the row as designed are left out, and named.
     """
+    task, left_out, targets = _keep_solved(task)
     begun = SeasonFit(
         winter=task.winter,
         ending="few",
         readings=task.readings,
+        left_out=left_out,
         noise=task.noise,
         known=task.known,
         governing=task.governing,
@@ -190,7 +194,6 @@ def fit_season(task: FitTask) -> SeasonFit:
     measured = np.log([one.force for one in task.readings])
     thickest = max(day.thickness for day in task.days.values())
     parameters = list_parameters(task.row, task.known, thickest)
-    targets = _list_targets(task)
     responder = _Responder(task, parameters, targets)
     fit = fit_gauss_newton(responder, measured, noise, parameters)
     return _judge(begun, fit, parameters, measured, noise, targets)
@@ -247,9 +250,26 @@ def _solve(
     }
 
 
-def _list_targets(task: FitTask) -> list[tuple[ForceCase, Member]]:
-    """Members whose force is asked for: those that carry some as designed."""
+def _keep_solved(
+    task: FitTask,
+) -> tuple[FitTask, tuple[int, ...], list[tuple[ForceCase, Member]]]:
+    """Task with the days that have a force as designed; those left out; targets."""
     forces = _solve(task, {})
+    kept = {index: day for index, day in task.days.items() if index in forces}
+    readings = tuple(one for one in task.readings if one.index in kept)
+    left_out = tuple(index for index in task.days if index not in kept)
+    governing = task.governing if task.governing in kept else None
+    design = task.design if _DESIGN in forces else None
+    task = replace(
+        task, days=kept, readings=readings, governing=governing, design=design
+    )
+    return task, left_out, _list_targets(task, forces)
+
+
+def _list_targets(
+    task: FitTask, forces: Mapping[int, Mapping[str, float]]
+) -> list[tuple[ForceCase, Member]]:
+    """Members whose force is asked for: those that carry some as designed."""
     cases: list[tuple[ForceCase, int | None]] = [("governing", task.governing)]
     if task.design:
         cases.append(("design", _DESIGN))
@@ -301,7 +321,7 @@ def _judge(
 def _bound(
     fit: Fit, place: int, case: ForceCase, member: Member, ended: SeasonFit
 ) -> ForceBand:
-    """Band of one target before and after, eq. (Y26)."""
+    """Band of one target before and after, eq. (Y14)."""
     variances = np.diag([one.deviation**2 for one in ended.parameters])
     slopes = fit.prior.slopes[place]
     before = math.sqrt(slopes @ variances @ slopes)
@@ -336,9 +356,9 @@ def list_unconstrained(fitted: SeasonFit) -> tuple[str, ...]:
     fitted : SeasonFit
         Any; none of a fit that failed.
     """
-    if fitted.fit is None or not np.isfinite(fitted.fit.covariance).all():
+    if fitted.fit is None or not fitted.fit.posterior.is_known:
         return ()
-    left = np.sqrt(np.diag(fitted.fit.covariance))
+    left = fitted.fit.deviations
     return tuple(
         one.name
         for one, deviation in zip(fitted.parameters, left, strict=True)

@@ -1,4 +1,4 @@
-"""What a fit may change of a row and of its snow, with what is known before.
+"""Parameters of a fit: what it may change of a row and its snow, with priors.
 
 Theory: winter/THEORY.md, section 6.
 """
@@ -54,6 +54,11 @@ def list_parameters(
         Parameters that were surveyed: they stay as they are.
     thickest : float
         Snow of the thickest day of the fit [m]; it stays below the net's head.
+
+    Raises
+    ------
+    ModelError
+        If the row has a wall.
     """
     net = _require_net(row)
     room = math.log(net.height_normal / thickest)
@@ -93,7 +98,12 @@ def vary_row(row: WinterRow, values: Mapping[str, float]) -> WinterRow:
     row : WinterRow
         As designed.
     values : mapping of str to float
-        In the units of the fit; what is not named stays.
+        [-], of slip length ln m, of the friction angle [rad]; what is not named stays.
+
+    Raises
+    ------
+    ModelError
+        If there is no such net.
     """
     scene, net = row.scene, _require_net(row)
     ground = scene.ground
@@ -108,7 +118,7 @@ def vary_row(row: WinterRow, values: Mapping[str, float]) -> WinterRow:
 
 
 def vary_day(day: RowDay, row: WinterRow, values: Mapping[str, float]) -> RowDay:
-    """Day with its snow scaled, eq. (Y20): no layers are joined anew.
+    """Day with its snow scaled, eq. (Y8): no layers are joined anew.
 
     Parameters
     ----------
@@ -117,7 +127,7 @@ def vary_day(day: RowDay, row: WinterRow, values: Mapping[str, float]) -> RowDay
     row : WinterRow
         That row.
     values : mapping of str to float
-        In the units of the fit.
+        Logarithms of the factors [-].
     """
     height = values.get("height_factor", math.log(row.height_factor))
     taller = math.exp(height) / row.height_factor
@@ -145,7 +155,7 @@ def show_value(name: str, value: float) -> float:
     name : str
         Of the parameter.
     value : float
-        In the unit of the fit.
+        As fitted [-], of slip length ln m, of the friction angle [rad].
     """
     return math.exp(value) if name in LOGARITHMIC else value
 

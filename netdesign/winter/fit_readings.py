@@ -107,7 +107,7 @@ def choose_readings(
 def build_covariance(
     readings: Sequence[FitReading], noise: Noise, spacing: float
 ) -> Floats:
-    """Covariance of the logarithms of readings, eq. (Y21), (n_readings, n_readings).
+    """Covariance of the logarithms of readings, eq. (Y9), (n_readings, n_readings).
 
     Parameters
     ----------

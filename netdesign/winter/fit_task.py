@@ -1,4 +1,4 @@
-"""Which winter of a row is fitted, on which days, and for which cases."""
+"""Task of a fit: the winter of a row, its days, its cases."""
 
 from __future__ import annotations
 

@@ -25,18 +25,18 @@ Response = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
-    """Quantity that a fit may change, in the unit it is fitted in.
+    """Quantity that a fit may change; units are those of the model.
 
     Attributes
     ----------
     name : str
         Of the quantity.
     mean, deviation : float
-        Of the prior; the deviation is above 0.
+        Of the prior [unit of the model]; the deviation is above 0.
     low, high : float
-        Ends that physics sets, whatever the prior.
+        Ends that physics sets, whatever the prior [unit of the model].
     step : float
-        Difference by which the slopes are taken, above 0.
+        Difference by which the slopes are taken, above 0 [unit of the model].
     """
 
     name: str
@@ -53,12 +53,24 @@ class Parameter:
         return max(self.low, self.mean - reach), min(self.high, self.mean + reach)
 
     def is_far(self, value: float) -> bool:
-        """A value stands at the end of the prior's reach."""
+        """A value stands at the end of the prior's reach.
+
+        Parameters
+        ----------
+        value : float
+            [unit of the model].
+        """
         reach = FAR * self.deviation
         return abs(value - self.mean) >= reach * (1.0 - 1e-9)
 
     def is_at_end(self, value: float) -> bool:
-        """A value stands at one of its ends: its deviation tells of one side only."""
+        """A value stands at one of its ends: its deviation tells of one side only.
+
+        Parameters
+        ----------
+        value : float
+            [unit of the model].
+        """
         low, high = self.ends
         return min(value - low, high - value) <= 1e-9 * self.deviation
 
@@ -109,6 +121,17 @@ class Fit:
     rounds: int
     is_settled: bool
 
+    @property
+    def deviations(self) -> Floats:
+        """Standard deviation of each parameter after the fit, (n_parameters,)."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
+
+    @property
+    def correlations(self) -> Floats:
+        """Correlation of each with each, (n_parameters, n_parameters) [-]."""
+        left = self.deviations
+        return np.asarray(self.covariance / np.outer(left, left))
+
 
 def fit_gauss_newton(
     respond: Response,
@@ -116,7 +139,7 @@ def fit_gauss_newton(
     noise: Floats,
     parameters: Sequence[Parameter],
 ) -> Fit:
-    """Posterior of the parameters, eqs (Y22) to (Y24).
+    """Posterior of the parameters, eqs (Y10) to (Y12).
 
     Parameters
     ----------
@@ -178,16 +201,34 @@ def differentiate(
         There.
     parameters : sequence of Parameter
         Their steps and ends; no difference goes beyond an end.
+
+    Returns
+    -------
+    State
+        With NaN where the model has no answer on either side.
     """
     slopes = np.full((response.size, values.size), np.nan)
     if np.isfinite(response).all():
         for k, parameter in enumerate(parameters):
-            fits = values[k] + parameter.step <= parameter.ends[1]
-            step = parameter.step if fits else -parameter.step
-            moved = values.copy()
-            moved[k] += step
-            slopes[:, k] = (respond(moved) - response) / step
+            slopes[:, k] = _find_slope(respond, values, response, k, parameter)
     return State(values=values, response=response, slopes=slopes)
+
+
+def _find_slope(
+    respond: Response, values: Floats, response: Floats, k: int, parameter: Parameter
+) -> Floats:
+    """Difference upwards; downwards where that leaves the ends or has no answer."""
+    low, high = parameter.ends
+    slope = np.full(response.size, np.nan)
+    for step in (parameter.step, -parameter.step):
+        if not low <= values[k] + step <= high:
+            continue
+        moved = values.copy()
+        moved[k] += step
+        slope = (respond(moved) - response) / step
+        if np.isfinite(slope).all():
+            break
+    return slope
 
 
 class _Problem:
@@ -202,7 +243,7 @@ class _Problem:
         self.means: Floats = np.array([one.mean for one in parameters])
 
     def measure(self, values: Floats, response: Floats) -> float:
-        """Objective (Y22) [-]; NaN where the model has no answer."""
+        """Objective (Y10) [-]; NaN where the model has no answer."""
         misfit = self._measured - response[: self._measured.size]
         away = values - self.means
         return float(
@@ -210,7 +251,7 @@ class _Problem:
         )
 
     def find_step(self, state: State) -> Floats:
-        """Step of (Y23) from a state, inside the ends of all parameters."""
+        """Step of (Y11) from a state, inside the ends of all parameters."""
         n = self._measured.size
         misfit = self._measured - state.response[:n]
         pull = state.slopes[:n].T @ self._weights @ misfit
@@ -224,7 +265,7 @@ class _Problem:
         return float(0.5 * step @ self._find_curvature(state) @ step)
 
     def find_covariance(self, state: State) -> Floats:
-        """Covariance (Y24) at a state; NaN where that is not known."""
+        """Covariance (Y12) at a state; NaN where that is not known."""
         if not state.is_known:
             return np.full((self.means.size, self.means.size), np.nan)
         return np.asarray(np.linalg.inv(self._find_curvature(state)))
@@ -252,7 +293,7 @@ def _walk(
 def _step_inside(
     curvature: Floats, pull: Floats, values: Floats, parameters: Sequence[Parameter]
 ) -> Floats:
-    """Step of (Y23); what would leave its ends stops there, the others follow.
+    """Step of (Y11); what would leave its ends stops there, the others follow.
 
     No parameter moves by more than one deviation of its prior.
     """

@@ -22,7 +22,7 @@ _DECIMALS = {"slip_length": 1, "friction_angle": 1, "slack": 4}  # else 3
 def view_fit(
     fit: Mapping[str, Any] | None, density: float, words: Words
 ) -> dict[str, Any] | None:
-    """What the template shows of a fit; None without one.
+    """Tables and sentences of a fit for the template; None without one.
 
     Parameters
     ----------
@@ -59,6 +59,7 @@ def view_fit(
             "fit_page.parameters_note", share=fit["unconstrained_above"]
         ),
         "known": _tell_known(fit, words),
+        "left_out": _tell_left_out(fit, words),
         "correlations": _tabulate_correlations(fit, words),
         "residuals": _tabulate_residuals(fit["residuals"], words),
         "svg": mark_safe(draw_residuals(fit["residuals"], words)),
@@ -131,6 +132,11 @@ def _tell_worth(one: Mapping[str, Any], outcome: str, words: Words) -> str:
 def _tell_known(fit: Mapping[str, Any], words: Words) -> str:
     named = tuple(words(f"fit_parameter.{one}") for one in fit["known"])
     return words("fit_page.known", names=named) if named else ""
+
+
+def _tell_left_out(fit: Mapping[str, Any], words: Words) -> str:
+    days = tuple(fit["days_left_out"])
+    return words("fit_page.left_out", days=days) if days else ""
 
 
 def _tabulate_correlations(fit: Mapping[str, Any], words: Words) -> Table:
