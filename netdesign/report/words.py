@@ -24,6 +24,8 @@ from netdesign.words.names import name_check, name_member
 from netdesign.words.numerals import set_marks
 
 MISSING = "-"
+_FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
+_SAME = 1e-12  # relative; a typed number after its way through SI units
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,7 @@ class Words:
             return MISSING
         quantity = QUANTITIES[key]
         if quantity.decimals is None:
-            return self.show_given(value)
+            return self.show_given(round(value, quantity.most))
         kind = "e" if quantity.scientific else "f"
         shown = f"{value:.{quantity.decimals}{kind}}"
         if not float(shown):
@@ -81,18 +83,28 @@ class Words:
         return MISSING if value is None else self.write(f"{value:.{decimals}f}")
 
     def show_given(self, value: float) -> str:
-        """Value that somebody typed: up to six significant digits, none added.
+        """Value that somebody typed, as it is; one that has more digits, with five.
 
         Examples
         --------
         >>> ENGLISH.show_given(30.000000000000004), Words("de").show_given(366.8)
         ('30', '366,8')
+        >>> ENGLISH.show_given(22.03125), ENGLISH.show_given(12345678.9)
+        ('22.031', '12345679')
         """
-        return self.write(f"{value:.6g}") if math.isfinite(value) else MISSING
+        if not math.isfinite(value):
+            return MISSING
+        shown = f"{value:.6g}"
+        if not math.isclose(float(shown), value, rel_tol=_SAME):
+            shown = _round_figures(value)
+        return self.write(shown)
 
     def show_digits(self, value: float | None) -> str:
         """Number to five significant digits: enough to redo what follows from it."""
-        return MISSING if value is None else self.write(f"{value:.5g}")
+        if value is None:
+            return MISSING
+        is_long = math.isfinite(value) and abs(value) >= 1e5
+        return self.write(f"{value:.0f}" if is_long else f"{value:.5g}")
 
     def show_share(self, value: float | None) -> str:
         """Pure number of any size: ``3.8e-16``, ``1.08``."""
@@ -137,7 +149,7 @@ class Words:
         """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
         if case is None:
             return MISSING
-        return " / ".join(self.show_given(number) for number in case.values.values())
+        return " / ".join(self.show_number(*one) for one in case.values.items())
 
     def _name_values(self, values: Sequence[tuple[str, float]]) -> list[str]:
         return [
@@ -196,6 +208,15 @@ def show_text(text: str) -> str:
     No-break spaces stay: French sets them before some marks.
     """
     return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
+
+
+def _round_figures(value: float) -> str:
+    """Computed number as an engineer writes it: five figures, no zeros behind them."""
+    if abs(value) < 1e-4:
+        return f"{value:.{_FIGURES}g}"
+    places = max(0, _FIGURES - 1 - math.floor(math.log10(abs(value))))
+    shown = f"{value:.{places}f}"
+    return shown.rstrip("0").rstrip(".") if places else shown
 
 
 def show_unit(unit: str) -> str:

@@ -143,7 +143,7 @@ def _list_bounds(record: EnvelopeRecord | None) -> list[BoundRecord]:
 
 
 def _name_case(case: dict[str, float], words: Words) -> str:
-    return words.join(words.show_digits(value) for value in case.values())
+    return words.join(words.show_number(*one) for one in case.items())
 
 
 def _list_flips(
@@ -152,7 +152,7 @@ def _list_flips(
     """Critical values of a quantity: ``312.4 (Foot anchor, tendon)``."""
     told = [
         (
-            words.show_number(key, float(f"{flip.value:.4g}")),
+            words.show_number(key, flip.value),
             names.get(flip.check, flip.check),
         )
         for flip in bound.flips

@@ -1,4 +1,4 @@
-"""Figures of a row's checks, to five or six digits: what a reader redoes them from.
+"""Figures of a row's checks, to five digits: what a reader redoes them from.
 
 Headings are symbols; the page's table of formulas says what they mean.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 from netdesign.report.view.table import (
     Cell,
     Table,
-    digits_cell,
     name_columns,
     short_cell,
     symbol_columns,
@@ -77,7 +76,7 @@ def build_widths(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(named),
-                *(digits_cell(words, getattr(action, key)) for key, _ in _WIDTHS),
+                *(short_cell(words, getattr(action, key)) for key, _ in _WIDTHS),
             )
             for named, action in found.items()
         ),
@@ -249,7 +248,7 @@ def build_resistances(row: RowStudy, words: Words) -> Table:
                 text_cell(words.show(name("basis", check.resistance_basis))),
                 text_cell(check.resistance_cell),
                 text_cell(_tell_derivation(check, words)),
-                digits_cell(words, check.resistance_characteristic_kN),
+                short_cell(words, check.resistance_characteristic_kN),
             )
             for number, (_, check) in enumerate(_list_given(row), 1)
         ),
@@ -282,8 +281,8 @@ def build_tests(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(str(number)),
                 text_cell(check.resistance_type),
-                *(digits_cell(words, _read_number(told.get(key))) for key, _ in _TESTS),
-                digits_cell(words, check.resistance_characteristic_kN),
+                *(short_cell(words, _read_number(told.get(key))) for key, _ in _TESTS),
+                short_cell(words, check.resistance_characteristic_kN),
             )
             for number, check, told in tested
         ),

@@ -140,7 +140,7 @@ def build_guideline(row: RowStudy, words: Words) -> Table:
         return Table(caption=caption, columns=columns, rows=(), empty=empty)
     solved = (
         text_cell(words("show.coupled_solve", case=words.name_case(record.case))),
-        given_cell(words, record.case.density_kg_m3),
+        number_cell(words, "density_kg_m3", record.case.density_kg_m3),
         *(
             number_cell(
                 words,

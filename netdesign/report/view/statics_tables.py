@@ -1,4 +1,4 @@
-"""Figures of the statics: pulls and points that forces follow from, to six digits.
+"""Figures of the statics: pulls and points that forces follow from, to five digits.
 
 Headings are symbols; the page's table of formulas says what they mean.
 """
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from netdesign.report.view.table import (
     Table,
-    digits_cell,
     name_columns,
+    short_cell,
     symbol_columns,
     text_cell,
     text_column,
@@ -125,7 +125,7 @@ def _list_states(
                     words.join(_name_brought(key, words) for key in state.brings)
                 ),
                 text_cell(_name_state(state, words)),
-                *(digits_cell(words, _read_state(state, key)) for key, _ in fields),
+                *(short_cell(words, _read_state(state, key)) for key, _ in fields),
             )
             for state in states
         ),
@@ -154,7 +154,7 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
     """Numbers that the load along the row follows from."""
     held = row.held_sideways
     cells = (
-        [digits_cell(words, getattr(held, key)) for key, _ in _SIDEWAYS] if held else []
+        [short_cell(words, getattr(held, key)) for key, _ in _SIDEWAYS] if held else []
     )
     return Table(
         caption=words("caption.held_sideways"),
@@ -165,7 +165,7 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
 
 
 def build_turns(row: RowStudy, words: Words) -> Table:
-    """Directions of the pulls and their angles to the axes, to six digits."""
+    """Directions of the pulls and their angles to the axes, to five digits."""
     further = ("δ [°]", "δ' [°]")
     return Table(
         caption=words("caption.turns"),
@@ -179,9 +179,9 @@ def build_turns(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, pull.anchor)),
                 text_cell(show_position(words, pull.position)),
-                *(digits_cell(words, getattr(pull, key)) for key, _ in _PULL_RANGE),
-                digits_cell(words, _measure_turn(pull)),
-                digits_cell(words, pull.angle_deg),
+                *(short_cell(words, getattr(pull, key)) for key, _ in _PULL_RANGE),
+                short_cell(words, _measure_turn(pull)),
+                short_cell(words, pull.angle_deg),
             )
             for pull in row.pulls
         ),

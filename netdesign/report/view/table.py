@@ -90,11 +90,6 @@ def given_cell(words: Words, value: float | str) -> Cell:
     return Cell(text=words.show_given(value), number=value)
 
 
-def digits_cell(words: Words, value: float | None) -> Cell:
-    """Number to six digits; "-" for none."""
-    return text_cell(MISSING) if value is None else given_cell(words, value)
-
-
 def short_cell(words: Words, value: float | None) -> Cell:
-    """Number to five digits, in tables of many columns."""
+    """Number to five digits, enough to redo what follows from it; "-" for none."""
     return Cell(text=words.show_digits(value), number=value)

@@ -55,7 +55,7 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
 
 
 def _case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
-    return tuple(given_cell(words, value) for value in case.values.values())
+    return tuple(number_cell(words, *one) for one in case.values.items())
 
 
 def build_extremes(row: RowStudy, words: Words) -> Table:

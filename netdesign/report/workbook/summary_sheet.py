@@ -25,7 +25,7 @@ _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
 _HELD, _REASONS = 12, 13
 _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
-_CASE_DECIMALS = 2
+_CASE_DECIMALS = 1
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
