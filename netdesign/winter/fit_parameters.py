@@ -135,16 +135,21 @@ def vary_day(day: RowDay, row: WinterRow, values: Mapping[str, float]) -> RowDay
     return replace(
         day,
         thickness=day.thickness * taller,
-        density=max(LEAST_DENSITY, day.density * denser),
+        density=_scale_density(day.density, denser),
         layers=tuple(
             replace(
                 layer,
                 thickness=layer.thickness * taller,
-                density=max(LEAST_DENSITY, layer.density * denser),
+                density=_scale_density(layer.density, denser),
             )
             for layer in day.layers
         ),
     )
+
+
+def _scale_density(density: float, factor: float) -> float:
+    """Density no fit makes lighter than the law knows; what was lighter stays so."""
+    return max(min(density, LEAST_DENSITY), density * factor)
 
 
 def show_value(name: str, value: float) -> float:
