@@ -53,12 +53,18 @@ def choose_fit(
     }
     winter = max(readings, key=lambda name: len(readings[name]), default="")
     packs = winters.get(winter, {})
-    governing = _find_governing(result, winter)
+    governing, is_uniform = _find_governing(result, winter)
+    taken = readings.get(winter, ())
+    if is_uniform:  # its layers failed: no reading is held against uniform snow
+        taken = tuple(one for one in taken if one.index != governing)
+    days = _prepare(taken, governing, packs, solver)
+    if is_uniform and governing is not None:
+        days[governing] = replace(days[governing], layers=())
     return FitTask(
         winter=winter,
         solver=replace(solver, settings=FIT_SETTINGS),
-        days=_prepare(readings.get(winter, ()), governing, packs, solver),
-        readings=readings.get(winter, ()),
+        days=days,
+        readings=taken,
         noise=noise,
         known=frozenset(known),
         governing=governing,
@@ -85,12 +91,13 @@ def _prepare(
     return {day.index: day for day in days}
 
 
-def _find_governing(result: RowWinters, winter: str) -> int | None:
+def _find_governing(result: RowWinters, winter: str) -> tuple[int | None, bool]:
+    """Place of the governing day, and whether it was solved as uniform snow."""
     for season in result.seasons:
         if season.name == winter and season.governing is not None:
-            return season.governing.index
+            return season.governing.index, not season.governing.layers
     maxima = [one.index for one in result.maxima if one.winter == winter]
-    return maxima[0] if maxima else None
+    return maxima[0] if maxima else None, True
 
 
 def _build_design(solver: DaySolver, density: float | None) -> RowDay | None:
