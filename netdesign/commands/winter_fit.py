@@ -38,15 +38,15 @@ class FitChoice:
     ----------
     noise, cell_error : float
         Relative [-].
-    rope_force : float
-        [kN/m].
+    rope_kelvin : float
+        [K].
     known : tuple of str
         Keys of ``_PARAMETERS``.
     """
 
     noise: float
     cell_error: float
-    rope_force: float
+    rope_kelvin: float
     known: tuple[str, ...]
 
 
@@ -55,7 +55,7 @@ def fit_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(command)
     def packed(*arguments: Any, is_fitted: bool, **given: Any) -> Any:
-        names = ("noise", "cell_error", "rope_force", "known")
+        names = ("noise", "cell_error", "rope_kelvin", "known")
         choice = FitChoice(**{name: given.pop(name) for name in names})
         return command(*arguments, fit=choice if is_fitted else None, **given)
 
@@ -67,12 +67,11 @@ def fit_options(command: Callable[..., Any]) -> Callable[..., Any]:
             help="Surveyed: not fitted.",
         ),
         click.option(
-            "--rope-force",
-            type=click.FloatRange(0.0, 20.0),
-            default=1.5,
+            "--rope-kelvin",
+            type=click.FloatRange(0.0, 30.0),
+            default=5.0,
             show_default=True,
-            metavar="KN/M",
-            help="Noise by the day's rope temperature.",
+            help="Amplitude of the ropes' daily wave [K]: noise.",
         ),
         click.option(
             "--cell-error",
@@ -113,16 +112,13 @@ def require_measured_forces(site: Site) -> None:
 def fit_rows(run: WinterRun, choice: FitChoice, runner: Runner) -> dict[str, SeasonFit]:
     """Fit of each row with measured forces, by its id."""
     from netdesign.study.measured_pulls import list_measured_pulls
-    from netdesign.units import newton_from_kilonewton
     from netdesign.winter.day import DaySolver
     from netdesign.winter.fit import FIT_SETTINGS, fit_season
     from netdesign.winter.fit_readings import Noise
     from netdesign.winter.fit_task import choose_fit
 
     stated = Noise(
-        reading=choice.noise,
-        cell=choice.cell_error,
-        rope=newton_from_kilonewton(choice.rope_force),
+        reading=choice.noise, cell=choice.cell_error, rope=choice.rope_kelvin
     )
     fits = {}
     for row, result in zip(run.rows, run.results, strict=True):

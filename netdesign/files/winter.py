@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from netdesign.checks.result import Band
+from netdesign.files.measured import write_measured
 from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
@@ -15,6 +16,7 @@ from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
 )
+from netdesign.winter.compared import Comparison
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.fit import SeasonFit
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
@@ -43,6 +45,8 @@ class WinterRun:
         Of each row.
     packs : StationPacks
         Snow of the station, from which they come.
+    compared : sequence of sequence of Comparison
+        Measured forces of each row beside its curves.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -58,6 +62,7 @@ class WinterRun:
     rows: Sequence[WinterRow]
     results: Sequence[RowWinters]
     packs: StationPacks
+    compared: Sequence[Sequence[Comparison]]
     is_smoothed: bool
     accuracy: float
     step: int
@@ -97,7 +102,10 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "air_temperatures_C": _write_temperatures(station),
         "rows": [
             _write_row(row, result, run, language)
-            for row, result in zip(run.rows, run.results, strict=True)
+            | write_measured(run.site, row.id, compared, station.series, language)
+            for row, result, compared in zip(
+                run.rows, run.results, run.compared, strict=True
+            )
         ],
     }
 

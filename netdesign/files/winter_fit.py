@@ -50,7 +50,7 @@ def write_fit(
         "noise": {
             "reading": noise.reading,
             "cell": noise.cell,
-            "rope_kN_per_m": kilonewton_from_newton(noise.rope),
+            "rope_K": noise.rope,
         },
         "rms": _known(fitted.rms),
         "misfit": _known(fitted.misfit),

@@ -1,6 +1,6 @@
 """Fit of a row to the forces measured in a season, and what it is good for.
 
-Theory: winter/THEORY.md, section 6.
+Theory: winter/THEORY.md, section 7.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.errors import ModelError
 from netdesign.numerics.arrays import Floats
 from netdesign.structure.members import Member
-from netdesign.winter.day import DaySolver, RowDay, WinterRow
+from netdesign.winter.day import DaySolver, RowDay, WinterRow, build_day_scene
 from netdesign.winter.fit_parameters import list_parameters, vary_day, vary_row
 from netdesign.winter.fit_readings import (
     LEAST_DAYS,
@@ -26,6 +26,7 @@ from netdesign.winter.fit_readings import (
     build_covariance,
 )
 from netdesign.winter.gauss_newton import Fit, Parameter, fit_gauss_newton
+from netdesign.winter.rope_temperature import find_swing
 
 # The same three meshes for every state: their error of some 0.4 % is in all of them,
 # and differences are smooth.
@@ -97,7 +98,7 @@ class SeasonFit:
     rms : float
         Of the logarithm of measured over computed [-]; NaN where nothing was computed.
     misfit : float
-        The same over the noise, eq. (Y13) [-]; NaN likewise.
+        The same over the noise, eq. (Y15) [-]; NaN likewise.
     governing : int or None
         Place of the governing day.
     forces : tuple of ForceBand
@@ -188,15 +189,29 @@ def fit_season(task: FitTask) -> SeasonFit:
     )
     if len({one.index for one in task.readings}) < LEAST_DAYS:
         return begun
-    layout = task.row.layout
-    spacing = layout.post_spacing if layout else 1.0
-    noise = build_covariance(task.readings, task.noise, spacing)
+    noise = build_covariance(task.readings, task.noise, list_swings(task))
     measured = np.log([one.force for one in task.readings])
     thickest = max(day.thickness for day in task.days.values())
     parameters = list_parameters(task.row, task.known, thickest)
     responder = _Responder(task, parameters, targets)
     fit = fit_gauss_newton(responder, measured, noise, parameters)
     return _judge(begun, fit, parameters, measured, noise, targets)
+
+
+def list_swings(task: FitTask) -> dict[int, float]:
+    """Swing of a support's force by the day's rope temperature [N], eq. (Y9), by day.
+
+    Parameters
+    ----------
+    task : FitTask
+        Row as designed, its days.
+    """
+    layout = task.row.layout
+    width = layout.post_spacing if layout else 1.0
+    return {
+        index: width * find_swing(build_day_scene(task.row.scene, day), task.noise.rope)
+        for index, day in task.days.items()
+    }
 
 
 class _Responder:
@@ -321,7 +336,7 @@ def _judge(
 def _bound(
     fit: Fit, place: int, case: ForceCase, member: Member, ended: SeasonFit
 ) -> ForceBand:
-    """Band of one target before and after, eq. (Y14)."""
+    """Band of one target before and after, eq. (Y16)."""
     variances = np.diag([one.deviation**2 for one in ended.parameters])
     slopes = fit.prior.slopes[place]
     before = math.sqrt(slopes @ variances @ slopes)

@@ -1,6 +1,6 @@
 """Parameters of a fit: what it may change of a row and its snow, with priors.
 
-Theory: winter/THEORY.md, section 6.
+Theory: winter/THEORY.md, section 7.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def vary_row(row: WinterRow, values: Mapping[str, float]) -> WinterRow:
 
 
 def vary_day(day: RowDay, row: WinterRow, values: Mapping[str, float]) -> RowDay:
-    """Day with its snow scaled, eq. (Y8): no layers are joined anew.
+    """Day with its snow scaled, eq. (Y10): no layers are joined anew.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 """Readings that a fit takes of a season, and how uncertain they are.
 
-Theory: winter/THEORY.md, section 6.
+Theory: winter/THEORY.md, section 7.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,7 @@ from netdesign.numerics.arrays import Floats
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.day import RowDay
 from netdesign.winter.measured import MeasuredPulls
+from netdesign.winter.rope_temperature import ASSUMED_AMPLITUDE
 
 DAYS_APART = 5  # readings of neighbouring days are one another's copies: one in so many
 MOST_DAYS = 17
@@ -36,12 +37,12 @@ class Noise:
     cell : float
         Of all readings of one member in common, over the force: its load cell [-].
     rope : float
-        By the day's rope temperature, per metre of net [N/m].
+        Amplitude of the day's wave of rope temperature [K].
     """
 
     reading: float = 0.05
     cell: float = 0.05
-    rope: float = 1500.0
+    rope: float = ASSUMED_AMPLITUDE
 
     def __post_init__(self) -> None:
         """Refuse noise that no load cell has, and none at all.
@@ -54,7 +55,7 @@ class Noise:
         require_positive("noise of a reading", self.reading)
         require_within("noise of a reading", self.reading, 1e-6, 0.5)
         require_within("common error of a cell", self.cell, 0.0, 0.5)
-        require_within("force by rope temperature", self.rope, 0.0, 2e4, "N/m")
+        require_within("wave of rope temperature", self.rope, 0.0, 30.0, "K")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,9 +106,9 @@ def choose_readings(
 
 
 def build_covariance(
-    readings: Sequence[FitReading], noise: Noise, spacing: float
+    readings: Sequence[FitReading], noise: Noise, swings: Mapping[int, float]
 ) -> Floats:
-    """Covariance of the logarithms of readings, eq. (Y9), (n_readings, n_readings).
+    """Covariance of the logarithms of readings, eq. (Y11), (n_readings, n_readings).
 
     Parameters
     ----------
@@ -115,12 +116,13 @@ def build_covariance(
         At least one.
     noise : Noise
         Its parts.
-    spacing : float
-        Width of net that one support carries [m].
+    swings : mapping of int to float
+        Swing of a support's force by the day's rope temperature [N], by day.
     """
     forces = np.array([one.force for one in readings])
     members = np.array([one.member for one in readings])
-    alone = noise.reading**2 + (noise.rope * spacing / forces) ** 2
+    swing = np.array([swings[one.index] for one in readings])
+    alone = noise.reading**2 + (swing / forces) ** 2 / 2.0  # of a wave, at any hour
     is_same = members[:, None] == members[None, :]
     return np.asarray(np.diag(alone) + noise.cell**2 * is_same)
 

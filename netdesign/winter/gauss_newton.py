@@ -1,6 +1,6 @@
 """Gauss-Newton with priors: parameters of any model from what was measured.
 
-Theory: winter/THEORY.md, section 6.
+Theory: winter/THEORY.md, section 7.
 """
 
 from __future__ import annotations
@@ -139,7 +139,7 @@ def fit_gauss_newton(
     noise: Floats,
     parameters: Sequence[Parameter],
 ) -> Fit:
-    """Posterior of the parameters, eqs (Y10) to (Y12).
+    """Posterior of the parameters, eqs (Y12) to (Y14).
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ class _Problem:
         self.means: Floats = np.array([one.mean for one in parameters])
 
     def measure(self, values: Floats, response: Floats) -> float:
-        """Objective (Y10) [-]; NaN where the model has no answer."""
+        """Objective (Y12) [-]; NaN where the model has no answer."""
         misfit = self._measured - response[: self._measured.size]
         away = values - self.means
         return float(
@@ -251,7 +251,7 @@ class _Problem:
         )
 
     def find_step(self, state: State) -> Floats:
-        """Step of (Y11) from a state, inside the ends of all parameters."""
+        """Step of (Y13) from a state, inside the ends of all parameters."""
         n = self._measured.size
         misfit = self._measured - state.response[:n]
         pull = state.slopes[:n].T @ self._weights @ misfit
@@ -265,7 +265,7 @@ class _Problem:
         return float(0.5 * step @ self._find_curvature(state) @ step)
 
     def find_covariance(self, state: State) -> Floats:
-        """Covariance (Y12) at a state; NaN where that is not known."""
+        """Covariance (Y14) at a state; NaN where that is not known."""
         if not state.is_known:
             return np.full((self.means.size, self.means.size), np.nan)
         return np.asarray(np.linalg.inv(self._find_curvature(state)))
@@ -293,7 +293,7 @@ def _walk(
 def _step_inside(
     curvature: Floats, pull: Floats, values: Floats, parameters: Sequence[Parameter]
 ) -> Floats:
-    """Step of (Y11); what would leave its ends stops there, the others follow.
+    """Step of (Y13); what would leave its ends stops there, the others follow.
 
     No parameter moves by more than one deviation of its prior.
     """

@@ -11,7 +11,7 @@ from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.structure.layout import SupportLayout
 from netdesign.winter.day import DaySolver
-from netdesign.winter.fit import FitTask, fit_season
+from netdesign.winter.fit import FitTask, fit_season, list_swings
 from netdesign.winter.fit_parameters import (
     PARAMETER_NAMES,
     PRIOR_DEVIATIONS,
@@ -178,7 +178,7 @@ def fit_seeds(task, places, count):
         rng = np.random.default_rng(7000 + seed)
         forces = solve_truth(task, draw_truth(task, rng))
         exact = read_forces(task, forces, places)
-        noise = build_covariance(exact.readings, task.noise, LAYOUT.post_spacing)
+        noise = build_covariance(exact.readings, task.noise, list_swings(task))
         errors = rng.multivariate_normal(np.zeros(len(exact.readings)), noise)
         fitted = fit_season(read_forces(task, forces, places, errors))
         yield fitted, forces[GOVERNING]

@@ -129,7 +129,7 @@ def test_a_wrong_cell_is_refused(replaced):
     """One cell of two shows half the force: no parameter has that."""
     forces = solve_truth(replaced, {})
     halved = {k: one | {"post": one["post"] / 2.1} for k, one in forces.items()}
-    quiet = replace(replaced, noise=Noise(reading=0.03, cell=0.02, rope=300.0))
+    quiet = replace(replaced, noise=Noise(reading=0.03, cell=0.02, rope=2.0))
     fitted = fit_season(read_forces(quiet, halved, SPRING))
     assert fitted.ending in ("misfit", "far")
     assert all(one.after is None for one in fitted.forces)

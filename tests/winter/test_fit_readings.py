@@ -90,13 +90,14 @@ def test_covariance_has_three_parts():
         FitReading(index=5, member="foot_anchor", force=7.7e4),
         FitReading(index=5, member="post", force=3.3e4),
     ]
-    noise = Noise(reading=0.03, cell=0.07, rope=1300.0)
-    found = build_covariance(readings, noise, 3.7)
+    noise = Noise(reading=0.03, cell=0.07, rope=4.0)
+    swings = {0: 4.1e3, 5: 5.3e3}
+    found = build_covariance(readings, noise, swings)
     assert found[0, 1] == pytest.approx(0.07**2)
     assert found[1, 2] == 0.0
-    ropes = [1300.0 * 3.7 / force for force in (4.1e4, 7.7e4, 3.3e4)]
+    ropes = [0.1, 5.3e3 / 7.7e4, 5.3e3 / 3.3e4]
     assert np.diag(found) == pytest.approx(
-        [0.03**2 + 0.07**2 + rope**2 for rope in ropes]
+        [0.03**2 + 0.07**2 + rope**2 / 2 for rope in ropes]
     )
 
 
@@ -106,9 +107,9 @@ def test_covariance_has_three_parts():
         ({"reading": 0.0}, "noise of a reading"),
         ({"reading": 0.51}, "noise of a reading"),
         ({"reading": float("nan")}, "noise of a reading"),
-        ({"cell": -0.01}, "common error of a load cell"),
-        ({"cell": 0.51}, "common error of a load cell"),
-        ({"rope": 2.01e4}, "force by rope temperature"),
+        ({"cell": -0.01}, "common error of a cell"),
+        ({"cell": 0.51}, "common error of a cell"),
+        ({"rope": 30.1}, "wave of rope temperature"),
     ],
 )
 def test_noise_that_no_cell_has_is_refused(changes, told):

@@ -46,7 +46,7 @@ def view_fit(
             "fit_page.noise",
             reading=noise["reading"],
             cell=noise["cell"],
-            rope=noise["rope_kN_per_m"],
+            rope=noise["rope_K"],
         ),
         "forces": _tabulate_forces(fit["forces"], words),
         "forces_note": (
