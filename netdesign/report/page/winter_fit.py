@@ -146,10 +146,15 @@ def _tabulate_correlations(fit: Mapping[str, Any], words: Words) -> Table:
         caption=words("fit_page.correlations_caption"),
         columns=name_columns(headings, numbers=names),
         rows=tuple(
-            (text_cell(name), *(fixed_cell(words, one, 2) for one in line))
+            (text_cell(name), *(fixed_cell(words, _unsigned(one), 2) for one in line))
             for name, line in zip(names, fit["correlations"], strict=False)
         ),
     )
+
+
+def _unsigned(value: float) -> float:
+    """Correlation without the sign of one that is shown as 0."""
+    return round(value, 2) or 0.0
 
 
 def _tabulate_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> Table:
