@@ -1,4 +1,4 @@
-"""What-if: cells of a workbook that are read as if something else were typed there."""
+"""Cells of a workbook that are read as if something else were typed there."""
 
 from __future__ import annotations
 
@@ -121,5 +121,5 @@ def tell_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
 
 
 def tell_instead(was: str) -> Message:
-    """What a cell of the workbook holds that a what-if replaced."""
+    """Text that a cell of the workbook holds, which a what-if replaced."""
     return say("what_if.instead", was=was) if was else say("what_if.instead_of_nothing")

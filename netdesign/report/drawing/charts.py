@@ -222,7 +222,7 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
         ha="right",
         va="top",
         color="#596069",
-        fontsize=TEXT_PT - 0.6,
+        fontsize=TEXT_PT,
     )
 
 

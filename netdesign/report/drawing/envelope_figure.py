@@ -6,10 +6,16 @@ from collections.abc import Iterable, Sequence
 
 from netdesign.outcome import Outcome
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.tables import list_loaded
-from netdesign.report.words import ENGLISH, Words, name_heading
+from netdesign.report.words import (
+    ENGLISH,
+    Words,
+    name_heading,
+    show_member,
+)
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.records import RowStudy
 
@@ -56,7 +62,17 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
             if place == len(members) - 1:
                 panel.label_densities()
     height = _LEGEND + len(members) * (_HEAD + _PANEL) + _FOOT
-    return sketch.write(height, words("drawing.envelope"))
+    values = [
+        words(
+            "show.force_of",
+            member=show_member(words, extreme.quantity),
+            force=words.show_with_unit("max_kN", extreme.max_kN),
+        )
+        for extreme in row.extremes
+    ]
+    what = words("drawing.envelope")
+    title = words("drawing.with_values", what=what, values=tuple(values))
+    return sketch.write(height, title)
 
 
 def _thin(values: Iterable[float], keep: Sequence[float], most: int) -> list[float]:
@@ -215,15 +231,20 @@ def draw_marker(sketch: Sketch, at: Point, marker: str, stroke: str) -> None:
 def _draw_legend(
     sketch: Sketch, frictions: Sequence[float], words: Words, *, has_failed: bool
 ) -> None:
-    left, y = _LEFT, 7.0
+    left, y = 6.0, 7.0
     for friction, (shade, dash, marker) in zip(frictions, _LINES, strict=False):
         sketch.line([(left, y), (left + 20.0, y)], stroke=shade, dash=dash)
         draw_marker(sketch, (left + 10.0, y), marker, shade)
         text = f"φ = {words.show_with_unit('friction_deg', friction)}"
-        sketch.words((left + 24.0, y + 2.6), text)
-        left += 66.0
+        left = _write_key(sketch, left + 24.0, y, text)
     sketch.ring(left + 4.0, y, ACCENT)
-    sketch.words((left + 12.0, y + 2.6), words("drawing.governing_case"))
+    left = _write_key(sketch, left + 12.0, y, words("drawing.governing_case"))
     if has_failed:
-        sketch.words((left + 84.0, y + 2.6), "×", fill=ACCENT, bold=True)
-        sketch.words((left + 94.0, y + 2.6), words("drawing.no_result"))
+        sketch.words((left, y + 2.6), "×", fill=ACCENT, bold=True)
+        _write_key(sketch, left + 9.0, y, words("drawing.no_result"))
+
+
+def _write_key(sketch: Sketch, left: float, y: float, text: str) -> float:
+    """Words of the legend; where the next may begin."""
+    sketch.words((left, y + 2.6), text)
+    return left + measure_words(text, TEXT_PT) + 7.0

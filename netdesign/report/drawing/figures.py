@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import re
 from contextlib import AbstractContextManager
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 from netdesign.words.numerals import Language, set_marks
@@ -22,7 +23,7 @@ PALE = "#d3d7dc"
 SNOW = "#f3f5f7"
 ACCENT = "#b23a1e"  # forces and what governs; nothing else
 WIDTH_IN = 6.9  # of the print area of A4
-TEXT_PT = 7.5
+TEXT_PT = 8.0  # not less on paper, where a drawing is 180 mm wide
 
 _STYLE: dict[Any, Any] = {
     "svg.fonttype": "none",
@@ -74,7 +75,7 @@ def write_svg(
     text = re.sub(r"<style[^>]*>.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r' (id|xlink:href)="(#?)', rf' \1="\2{name}-', text)
     text = text.replace("url(#", f"url(#{name}-")
-    return text.replace("<svg ", f'<svg role="img" aria-label="{title}" ', 1)
+    return text.replace("<svg ", f'<svg role="img" aria-label="{escape(title)}" ', 1)
 
 
 def _set_numerals(figure: Figure, language: Language) -> None:

@@ -21,12 +21,31 @@ def draw_monitoring(
     return draw_panels(
         panels,
         place,
-        words("drawing.monitoring"),
+        _describe(panels, words),
         is_log=False,
         panel_in=1.5,
         time_label=words("drawing.days"),
         language=words.language,
     )
+
+
+def _describe(panels: Sequence[Panel], words: Words) -> str:
+    """Words for what the drawing says, with the range of each line."""
+    values = [
+        words(
+            "show.label",
+            label=words("drawing.of_member", member=panel.title, what=line.label),
+            text=words(
+                "show.band",
+                low=words.show_share(min(line.y)),
+                high=words.show_share(max(line.y)),
+            ),
+        )
+        for panel in panels
+        for line in panel.lines
+    ]
+    what = words("drawing.monitoring")
+    return words("drawing.with_values", what=what, values=tuple(values))
 
 
 def describe_monitoring(

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from netdesign.coupling.face import find_face
 from netdesign.coupling.moments import (
     LEAST_STRAIN,
     NODE_DRIFT,
@@ -23,7 +24,6 @@ from netdesign.report.drawing.net_figures import (
     draw_meshes,
     draw_node_forces,
     draw_stick_slip,
-    find_face,
     picture_mesh,
 )
 from netdesign.report.drawing.panel_figure import draw_panel

@@ -26,7 +26,9 @@ def mark_verdict(study: Study, words: Words) -> VerdictWords:
     return replace(
         plain,
         word=words("what_if.verdict", verdict=plain.word),
-        meaning=words("what_if.meaning", meaning=plain.meaning, cells=_list(study)),
+        meaning=words(
+            "what_if.meaning", meaning=plain.meaning, cells=words.join(_list(study))
+        ),
     )
 
 
@@ -43,9 +45,8 @@ def mark_title(study: Study, title: str, words: Words) -> str:
     return " · ".join(one for one in (words("what_if.mark"), title) if one)
 
 
-def _list(study: Study) -> str:
-    told = (_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if)
-    return "; ".join(told)
+def _list(study: Study) -> list[str]:
+    return [_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if]
 
 
 def _tell_cell(cell: str, was: str, now: str) -> str:

@@ -8,7 +8,7 @@ from netdesign.checks import load_standard
 from netdesign.report.page.comparison_page import render_comparison
 from netdesign.report.view.check_view import find_governing
 from netdesign.report.view.comparison import compare_profiles
-from netdesign.report.words import VERDICTS, Words, show_number
+from netdesign.report.words import VERDICTS, Words
 from netdesign.site.model import ReplacedCell
 from netdesign.study.cases import solve_site
 from netdesign.study.judge import judge_site
@@ -49,7 +49,7 @@ def test_every_member_has_its_verdict_utilisation_and_clause(studies, language):
                 worst = find_governing(checks)
                 assert cell.text.startswith(VERDICTS[worst.verdict].symbol)
                 if worst.utilisation is not None:
-                    shown = show_number("utilisation", worst.utilisation)
+                    shown = words.show_number("utilisation", worst.utilisation)
                     assert f" {shown}" in cell.text
                 assert worst.clause == "-" or worst.clause in cell.text
     listed = [cells[0].text for cells in view.rows[0].rows]

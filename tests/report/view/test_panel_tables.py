@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.panel_figure import LEFT, LONGEST, SPAN, draw_panel
 from netdesign.report.page.html import list_sections, render_html
 from netdesign.report.view.demand_steps import describe_load, describe_widths
 from netdesign.report.view.panel_tables import view_panel
@@ -71,7 +71,7 @@ def test_the_page_has_the_panel_in_every_language(study, language):
     page = render_html(study, language)
     assert "row-1-panel" in list_sections(build_view(study, language))
     assert 'id="row-1-panel"' in page
-    assert Words(language)("panel_view.elevation") in page
+    assert Words(language)("panel_view.tensions") in page
     assert "row-1-panel" not in render_html(study, language, "summary")
 
 
@@ -118,10 +118,9 @@ def test_arrows_are_to_one_scale(study):
     tips = [tuple(map(float, one.split()[0].split(","))) for one in heads]
     (left, top), (inner, _) = tips[0], tips[2]
     at_end = panel.drawing.lower_along_kN
-    reach = left - 150.0
-    assert reach == pytest.approx(46.0, abs=0.2)
+    assert left - LEFT == pytest.approx(LONGEST, abs=0.2)
     assert at_end == max(panel.drawing.lower_along_kN, panel.drawing.upper_along_kN)
-    assert inner == pytest.approx(310.0, abs=0.2)
+    assert inner == pytest.approx(LEFT + SPAN, abs=0.2)
     assert (
         f"{math.hypot(at_end, math.hypot(*panel.drawing.foot_kN) / 2):.1f}" in drawing
     )

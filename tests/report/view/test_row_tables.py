@@ -125,7 +125,7 @@ def test_width_close_to_a_threshold_shows_both_widths_and_both_forces():
 
 def test_page_draws_the_polygon_of_the_head():
     page = render_html(build_study(rows=1))
-    assert 'aria-label="Force polygon of the post head"' in page
+    assert 'aria-label="Force polygon of the post head. Net ' in page
     assert "<script" not in page
 
 
