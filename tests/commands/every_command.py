@@ -28,7 +28,6 @@ COMMANDS = {
     "check": "check site.xlsx --out out --accuracy 0.1 --jobs 1 --docx",
     "what if": "check site.xlsx --out b --accuracy 0.1 --jobs 1 --no-excel "
     "--what-if {nets}.L2=9",
-    "report": "report out/study.json --out again",
     "summary": "report out/study.json --out short --detail summary",
     "diff": "diff out/study.json b/what-if-study.json",
     "verify --study": "verify --study out/study.json --site site.xlsx --jobs 1",
