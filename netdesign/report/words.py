@@ -38,6 +38,11 @@ class Words:
         """Text of a key with its gaps filled."""
         return render(Message(key, arguments), self.language)
 
+    @property
+    def semicolon(self) -> str:
+        """Semicolon; French sets it apart."""
+        return self.join(("", "")).rstrip()
+
     def join(self, parts: Iterable[str]) -> str:
         """Parts of one cell, one after the other."""
         return self("text.parts", parts=tuple(parts))
