@@ -14,6 +14,7 @@ from netdesign.commands.check_outputs import plan_outputs, render_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -188,6 +189,8 @@ def check(
     if not as_json:
         print_sized(sized, studies, language)
     report_places([list(files)], language, quiet=quiet or as_json)
+    if not (quiet or as_json):
+        tell_next_steps(studies, str(site_file or "--example"), language, is_sized=size)
     sys.exit(failed or _exit_code(studies))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from netdesign.checks.result import Band
+from netdesign.files.measured import write_measured
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
 from netdesign.units import (
@@ -14,6 +15,7 @@ from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
 )
+from netdesign.winter.compared import Comparison
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
@@ -41,6 +43,8 @@ class WinterRun:
         Of each row.
     packs : StationPacks
         Snow of the station, from which they come.
+    compared : sequence of sequence of Comparison
+        Measured forces of each row beside its curves.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -54,6 +58,7 @@ class WinterRun:
     rows: Sequence[WinterRow]
     results: Sequence[RowWinters]
     packs: StationPacks
+    compared: Sequence[Sequence[Comparison]]
     is_smoothed: bool
     accuracy: float
     step: int
@@ -92,7 +97,10 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "air_temperatures_C": _write_temperatures(station),
         "rows": [
             _write_row(row, result, run, language)
-            for row, result in zip(run.rows, run.results, strict=True)
+            | write_measured(run.site, row.id, compared, station.series, language)
+            for row, result, compared in zip(
+                run.rows, run.results, run.compared, strict=True
+            )
         ],
     }
 

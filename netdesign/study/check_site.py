@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -13,14 +13,13 @@ from netdesign.site.model import NetRow, Site
 from netdesign.solving.runner import Runner
 from netdesign.study.cases import (
     CheckRun,
-    follow_site,
     have_same_forces,
     search_site,
     solve_site,
 )
 from netdesign.study.judge import judge_site
 from netdesign.study.probe import Probe
-from netdesign.study.records import MonitoringRecord, Study
+from netdesign.study.records import Study
 
 
 class Watch(Protocol):
@@ -46,11 +45,10 @@ class _Nobody:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolvedSite:
-    """A site with the solved cases of its rows, and histories beside measurements."""
+    """A site with the solved cases of its rows."""
 
     site: Site
     rows: Sequence[RowGrid | RowEnvelope]
-    measured: Mapping[str, list[MonitoringRecord]]
 
 
 def check_site(
@@ -106,15 +104,10 @@ def solve_rows(
     elif todo:
         found = search_site(part, run, runner, watch.tell_wave)
     by_id = dict(zip((row.id for row in todo), found, strict=True))
-    watch.enter("measured")
-    measured = follow_site(part, run, runner)
     if known is not None:
         old = zip(known.site.rows, known.rows, strict=True)
         by_id = {row.id: solved for row, solved in old} | by_id
-        measured = {**known.measured, **measured}
-    return SolvedSite(
-        site=site, rows=[by_id[row.id] for row in site.rows], measured=measured
-    )
+    return SolvedSite(site=site, rows=[by_id[row.id] for row in site.rows])
 
 
 def _is_new(row: NetRow, site: Site, known: SolvedSite, run: CheckRun) -> bool:
@@ -135,10 +128,9 @@ def judge_solved(
     """Studies of a solved site, one for each profile."""
     watch.enter("checks")
     probe = Probe(run.settings, run.creep_law, runner)
-    site, rows, measured = solved.site, solved.rows, solved.measured
+    site, rows = solved.site, solved.rows
     studies = [
-        judge_site(site, rows, one, run, probe, measured, watch.count_piece)
-        for one in standards
+        judge_site(site, rows, one, run, probe, watch.count_piece) for one in standards
     ]
     _keep_faults(site, rows, runner)
     return studies

@@ -216,10 +216,9 @@ class CheckRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class MonitoringRecord:
-    """Measurements at one member, and the model's history beside them.
+    """Measurements at one member; missing readings are None.
 
-    Missing readings are None; without a history its lists are empty and
-    ``model_reason`` says why.
+    ``model`` says where the model's forces on these dates stand, or what they need.
     """
 
     member: str
@@ -227,10 +226,7 @@ class MonitoringRecord:
     times_d: list[float]  # since the first reading
     tensions_kN: list[float | None]
     air_temperatures_C: list[float | None]
-    model_times_d: list[float]
-    model_kN: list[float]
-    model_start: str
-    model_reason: Text | None
+    model: Text
 
 
 @dataclass(frozen=True, kw_only=True)

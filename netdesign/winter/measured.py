@@ -23,12 +23,25 @@ class MeasuredPulls:
         Per anchor [N].
     source : str
         First cell; "" of pulls made up.
+    air_temperatures : tuple of (datetime, float)
+        Read beside them [K].
     """
 
     member: str
     moments: tuple[datetime, ...]
     forces: tuple[float, ...]
     source: str = ""
+    air_temperatures: tuple[tuple[datetime, float], ...] = ()
+
+    def list_days(self, series: HeightSeries) -> tuple[float, ...]:
+        """Moment of each reading as days since a series began, shape (n,) [d].
+
+        Parameters
+        ----------
+        series : HeightSeries
+            Of the station.
+        """
+        return tuple(map(series.place, self.moments))
 
     def average_days(self, series: HeightSeries) -> Mapping[int, float]:
         """Mean force of each day [N], by its place in a station's series.

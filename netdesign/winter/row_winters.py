@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 
@@ -135,7 +135,10 @@ def follow_station(
 
 
 def follow_winters(
-    station: StationPacks, solver: DaySolver, step: int = CURVE_STEP
+    station: StationPacks,
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+    measured: Collection[str] = (),
 ) -> RowWinters:
     """Winters of a row: by the first model with layers, by the others their maxima.
 
@@ -147,6 +150,8 @@ def follow_winters(
         Of the row.
     step : int
         Days between those of a curve.
+    measured : collection of str
+        Winters that have a curve in any case.
     """
     chosen, *rest = station.packs
     packs = station.packs[chosen]
@@ -155,7 +160,8 @@ def follow_winters(
     if len(packs) > MANY:
         maxima = find_many_maxima(station.packs, solver)
         ranked = sorted(maxima[chosen], key=lambda one: -one.foot)[:SHOWN]
-        names = sorted(one.winter for one in ranked if one.index is not None)
+        largest = {one.winter for one in ranked if one.index is not None}
+        names = sorted(largest | (set(measured) & packs.keys()))
     seasons = tuple(follow_season(name, packs[name], solver, step) for name in names)
     if not maxima:
         maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}

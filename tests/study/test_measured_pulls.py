@@ -6,7 +6,11 @@ import pytest
 
 from netdesign.site.model import MonitoringSeries
 from netdesign.snowpack.series import HeightSeries
-from netdesign.study.measured_pulls import list_measured_pulls, list_undated
+from netdesign.study.measured_pulls import (
+    explain_unused,
+    list_measured_pulls,
+    name_measured_winters,
+)
 from tests import small_site
 
 HOUR = 3600.0
@@ -44,8 +48,16 @@ def test_days_have_the_mean_of_their_readings():
 def test_times_without_a_date_stand_beside_no_winter():
     site = a_site(start=None)
     assert list_measured_pulls(site, "R1") == ()
-    assert list_undated(site) == ("Monitoring!A2",)
-    assert list_undated(a_site()) == ()
+    (told,) = explain_unused(site, "R1", ())
+    assert "Monitoring!A2: measured times without a date" in str(told)
+    (told,) = explain_unused(a_site(), "R1", ())
+    assert "no reading lies on a day" in str(told)
+    assert explain_unused(a_site(tensions=(None,) * 4), "R1", ()) == ()
+
+
+def test_winters_with_readings_are_named():
+    pulls = list_measured_pulls(a_site(), "R1")
+    assert name_measured_winters(pulls) == {"2002/2003"}
 
 
 def test_air_temperatures_alone_are_no_forces():

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from netdesign.edge.given_files import make_printable
+from netdesign.report.drawing.measured_figure import draw_measured, find_detail
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import build_environment, load_style, mark_safe
 from netdesign.report.view.table import (
@@ -106,6 +107,10 @@ def _view_row(
         "statistics": _tabulate_statistics(row["statistics"], words),
         "without_statistics": words("winter_page.no_statistics"),
         "range": _describe_range(row, document, words),
+        "measured": [
+            view for one in row["measured"] for view in _view_measured(one, air, words)
+        ],
+        "not_compared": [show_text(text) for text in row["not_compared"]],
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
@@ -115,6 +120,46 @@ def _view_row(
             for winter in shown
         ],
     }
+
+
+def _view_measured(
+    one: Mapping[str, Any], air: Mapping[str, float], words: Words
+) -> list[dict[str, Any]]:
+    """Figure of a member's readings, and a detail where they are dense."""
+    whole = {
+        "svg": mark_safe(draw_measured(one, air, words)),
+        "caption": _describe_measured(one, words),
+    }
+    detail = find_detail(one)
+    if detail is None:
+        return [whole]
+    first, last = detail.first.date().isoformat(), detail.last.date().isoformat()
+    caption = words("winter_measured.detail", first=first, last=last)
+    svg = mark_safe(draw_measured(one, air, words, detail))
+    return [whole, {"svg": svg, "caption": caption}]
+
+
+def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
+    """Distance of measured and computed forces, and what the band is."""
+    found = [
+        words(
+            "winter_measured.caption",
+            member=show_member(words, one["member"]),
+            winter=one["winter"],
+            source=show_text(one["source"]),
+        )
+    ]
+    if one["computed_over_measured"] is not None:
+        apart = {
+            "count": one["days_compared"],
+            "ratio": one["computed_over_measured"],
+            "inside": one["readings_in_band"] or 0.0,
+        }
+        found.append(words("winter_measured.apart", **apart))
+    found.append(words("winter_measured.swing"))
+    if one["amplitude_assumed"]:
+        found.append(words("winter_measured.assumed"))
+    return " ".join(found)
 
 
 def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:

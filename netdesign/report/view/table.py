@@ -10,10 +10,14 @@ from netdesign.report.words import MISSING, Words, name_heading, show_text
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """Text that a reader sees, and the number behind it if it is one."""
+    """Text that a reader sees, and the number behind it if it is one.
+
+    ``ends`` are the numbers of an interval; the workbook gives each a cell.
+    """
 
     text: str
     number: float | None = None
+    ends: tuple[float | None, float | None] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +75,11 @@ def text_cell(text: str) -> Cell:
 def number_cell(words: Words, key: str, value: float | None) -> Cell:
     """Number of the quantity ``key``, with its decimals."""
     return Cell(text=words.show_number(key, value), number=value)
+
+
+def band_cell(words: Words, key: str, low: float | None, high: float | None) -> Cell:
+    """Interval of the quantity ``key``."""
+    return Cell(text=words.show_band(key, low, high), ends=(low, high))
 
 
 def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:

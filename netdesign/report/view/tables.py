@@ -15,6 +15,7 @@ from netdesign.report.view.table import (
     Cell,
     Column,
     Table,
+    band_cell,
     given_cell,
     name_columns,
     number_cell,
@@ -73,7 +74,7 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, extreme.quantity)),
                 number_cell(words, "max_kN", extreme.max_kN),
-                text_cell(words.show_band("max_kN", extreme.low_kN, extreme.high_kN)),
+                band_cell(words, "max_kN", extreme.low_kN, extreme.high_kN),
                 *_case(extreme.case, words),
                 *(
                     number_cell(

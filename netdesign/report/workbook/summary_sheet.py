@@ -19,13 +19,15 @@ from netdesign.study.case_records import CasePoint
 from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 14, 18, 10, 12, 10, 9, 13, 11, 8, 21, 23, 12, 32)
+_WIDTHS = (4, 9, 13, 7, 9, 9, 7, 9, 9, 7, 18, 18, 9, 29)
+_LABELLED = 3  # columns of a label below the rows
 # Columns D, E, F, G.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
 _HELD, _REASONS = 12, 13
 _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 1
+_ABOVE = 5  # links that stand one line higher, at the end of it
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -58,11 +60,16 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
 
 
 def link_sheets(book: Book, names: Sequence[str]) -> None:
-    """Lead from the summary to every other sheet, in the line above its table."""
+    """Lead from the summary to every other sheet, above its table.
+
+    None stands beside the table: that would make all of it small in print.
+    """
     sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
-    for column, name in enumerate(names, 1):
-        target = book.refer(name, "A1")
-        book.link(sheet, (_HEAD_ROW - 1, column), target, book.name(name))
+    room = len(_WIDTHS) - 1
+    places = [(_HEAD_ROW - 1, column) for column in range(1, room + 1)]
+    places += [(1, column) for column in range(len(_WIDTHS) - _ABOVE, len(_WIDTHS))]
+    for place, name in zip(places, names, strict=False):
+        book.link(sheet, place, book.refer(name, "A1"), book.name(name))
 
 
 def _list_columns(book: Book) -> tuple[Column, ...]:
@@ -259,8 +266,8 @@ def _explain(shown: RowView) -> str:
 
 def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     """Identification, room for signatures, assumed values, under the rows."""
-    head, text = book.text(bold=True, bottom=1), book.text()
-    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
+    head = book.text(bold=True, bottom=1)
+    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_LIMIT])
     signed = (
         ("heading.prepared", view.prepared),
         ("heading.checked", view.checked),
@@ -282,10 +289,12 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
             sheet.write_string(top, column, shown, head)
         for label, value in pairs:
             top += 1
-            sheet.write_string(top, 0, label, text)
-            sheet.merge_range(top, 2, top, _LIMIT - 1, "", wrapped)
-            sheet.write_string(top, 2, value, wrapped)
-            book.set_height(sheet, top, count_lines([value], [room]))
+            sheet.merge_range(top, 0, top, _LABELLED - 1, "", wrapped)
+            sheet.write_string(top, 0, label, wrapped)
+            sheet.merge_range(top, _LABELLED, top, _LIMIT - 1, "", wrapped)
+            sheet.write_string(top, _LABELLED, value, wrapped)
+            lines = count_lines([label, value], [sum(_WIDTHS[:_LABELLED]), room])
+            book.set_height(sheet, top, lines)
         top += 2
 
 
