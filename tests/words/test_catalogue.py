@@ -23,9 +23,11 @@ FAMILIES: tuple[str, ...] = (
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     "creep_law.",
     *("winter_column.", "winter_outcome.", "day_outcome."),
+    *("fit_page.", "fit_case.", "fit_parameter."),
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",
+    *("reference.", "case_kind.", "piece.", "verify_table."),
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(
