@@ -27,6 +27,7 @@ FAMILIES: tuple[str, ...] = (
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",
+    *("reference.", "case_kind.", "piece.", "verify_table."),
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(

@@ -159,7 +159,7 @@ def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
         }
         found.append(words("winter_measured.apart", **apart))
     found.append(words("winter_measured.swing"))
-    if one["amplitude_assumed"]:
+    if one["temperature_amplitude_assumed"]:
         found.append(words("winter_measured.assumed"))
     return " ".join(found)
 
