@@ -1,9 +1,9 @@
 """No English in what any command tells or writes in French and German.
 
 Counted are words of the English texts that no text of the language has. What is no
-language is taken out first: names of commands, options, files, profiles and types.
-Left out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``, which
-takes seconds; ``validate``, whose page takes minutes and has a test of its own.
+language is taken out first: names of commands, options, files, profiles and types. Left
+out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``, which takes
+seconds; ``validate``, whose page takes minutes and has a test of its own.
 """
 
 import re
