@@ -2,7 +2,7 @@
 
 Counted are words of the English texts that no text of the language has. What is no
 language is taken out first: names of commands, options, files, profiles and types. Left
-out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``, which takes
+out on purpose: ``bench`` and ``paper``, in English only; ``--size``, which takes
 seconds; ``validate``, whose page takes minutes and has a test of its own.
 """
 
