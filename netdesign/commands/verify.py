@@ -118,7 +118,7 @@ def _run_pack(
 
         print_cases(cases, Console(), Words(language))
     if out is not None:
-        write_page(gather((), cases=cases), out, force=force)
+        write_page(gather((), cases=cases), out, force=force, language=language)
     return 0 if all(case.passes for case in cases) else _FAIL
 
 

@@ -2,34 +2,23 @@
 
 Counted are words of the English texts that no text of the language has. What is no
 language is taken out first: names of commands, options, files, profiles and types.
-Three commands are left out on purpose: ``bench`` and ``paper`` speak English only, and
-the page of ``validate`` has a test of its own.
+Left out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``,
+which takes seconds; ``validate``, whose page takes minutes and has a test of its own.
 """
 
 import re
 
 import pytest
 
-from netdesign.words.catalogue import load_texts
 from tests.commands.every_command import COMMANDS, read_texts, run_all
+from tests.words.english import list_vocabulary, list_words
 
-WORD = re.compile(r"[^\W\d_]+")
 NAMES = re.compile(
     r"netdesign \w+|--[a-z-]+|\S*\w[._/\\]\w\S*|\b[A-Z_]{3,}\b"  # commands, files, keys
     r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
     r"|\b[AB]\d+-\w+|\brecommended-da2\b"  # types of the example; a choice
     r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
 )
-SIGNS = {"max", "min", "positive"}  # of formulas; "positive" is French as well
-
-
-def list_words(text):
-    return {one for one in WORD.findall(text.casefold()) if len(one) > 2} - SIGNS
-
-
-def list_vocabulary(language):
-    texts = load_texts(language).values()
-    return set().union(*(list_words(re.sub(r"\{[^{}]*\}", " ", one)) for one in texts))
 
 
 @pytest.fixture(scope="module", params=["fr", "de"])
