@@ -83,6 +83,7 @@ def _list_threads() -> list[Probe]:
 def _run_tests() -> list[Probe]:
     tests: dict[str, Callable[[], str]] = {
         "BLAS": _name_blas,
+        "core": _name_core,
         "limit profiles": _load_profiles,
         "site workbook": _round_trip_example,
         "solver": _solve_small_scene,
@@ -104,6 +105,13 @@ def _name_blas() -> str:
     config: Any = np.show_config(mode="dicts")
     blas = config.get("Build Dependencies", {}).get("blas", {})
     return f"{blas.get('name', 'unknown')} {blas.get('version', '')}".strip()
+
+
+def _name_core() -> str:
+    """Core that solves here."""
+    from netdesign.core.library import name_core
+
+    return name_core()
 
 
 def _load_profiles() -> str:

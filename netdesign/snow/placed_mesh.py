@@ -55,6 +55,8 @@ class PlacedMesh:
         Positions in the slope's axes [thickness].
     weights : ndarray, shape (n_triangles, n_points)
         Quadrature weights times the area element.
+    gradients : ndarray, shape (2, n_triangles, n_points, 6)
+        Of the shape functions, slope's axes [1 / thickness].
     operator : ndarray, shape (n_triangles, n_points, R, C)
         Generalised strains per unknown.
     dofs : ndarray, shape (n_triangles, C)
@@ -71,6 +73,7 @@ class PlacedMesh:
     template: MeshTemplate
     nodes: Floats
     weights: Floats
+    gradients: Floats
     operator: Floats
     dofs: Ints
     load: Floats
@@ -208,6 +211,7 @@ def build_placed_mesh(
         template=template,
         nodes=nodes,
         weights=weights,
+        gradients=gradients,
         operator=operator,
         dofs=list_dofs(template, element),
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),

@@ -67,6 +67,7 @@ def build_straight_mesh(
         template=template,
         nodes=nodes,
         weights=weights,
+        gradients=gradients,
         operator=operator,
         dofs=dofs,
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
