@@ -20,7 +20,7 @@ class MeshArgument(ctypes.Structure):
 
     _fields_ = [
         *((name, _INT) for name in ("n_nodes", "n_triangles", "n_net", "n_edges")),
-        *((name, _POINTER) for name in ("triangles", "net", "edges")),
+        *((name, _POINTER) for name in ("triangles", "net", "ground", "edges")),
         *((name, _POINTER) for name in ("gradients", "weights", "axes")),
         *((name, _POINTER) for name in ("edge_weights", "edge_shape", "load")),
     ]
@@ -36,19 +36,46 @@ class LawArgument(ctypes.Structure):
     ]
 
 
+class RulesArgument(ctypes.Structure):
+    """``Rules`` of element.h: friction, and what may let go."""
+
+    _fields_ = [
+        ("friction", _REAL),
+        *((name, _INT) for name in ("net_lets_go", "ground_lets_go", "holds_along")),
+        ("may_lift", _POINTER),
+    ]
+
+
 class StepArgument(ctypes.Structure):
     """``Step`` of element.h: where a step starts, and where its results go."""
 
     _fields_ = [
-        *((name, _POINTER) for name in ("stress", "shear", "is_free")),
-        *((name, _POINTER) for name in ("shares", "bears", "unknowns")),
-        *((name, _POINTER) for name in ("reaction", "new_stress", "new_shear")),
+        *((name, _POINTER) for name in ("stress", "shear", "before")),
+        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
+        *((name, _POINTER) for name in ("unknowns", "reaction", "new_stress")),
+        *((name, _POINTER) for name in ("new_shear", "change")),
+        *(
+            (f"wanted_{name}", _POINTER)
+            for name in ("sign", "pressed", "open", "lifted")
+        ),
         ("root", _POINTER),
     ]
 
 
-def locate(array: np.ndarray[Any, Any] | None) -> int | None:
-    """Address of a contiguous array; None for none.
+class PlacementArgument(ctypes.Structure):
+    """``Placement`` of place.c: a template, where its nodes are, and the results."""
+
+    _fields_ = [
+        *((name, _INT) for name in ("n_nodes", "n_triangles", "n_net")),
+        *((name, _POINTER) for name in ("triangles", "net", "orientation")),
+        *((name, _POINTER) for name in ("reference", "shape", "point_weights")),
+        *((name, _POINTER) for name in ("edge_tangent", "nodes", "gradients")),
+        *((name, _POINTER) for name in ("weights", "load", "axes", "normal")),
+    ]
+
+
+def locate(array: np.ndarray[Any, Any] | None) -> int:
+    """Address of a contiguous array; 0 for none.
 
     Raises
     ------
@@ -56,21 +83,33 @@ def locate(array: np.ndarray[Any, Any] | None) -> int | None:
         If the array is not contiguous.
     """
     if array is None:
-        return None
+        return 0
     if not array.flags.c_contiguous:
         raise ValueError("the compiled core takes contiguous arrays")
     return int(array.__array_interface__["data"][0])
 
 
-def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
-    """Values as the core takes them: of this shape, contiguous.
+def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
+    """Addresses of contiguous arrays, as ``locate``."""
+    return [locate(one) for one in arrays]
+
+
+def to_array(
+    values: object, kind: type[np.generic], shape: tuple[int, ...]
+) -> np.ndarray[Any, Any]:
+    """Values as the core takes them: of this type and shape, contiguous.
 
     Raises
     ------
     ValueError
         If the shape is another.
     """
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = np.ascontiguousarray(values, dtype=kind)
     if array.shape != shape:
         raise ValueError(f"shape {array.shape}, expected {shape}")
     return array
+
+
+def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
+    """Numbers as the core takes them, as ``to_array``."""
+    return to_array(values, np.float64, shape)

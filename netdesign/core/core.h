@@ -8,8 +8,18 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #define EXPORT __attribute__((visibility("default")))
+
+/* A second text of a function for processors with wider registers: the same operations in
+ * the same order, so the same digits. Only where the linker can choose. */
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GLIBC__) \
+    && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE
+#endif
 
 enum { FINE = 0, NO_MEMORY = -1, BAD_INPUT = -2, SINGULAR = -3, TOO_SMALL = -4 };
 enum { TRIANGLE = 6, UNKNOWNS = 12, POINTS = 3 }; /* nodes, velocities, points */

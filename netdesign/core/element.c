@@ -41,19 +41,19 @@ static void linearise_point(const Law *law, double bulk, double fluidity,
 }
 
 /* Laws about the stresses of a step; ``keeps`` leaves the stresses as they are. */
-void linearise(const Mesh *mesh, const Law *law, const Step *step, int keeps,
-               const Tangents *to) {
+void linearise(const Mesh *mesh, const Law *law, const Step *step,
+               const uint8_t *bears, int keeps, const Tangents *to) {
     for (int32_t i = 0; i < POINTS * mesh->n_triangles; i++)
         linearise_point(law, law->bulk[i * law->stride], law->fluidity[i * law->stride],
                         step->stress + PLANE * i, keeps, to->moduli + MODULI * i,
                         to->intercept + PLANE * i);
     for (int32_t i = 0; step->shear && i < EDGE_POINTS * mesh->n_edges; i++) {
         double viscosity, reduction, share, shear = step->shear[i];
-        double bears = step->bears[i / EDGE_POINTS] ? 1.0 : 0.0;
+        double carries = bears[i / EDGE_POINTS] ? 1.0 : 0.0;
         find_scalars(law->slip_exponent, law->floor, shear * shear, &viscosity,
                      &reduction, &share);
-        to->base_moduli[i] = bears * (viscosity * share / law->slip);
-        to->base_intercept[i] = keeps ? shear : bears * (shear * (1.0 - share));
+        to->base_moduli[i] = carries * (viscosity * share / law->slip);
+        to->base_intercept[i] = keeps ? shear : carries * (shear * (1.0 - share));
     }
 }
 
@@ -95,7 +95,7 @@ static void weigh_strains(const Mesh *mesh, const double *moduli, int32_t point,
     }
 }
 
-static void fill_block(const Mesh *mesh, const double *moduli, int32_t triangle,
+WIDE static void fill_block(const Mesh *mesh, const double *moduli, int32_t triangle,
                        double *restrict block) {
     double strained[POINTS][PLANE * UNKNOWNS];
     memset(block, 0, UNKNOWNS * UNKNOWNS * sizeof *block);

@@ -43,9 +43,8 @@ def _load(path: Path) -> ctypes.PyDLL | None:
             return None
     except (OSError, AttributeError):  # not built, or for another machine
         return None
-    for name in ("nd_plan", "nd_step"):
+    for name in ("nd_plan", "nd_step", "nd_residual", "nd_place", "nd_hang"):
         getattr(library, name).restype = ctypes.c_int32
-    library.nd_compare.restype = None
     return library
 
 

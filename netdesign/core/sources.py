@@ -11,7 +11,10 @@ from pathlib import Path
 
 ROOM = Path(__file__).resolve().parent
 LIBRARY = ROOM / "_core.so"  # the same name on every system
-SOURCES = ("plan.c", "front.c", "element.c", "step.c")
+SOURCES = (
+    *("plan.c", "front.c", "element.c", "contact.c", "step.c", "place.c"),
+    "cable.c",
+)
 HEADERS = ("core.h", "element.h")
 
 

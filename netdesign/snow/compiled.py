@@ -1,4 +1,4 @@
-"""Newton steps of the flow by the compiled core; the same as those of ``flow.py``.
+"""Newton steps of the flow by the compiled core; the same as those of ``flow_step.py``.
 
 Only the velocity element; the mixed one is taken in NumPy. Theory: core/THEORY.md.
 """
@@ -6,7 +6,7 @@ Only the velocity element; the mixed one is taken in NumPy. Theory: core/THEORY.
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -15,35 +15,22 @@ import numpy as np
 from netdesign.core.arguments import (
     LawArgument,
     MeshArgument,
+    RulesArgument,
     StepArgument,
     locate,
+    locate_all,
+    to_array,
     to_floats,
 )
 from netdesign.core.library import SINGULAR, find_core, require_sound
-from netdesign.core.plan import Words, build_plan
-from netdesign.numerics.arrays import Floats, Mask
+from netdesign.core.plan import Words
+from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.snow.compiled_mesh import number_template, plan_template
+from netdesign.snow.contact import Contact, may_lift
 from netdesign.snow.law import FlowProblem, Material
 from netdesign.snow.linear import SingularError
 from netdesign.snow.mesh import MeshTemplate
-from netdesign.snow.placed_mesh import PlacedMesh, edge_triples
-
-
-class Support(NamedTuple):
-    """Supports of the snow in a step.
-
-    Attributes
-    ----------
-    free : ndarray of bool, shape (n_dofs,)
-        Unknowns that nothing holds.
-    shares : ndarray, shape (n_dofs,), or None
-        Of friction, as ``friction_shares`` has them [-].
-    bears : ndarray of bool, shape (n_edges,)
-        Edges of the ground that have not lifted wholly.
-    """
-
-    free: Mask
-    shares: Floats | None
-    bears: Mask
+from netdesign.snow.placed_mesh import PlacedMesh
 
 
 class Advanced(NamedTuple):
@@ -57,26 +44,74 @@ class Advanced(NamedTuple):
         (xx, yy, xy) [rho g d].
     base_shear : ndarray, shape (n_edges, n_points), or None
         On a sliding ground [rho g d].
+    changes : tuple of float
+        Relative, of the net's forces and of the stress, as (N16) takes them [-]; no
+        numbers where the step before has no reactions.
+    wanted : Contact
+        That follows.
     """
 
     unknowns: Floats
     reaction: Floats
     stress: Floats
     base_shear: Floats | None
+    changes: tuple[float, float]
+    wanted: Contact
 
 
-class _Numbers(NamedTuple):
-    """Numbers of a template as the core takes them, and its plan."""
+class _Room(NamedTuple):
+    """Memory for the results of a step, each of its shape, and its places."""
 
-    triangles: Words
-    net: Words
-    edges: Words
-    plan: Words
+    advanced: Advanced
+    change: Floats
+    places: tuple[int, ...]
+
+    def read(self, contact: Contact, *, is_compared: bool) -> Advanced:
+        """Results; without a comparison the contact is as it was."""
+        if not is_compared:
+            return self.advanced._replace(wanted=contact)
+        changes = (float(self.change[0]), float(self.change[1]))
+        return self.advanced._replace(changes=changes)
+
+
+def _make_room(
+    n_dofs: int, stress: Floats, base_shear: Floats | None, contact: Contact
+) -> _Room:
+    """Room for all numbers in one piece: each address costs."""
+    n_shear = 0 if base_shear is None else base_shear.size
+    shear_at = 2 * n_dofs + stress.size
+    out = np.empty(shear_at + n_shear + 2)
+    n_net, n_ground = contact.sign.size, contact.is_lifted.size
+    sign = np.empty(n_net, dtype=np.int64)
+    marks = np.empty(2 * n_net + n_ground, dtype=bool)
+    first, mark = locate(out), locate(marks)
+    starts = (0, n_dofs, 2 * n_dofs, shear_at, shear_at + n_shear)
+    places = [first + 8 * start for start in starts]
+    if base_shear is None:
+        places[3] = 0
+    advanced = Advanced(
+        unknowns=out[:n_dofs],
+        reaction=out[n_dofs : 2 * n_dofs],
+        stress=out[2 * n_dofs : shear_at].reshape(stress.shape),
+        base_shear=None,
+        changes=(np.nan, np.nan),
+        wanted=Contact(
+            sign=sign,
+            is_pressed=marks[:n_net],
+            is_open=marks[n_net : 2 * n_net],
+            is_lifted=marks[2 * n_net :],
+        ),
+    )
+    if base_shear is not None:
+        shear = out[shear_at : shear_at + n_shear].reshape(base_shear.shape)
+        advanced = advanced._replace(base_shear=shear)
+    wanted = (locate(sign), mark, mark + n_net, mark + 2 * n_net)
+    return _Room(advanced, out[-2:], (*places, *wanted, 0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CompiledFlow:
-    """The core on one placed mesh, with the load on it.
+    """The core on one placed mesh, under one load and one law.
 
     Attributes
     ----------
@@ -84,27 +119,38 @@ class CompiledFlow:
         The core.
     mesh : PlacedMesh
         Of the flow.
-    argument : MeshArgument
-        The same as the core takes it.
-    numbers : tuple of ndarray, each of any shape
-        Numbers of nodes, and the plan.
+    given : tuple of structures
+        Mesh, laws and rules as the core takes them.
+    plan : ndarray of int32, shape (n_words,)
+        Order of the template's nodes.
     kept : tuple of ndarray, each of any shape
-        Arrays whose addresses the argument has.
+        Arrays whose addresses the structures have.
     """
 
     library: ctypes.PyDLL
     mesh: PlacedMesh
-    argument: MeshArgument
-    numbers: _Numbers
+    given: tuple[MeshArgument, LawArgument, RulesArgument]
+    plan: Words
     kept: tuple[Floats, ...]
+
+    def with_law(self, problem: FlowProblem, material: Material) -> CompiledFlow:
+        """The same mesh and load under other laws.
+
+        Parameters
+        ----------
+        problem, material : FlowProblem, Material
+            Laws of creep and ground.
+        """
+        law, kept = _describe_law(problem, material)
+        mesh, _, rules = self.given
+        return replace(self, given=(mesh, law, rules), kept=(*self.kept, *kept))
 
     def advance(
         self,
-        problem: FlowProblem,
-        material: Material,
         stress: Floats,
         base_shear: Floats | None,
-        support: Support,
+        contact: Contact,
+        before: Floats | None = None,
         *,
         keeps: bool = False,
     ) -> Advanced:
@@ -112,14 +158,14 @@ class CompiledFlow:
 
         Parameters
         ----------
-        problem, material : FlowProblem, Material
-            Laws of creep and ground.
         stress : ndarray, shape (n_triangles, n_points, 3)
             To start from [rho g d].
         base_shear : ndarray, shape (n_edges, n_points), or None
             To start from, where the ground slides [rho g d].
-        support : Support
-            What holds the snow.
+        contact : Contact
+            Under which the step is taken.
+        before : ndarray, shape (n_dofs,), optional
+            Reactions before it [rho g d^2]; without them nothing is compared.
         keeps : bool
             The stresses are kept and corrected; the unknowns are then the correction.
 
@@ -128,41 +174,32 @@ class CompiledFlow:
         SingularError
             If nothing holds the snow.
         """
-        count, mesh = self.mesh.n_dofs, self.mesh
-        found = Advanced(
-            unknowns=np.empty(count),
-            reaction=np.empty(count),
-            stress=np.empty((*mesh.weights.shape, 3)),
-            base_shear=None
-            if base_shear is None
-            else np.empty(mesh.base.weights.shape),
-        )
-        self._call(problem, material, stress, base_shear, support, found, keeps=keeps)
-        return found
+        room = _make_room(self.mesh.n_dofs, stress, base_shear, contact)
+        self._call(stress, base_shear, contact, before, room.places, keeps)
+        return room.read(contact, is_compared=before is not None)
 
     def respond(
         self,
-        problem: FlowProblem,
-        material: Material,
         stress: Floats,
         base_shear: Floats | None,
-        support: Support,
-        held: Mask,
+        contact: Contact,
+        free: Mask,
+        shares: Floats | None,
     ) -> tuple[Floats, Floats]:
         """Forces at the net's nodes where its normal velocity is prescribed.
 
         Parameters
         ----------
-        problem, material : FlowProblem, Material
-            Laws of creep and ground.
         stress : ndarray, shape (n_triangles, n_points, 3)
             About which the flow is linearised [rho g d].
         base_shear : ndarray, shape (n_edges, n_points), or None
             Where the ground slides [rho g d].
-        support : Support
-            What holds the snow.
-        held : ndarray of bool, shape (n_net - 1,)
-            Nodes above the foot that the snow has not left.
+        contact : Contact
+            It does not change.
+        free : ndarray of bool, shape (n_dofs,)
+            Unknowns that nothing holds.
+        shares : ndarray, shape (n_dofs,), or None
+            Of friction, as ``friction_shares`` has them [-].
 
         Returns
         -------
@@ -174,83 +211,70 @@ class CompiledFlow:
         SingularError
             If nothing holds the snow.
         """
-        root = self._call(
-            problem, material, stress, base_shear, support, None, keeps=False
-        )
         net = self.mesh.template.net
+        root = np.empty((2 * net.size, 2 * net.size))
+        self._call(stress, base_shear, contact, None, (*(0,) * 9, locate(root)), False)
         places = np.column_stack([2 * net, 2 * net + 1]).ravel()
-        moved = np.zeros((places.size, held.size))
-        moved[2 + 2 * np.flatnonzero(held), np.flatnonzero(held)] = 1.0
-        shares = None if support.shares is None else support.shares[places]
-        moved += _solve_root(root, root @ moved, support.free[places], shares)
+        held = np.flatnonzero(~contact.is_open)
+        moved = np.zeros((places.size, net.size - 1))
+        moved[2 + 2 * held, held] = 1.0
+        shares = None if shares is None else shares[places]
+        moved += _solve_root(root, root @ moved, free[places], shares)
         forces = root @ moved
         return forces[::2], forces[1::2]
 
-    def compare(
-        self,
-        problem: FlowProblem,
-        material: Material,
-        reactions: tuple[Floats, Floats],
-        stresses: tuple[Floats, Floats],
-    ) -> tuple[float, float]:
-        """Relative changes in a step, as (N16) takes them.
+    def balance(self, stress: Floats, base_shear: Floats | None) -> Floats:
+        """Internal less external nodal forces.
 
         Parameters
         ----------
-        problem, material : FlowProblem, Material
-            Law of creep.
-        reactions : tuple of ndarray, each of shape (n_dofs,)
-            After the step and before it [rho g d^2].
-        stresses : tuple of ndarray, each of shape (n_triangles, n_points, 3)
-            After the step and before it [rho g d].
+        stress : ndarray, shape (n_triangles, n_points, 3)
+            Of the snow [rho g d].
+        base_shear : ndarray, shape (n_edges, n_points), or None
+            Where the ground slides [rho g d].
 
         Returns
         -------
-        float, float
-            Of the sums of the net's forces, and of the stress [-].
+        ndarray, shape (n_dofs,)
+            In node axes [rho g d^2].
         """
-        change = np.empty(2)
-        law, kept = describe_law(problem, material)
-        self.library.nd_compare(
-            ctypes.byref(self.argument),
-            ctypes.byref(law),
-            *(ctypes.c_void_p(locate(one)) for one in (*reactions, *stresses)),
-            ctypes.c_void_p(locate(change)),
-        )
-        del kept
-        return float(change[0]), float(change[1])
+        mesh, shear = self.mesh, None
+        stress = to_floats(stress, (*mesh.weights.shape, 3))
+        if base_shear is not None:
+            shear = to_floats(base_shear, mesh.base.weights.shape)
+        forces = np.empty(mesh.n_dofs)
+        places = (ctypes.c_void_p(one) for one in locate_all(stress, shear, forces))
+        require_sound(self.library.nd_residual(ctypes.byref(self.given[0]), *places))
+        return forces
 
     def _call(
         self,
-        problem: FlowProblem,
-        material: Material,
         stress: Floats,
         base_shear: Floats | None,
-        support: Support,
-        found: Advanced | None,
-        *,
+        contact: Contact,
+        before: Floats | None,
+        results: tuple[int, ...],
         keeps: bool,
-    ) -> Floats:
+    ) -> None:
         mesh = self.mesh
         stress = to_floats(stress, (*mesh.weights.shape, 3))
+        shear = None
         if base_shear is not None:
-            base_shear = to_floats(base_shear, mesh.base.weights.shape)
-        root = np.empty((2 * mesh.template.net.size, 2 * mesh.template.net.size))
-        given = (stress, base_shear, support.free, support.shares, support.bears)
-        places = [locate(one) for one in (*given, *(found or (None,) * 4), root)]
-        law, kept = describe_law(problem, material)
+            shear = to_floats(base_shear, mesh.base.weights.shape)
+        if before is not None:
+            before = to_floats(before, (mesh.n_dofs,))
+        template = mesh.template
+        held = _to_arrays(contact, template.net.size - 1, template.ground.size - 1)
+        given = (stress, shear, before, *held)
+        step = StepArgument(*locate_all(*given), *results)
         code = self.library.nd_step(
-            ctypes.byref(self.argument),
-            ctypes.byref(law),
-            ctypes.byref(StepArgument(*places)),
-            ctypes.c_void_p(locate(self.numbers.plan)),
+            *map(ctypes.byref, (*self.given, step)),
+            ctypes.c_void_p(locate(self.plan)),
             int(keeps),
         )
-        del kept
         if code == SINGULAR:
             raise SingularError("singular")
         require_sound(code)
-        return root
 
 
 def _solve_root(
@@ -269,7 +293,17 @@ def _solve_root(
     return solved
 
 
-def describe_law(
+def _to_arrays(contact: Contact, n_net: int, n_ground: int) -> tuple[Ints | Mask, ...]:
+    """Contact as the core takes it, shapes (n_net,) and (n_ground,)."""
+    return (
+        to_array(contact.sign, np.int64, (n_net,)),
+        to_array(contact.is_pressed, np.bool_, (n_net,)),
+        to_array(contact.is_open, np.bool_, (n_net,)),
+        to_array(contact.is_lifted, np.bool_, (n_ground,)),
+    )
+
+
+def _describe_law(
     problem: FlowProblem, material: Material
 ) -> tuple[LawArgument, tuple[Floats, Floats]]:
     """Laws as the core takes them, and their arrays, shape (n_triangles, n_points)."""
@@ -288,16 +322,30 @@ def describe_law(
     return law, (bulk, fluidity)
 
 
+def _describe_rules(problem: FlowProblem, template: MeshTemplate) -> RulesArgument:
+    return RulesArgument(
+        problem.friction,
+        problem.net_contact == "one-sided",
+        problem.ground_contact == "one-sided",
+        problem.ground == "no-slip",
+        locate(_may_lift(template)),
+    )
+
+
 def can_compile(problem: FlowProblem) -> bool:
     """There is a core, and it has the problem's element."""
     return find_core() is not None and problem.element == "velocity"
 
 
-def prepare_flow(mesh: PlacedMesh, load: Floats) -> CompiledFlow | None:
+def prepare_flow(
+    problem: FlowProblem, material: Material, mesh: PlacedMesh, load: Floats
+) -> CompiledFlow | None:
     """The core on a mesh; None where there is none.
 
     Parameters
     ----------
+    problem, material : FlowProblem, Material
+        Creep, ground and friction.
     mesh : PlacedMesh
         Mesh against the net's curve.
     load : ndarray, shape (n_dofs,)
@@ -307,42 +355,24 @@ def prepare_flow(mesh: PlacedMesh, load: Floats) -> CompiledFlow | None:
     if library is None:
         return None
     template, base = mesh.template, mesh.base
-    numbers = _number(library, template)
-    kept = tuple(
-        np.ascontiguousarray(one, dtype=np.float64)
-        for one in (
-            *(mesh.gradients, mesh.weights, mesh.axes),
-            *(base.weights, base.shape, load),
-        )
-    )
+    numbers = number_template(template)
+    arrays = (mesh.gradients, mesh.weights, mesh.axes, base.weights, base.shape, load)
+    kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
     argument = MeshArgument(
         *(mesh.nodes.shape[1], template.triangles.shape[1]),
         *(template.net.size, len(numbers.edges)),
-        *(locate(one) for one in (numbers.triangles, numbers.net, numbers.edges)),
-        *(locate(one) for one in kept),
+        *locate_all(*numbers, *kept),
     )
+    law, more = _describe_law(problem, material)
     return CompiledFlow(
-        library=library, mesh=mesh, argument=argument, numbers=numbers, kept=kept
+        library=library,
+        mesh=mesh,
+        given=(argument, law, _describe_rules(problem, template)),
+        plan=plan_template(library, template),
+        kept=(*kept, *more),
     )
 
 
 @lru_cache(maxsize=256)
-def _number(library: ctypes.PyDLL, template: MeshTemplate) -> _Numbers:
-    triangles = np.ascontiguousarray(template.triangles.T, dtype=np.int32)
-    net = np.ascontiguousarray(template.net, dtype=np.int32)
-    return _Numbers(
-        triangles=triangles,
-        net=net,
-        edges=_find_edges(template, triangles),
-        plan=build_plan(library, triangles, np.ascontiguousarray(template.nodes), net),
-    )
-
-
-def _find_edges(template: MeshTemplate, triangles: Words) -> Words:
-    """Triangle above each edge of the ground, and the edge's nodes in it, (n, 4)."""
-    triples = np.column_stack(edge_triples(template.ground))
-    owner = np.empty(template.nodes.shape[1], dtype=np.int64)
-    owner[triangles.T] = np.arange(len(triangles))  # an edge's midpoint has one
-    above = owner[triples[:, 1]]
-    places = (triangles[above][:, None] == triples[..., None]).argmax(axis=2)
-    return np.ascontiguousarray(np.column_stack([above, places]), dtype=np.int32)
+def _may_lift(template: MeshTemplate) -> Mask:
+    return np.ascontiguousarray(may_lift(template))

@@ -16,7 +16,7 @@ from netdesign.numerics.arrays import Floats
 from netdesign.outcome import Outcome
 from netdesign.snow.compiled import CompiledFlow
 from netdesign.snow.contact import change_some, start_contact, update_contact
-from netdesign.snow.flow_step import FlowState, Step, choose_step, compile_flow
+from netdesign.snow.flow_step import FlowState, Step, Taken, compile_flow, take_step
 from netdesign.snow.law import (
     FlowProblem,
     Material,
@@ -96,11 +96,10 @@ def solve_flow(
     tests/snow/test_flow.py, tests/verification/test_slab.py
     """
     core = None if step else compile_flow(problem, mesh)
-    advance = step or choose_step(core)
     material = sample_material(problem, mesh.template)
     state = start
     if state is None:
-        state = _solve_linear_creep(problem, material, mesh, advance)
+        state = _solve_linear_creep(problem, mesh, core, step)
     solves = 0 if start is not None else 1
     outcome, change = Outcome.MAX_ITERATIONS, np.inf
     contact = state.contact
@@ -109,16 +108,19 @@ def solve_flow(
     for iteration in range(max_iterations):
         before = state
         try:
-            state = advance(problem, material, mesh, before, contact)
+            taken = take_step(core, step, problem, material, mesh, before, contact)
         except SingularError:
             outcome = Outcome.NONFINITE
             break
         solves += 1
-        change = _estimate_left(problem, material, mesh, state, before, tolerance, core)
+        state = taken.state
+        change = _estimate_left(problem, material, mesh, before, taken, tolerance)
         if not np.isfinite(change):
             outcome = Outcome.NONFINITE
             break
-        contact = update_contact(problem, mesh, contact, state.unknowns, state.reaction)
+        contact = taken.wanted or update_contact(
+            problem, mesh, contact, state.unknowns, state.reaction
+        )
         if change < tolerance and contact.equals(state.contact):
             outcome = Outcome.CONVERGED
             break
@@ -153,21 +155,15 @@ def _estimate_left(
     problem: FlowProblem,
     material: Material,
     mesh: PlacedMesh,
-    state: FlowState,
     before: FlowState,
+    taken: Taken,
     tolerance: float,
-    core: CompiledFlow | None,
 ) -> float:
     """Relative error that a step leaves, eq. (N16); of the forces alone if too much."""
-    if core is not None:
-        changes = core.compare(
-            problem,
-            material,
-            (state.reaction, before.reaction),
-            (state.stress, before.stress),
-        )
-        force, field = map(_left, changes)
+    if taken.changes is not None:
+        force, field = map(_left, taken.changes)
         return float(np.maximum(force, _FIELD_WEIGHT * field))
+    state = taken.state
     sums = _sum_along_net(mesh, state.reaction)
     moved = sums - _sum_along_net(mesh, before.reaction)
     force = _left(float(np.hypot(*moved).max() / np.hypot(*sums).max()))
@@ -189,13 +185,16 @@ def _sum_along_net(mesh: PlacedMesh, reaction: Floats) -> Floats:
 
 
 def _solve_linear_creep(
-    problem: FlowProblem, material: Material, mesh: PlacedMesh, advance: Step
+    problem: FlowProblem,
+    mesh: PlacedMesh,
+    core: CompiledFlow | None,
+    step: Step | None,
 ) -> FlowState:
     """Linear creep of snow held everywhere: a start that needs no guess."""
     at_rest = FlowState(
         unknowns=np.zeros(mesh.n_dofs),
         reaction=np.zeros(mesh.n_dofs),
-        stress=np.zeros((*mesh.weights.shape, mesh.operator.shape[2])),
+        stress=np.zeros((*mesh.weights.shape, 4 if mesh.is_mixed else 3)),
         base_shear=(
             np.zeros_like(mesh.base.weights) if problem.ground == "sliding" else None
         ),
@@ -203,7 +202,10 @@ def _solve_linear_creep(
     )
     linear = _make_linear(problem)
     material = sample_material(linear, mesh.template)
-    return advance(linear, material, mesh, at_rest, at_rest.contact)
+    if core is not None:
+        core = core.with_law(linear, material)
+    contact = at_rest.contact
+    return take_step(core, step, linear, material, mesh, at_rest, contact).state
 
 
 def _make_linear(problem: FlowProblem) -> FlowProblem:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import reduce
 from operator import add
 from typing import NamedTuple
 
@@ -16,8 +16,8 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, Mask
 from netdesign.snow.compiled import (
+    Advanced,
     CompiledFlow,
-    Support,
     can_compile,
     prepare_flow,
 )
@@ -99,6 +99,24 @@ class _Linear(NamedTuple):
     blocks: list[Blocks]
 
 
+class Taken(NamedTuple):
+    """A step that was taken.
+
+    Attributes
+    ----------
+    state : FlowState
+        After it.
+    changes : tuple of float, or None
+        Relative, of the net's forces and of the stress [-]; None if not known yet.
+    wanted : Contact or None
+        That follows; None if not known yet.
+    """
+
+    state: FlowState
+    changes: tuple[float, float] | None
+    wanted: Contact | None
+
+
 # A Newton step to the next state.
 Step = Callable[[FlowProblem, Material, PlacedMesh, FlowState, Contact], FlowState]
 
@@ -116,18 +134,53 @@ def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
     if not can_compile(problem):
         return None
     material = sample_material(problem, mesh.template)
-    return prepare_flow(mesh, _gravity_load(problem, material, mesh))
+    return prepare_flow(problem, material, mesh, _gravity_load(problem, material, mesh))
 
 
-def choose_step(core: CompiledFlow | None) -> Step:
-    """Newton's steps by the core, or in NumPy where there is none.
+def take_step(
+    core: CompiledFlow | None,
+    step: Step | None,
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    contact: Contact,
+) -> Taken:
+    """Newton's step from a state under a contact, (N10).
 
     Parameters
     ----------
     core : CompiledFlow or None
-        On the mesh of the steps.
+        Takes it, if there is one.
+    step : callable, optional
+        Takes it in another way than in NumPy.
+    problem, material, mesh
+        Creep, ground and friction on the mesh.
+    state : FlowState
+        Before the step.
+    contact : Contact
+        Under which it is taken.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
     """
-    return _advance if core is None else partial(_advance_compiled, core)
+    if core is None:
+        after = (step or _advance)(problem, material, mesh, state, contact)
+        return Taken(after, None, None)
+    found = core.advance(state.stress, state.base_shear, contact, state.reaction)
+    return Taken(_read_state(found, contact), found.changes, found.wanted)
+
+
+def _read_state(found: Advanced, contact: Contact) -> FlowState:
+    return FlowState(
+        unknowns=found.unknowns,
+        reaction=found.reaction,
+        stress=found.stress,
+        base_shear=found.base_shear,
+        contact=contact,
+    )
 
 
 def linearise_reaction(
@@ -159,11 +212,12 @@ def linearise_reaction(
     if core is None:
         first, second = _respond(problem, mesh, state)
     else:
-        material = sample_material(problem, mesh.template)
-        held = ~state.contact.is_open
-        support = _list_support(problem, mesh, state.contact)
         first, second = core.respond(
-            problem, material, state.stress, state.base_shear, support, held
+            state.stress,
+            state.base_shear,
+            state.contact,
+            free_unknowns(problem, mesh, state.contact),
+            friction_shares(problem, mesh, state.contact),
         )
     cosine, sine = mesh.axes[:, mesh.template.net, None]
     return -np.array([cosine * first - sine * second, sine * first + cosine * second])
@@ -208,10 +262,12 @@ def remove_rounding(
     SingularError
         If nothing holds the snow.
     """
-    material = sample_material(problem, mesh.template)
     core = compile_flow(problem, mesh)
     if core is not None:
-        return _mend_compiled(core, problem, material, mesh, state)
+        found = core.advance(state.stress, state.base_shear, state.contact, keeps=True)
+        mended = _read_state(found, state.contact)
+        return replace(mended, unknowns=state.unknowns + found.unknowns)
+    material = sample_material(problem, mesh.template)
     linear = _linearise(problem, material, mesh, state, state.contact)
     residual = compute_residual(problem, mesh, state)
     change = _solve_step(problem, mesh, state.contact, linear.blocks, residual)
@@ -249,6 +305,9 @@ def compute_residual(
     ndarray, shape (n_dofs,)
         In node axes [rho g d^2].
     """
+    core = compile_flow(problem, mesh)
+    if core is not None:
+        return core.balance(state.stress, state.base_shear)
     material = sample_material(problem, mesh.template)
     force = assemble_stress(mesh, total_stress(problem, state.stress))
     force -= _gravity_load(problem, material, mesh)
@@ -283,46 +342,6 @@ def _advance(
         stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
         base_shear=base_shear,
         contact=contact,
-    )
-
-
-def _advance_compiled(
-    core: CompiledFlow,
-    problem: FlowProblem,
-    material: Material,
-    mesh: PlacedMesh,
-    state: FlowState,
-    contact: Contact,
-) -> FlowState:
-    """The same by the core."""
-    support = _list_support(problem, mesh, contact)
-    found = core.advance(problem, material, state.stress, state.base_shear, support)
-    return FlowState(**found._asdict(), contact=contact)
-
-
-def _mend_compiled(
-    core: CompiledFlow,
-    problem: FlowProblem,
-    material: Material,
-    mesh: PlacedMesh,
-    state: FlowState,
-) -> FlowState:
-    """Correction of the stresses (N17) by the core."""
-    support = _list_support(problem, mesh, state.contact)
-    found = core.advance(
-        problem, material, state.stress, state.base_shear, support, keeps=True
-    )
-    unknowns = state.unknowns + found.unknowns
-    return FlowState(
-        **found._replace(unknowns=unknowns)._asdict(), contact=state.contact
-    )
-
-
-def _list_support(problem: FlowProblem, mesh: PlacedMesh, contact: Contact) -> Support:
-    return Support(
-        free=free_unknowns(problem, mesh, contact),
-        shares=friction_shares(problem, mesh, contact),
-        bears=_find_bearing(contact),
     )
 
 

@@ -68,7 +68,7 @@ def build_straight_mesh(
         nodes=nodes,
         weights=weights,
         gradients=gradients,
-        operator=operator,
+        folded=operator,
         dofs=dofs,
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=np.zeros((2, template.net.size)),
