@@ -24,6 +24,9 @@ class Quantity:
     decimals : int or None
         Digits after the point. None: as given, for values that somebody chose
         (a density of 366.8 kg/m3 is not rounded away).
+    most : int
+        Digits after the point at most where ``decimals`` is None: a search goes to
+        values that nobody would type.
     scientific : bool
         Written with an exponent.
     """
@@ -32,6 +35,7 @@ class Quantity:
     symbol: str
     unit: str
     decimals: int | None
+    most: int = 4
     scientific: bool = False
 
     @property
@@ -45,20 +49,21 @@ def _row(
     symbol: str,
     unit: str,
     decimals: int | None,
+    most: int = 4,
 ) -> Quantity:
-    return Quantity(key=key, symbol=symbol, unit=unit, decimals=decimals)
+    return Quantity(key=key, symbol=symbol, unit=unit, decimals=decimals, most=most)
 
 
 _ROWS = (
     # the ranges
-    _row("density_kg_m3", "ρ", "kg/m³", None),
-    _row("friction_deg", "φ", "°", None),
-    _row("inclination_deg", "θ", "°", None),
-    _row("thickness_m", "d", "m", None),
-    _row("upslope_length_m", "L", "m", None),
+    _row("density_kg_m3", "ρ", "kg/m³", None, most=1),
+    _row("friction_deg", "φ", "°", None, most=1),
+    _row("inclination_deg", "θ", "°", None, most=1),
+    _row("thickness_m", "d", "m", None, most=2),
+    _row("upslope_length_m", "L", "m", None, most=2),
     _row("slack", "s", "", None),
-    _row("stiffness_kN_per_m", "ES", "kN/m", None),
-    _row("slip_length_m", "D*", "m", None),
+    _row("stiffness_kN_per_m", "ES", "kN/m", None, most=0),
+    _row("slip_length_m", "D*", "m", None, most=2),
     _row("glide_factor", "N", "", None),
     # geometry
     _row("slope_deg", "ψ", "°", 1),

@@ -103,6 +103,11 @@ def fluidity_from_mpa_year(value: float, creep_exponent: float) -> float:
     return float(value * 1e-6**creep_exponent / SECONDS_PER_YEAR)
 
 
+def fluidity_per_mpa_year(value: float, creep_exponent: float) -> float:
+    """Fluidity in Pa^-n s^-1 to MPa^-n a^-1."""
+    return float(value * SECONDS_PER_YEAR / 1e-6**creep_exponent)
+
+
 def mm_per_day(value: float) -> float:
     """Velocity in m/s to mm per day."""
     return value * 1e3 * SECONDS_PER_DAY

@@ -13,7 +13,7 @@ OBJECTS = (
     "confirmation",
     "note",
     "reason",
-    "model_reason",
+    "model",
     "resistance_derivation",
     "derivation",
     "sideways",

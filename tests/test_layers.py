@@ -74,7 +74,7 @@ THIRD_PARTY = {
             "solving.*",
         ),
         *("files.solution", "evidence.*"),
-        *("study.record_envelope", "study.record_monitoring", "study.record_panel"),
+        *("study.record_envelope", "study.record_panel"),
         *("report.drawing.net_figures", "commands.doctor"),
     ),
     "scipy": (

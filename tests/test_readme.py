@@ -32,7 +32,9 @@ def blocks(language: str, text: str = README) -> list[str]:
     ]
 
 
-TABLE, CHANGES, PULLS, LAYERS = blocks("text")
+TUTORIAL = (ROOT / "netdesign" / "TUTORIAL.md").read_text(encoding="utf-8")
+TABLE, PULLS, LAYERS = blocks("text")
+CHANGES, SIZES = blocks("text", TUTORIAL)
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -90,8 +92,10 @@ def test_two_commands_run_as_printed(tmp_path):
 
 
 def test_first_site_step_by_step(tmp_path):
-    """The example's table, what would turn its checks, and its mended workbook."""
-    write, check = re.findall(r"\*\* `(netdesign [^`]+)`$", README, re.MULTILINE)
+    """Every command of the tutorial: what it prints and writes."""
+    begin, look, again, hand_on = blocks("sh", TUTORIAL)
+    (write,), (check,) = begin.splitlines(), look.splitlines()
+    assert f"{write}\n{check}\n" in blocks("sh"), "the README has other ones"
     assert run(write, tmp_path).returncode == 0
     first = run(f"{check} --quiet", tmp_path)
     assert first.returncode == 1, first.stderr
@@ -99,21 +103,22 @@ def test_first_site_step_by_step(tmp_path):
     shown = TABLE.splitlines()
     assert printed[: len(shown)] == shown
     assert set(CHANGES.splitlines()) <= set(printed)
-    outputs = {path.name for path in (tmp_path / "first").iterdir()}
-    assert outputs == {"study.json", "report.html", "report.xlsx"}
+    assert set(SIZES.splitlines()) <= set(printed)
+    outputs = {"study.json", "report.html", "report.xlsx"}
+    written = {path.name for path in (tmp_path / "first").iterdir()}
+    assert written == outputs | {f"what-if-{name}" for name in outputs}
 
     workbook = openpyxl.load_workbook(tmp_path / "first.xlsx")
     assert workbook["Anchors"]["A6"].value == "A25-untested"
     assert workbook["Nets"]["A8"].value == "R7"
     assert workbook["Nets"]["P1"].value == "foot anchor"
-    told = re.sub(r"\s+", " ", README)
+    told = re.sub(r"\s+", " ", TUTORIAL)
     assert "write `310` in `Anchors!C6` and `tested` beside it in `D6`" in told
     assert "write `A40-tested` in `Nets!P8`" in told
     fill(
         tmp_path / "first.xlsx",
         {"Anchors!C6": 310, "Anchors!D6": "tested", "Nets!P8": "A40-tested"},
     )
-    (again,) = [block for block in blocks("sh") if "diff" in block]
     mend, compare = again.splitlines()
     mended = run(f"{mend} --quiet", tmp_path)
     assert mended.returncode == 6, mended.stderr
@@ -121,6 +126,13 @@ def test_first_site_step_by_step(tmp_path):
     turned = run(compare, tmp_path)
     assert turned.returncode == 1  # a verdict turned
     assert "R7: verdict: fail -> pass" in turned.stdout
+    report, verify = hand_on.splitlines()
+    handed = run(report, tmp_path)
+    assert handed.returncode == 6, handed.stderr
+    page = (tmp_path / "bericht" / "report.html").read_text(encoding="utf-8")
+    assert '<html lang="de">' in page
+    assert verify.split()[:3] == ["netdesign", "verify", "--study"]  # run elsewhere
+    assert (tmp_path / verify.split()[3]).is_file()
 
 
 def test_scene_file_is_solved(tmp_path):
@@ -178,7 +190,10 @@ def test_links_lead_somewhere(page, link):
 def test_picture_is_small():
     picture = ROOT / "netdesign" / "report" / "example-report.png"
     assert f'src="{picture.relative_to(ROOT).as_posix()}"' in README
-    assert picture.stat().st_size < 150_000
+    shown = re.findall(r'<img src="([^"]+)"', TUTORIAL)
+    pictures = sorted((ROOT / "netdesign" / "tutorial").iterdir())
+    assert [f"tutorial/{one.name}" for one in pictures] == sorted(shown)
+    assert all(one.stat().st_size < 150_000 for one in (picture, *pictures))
 
 
 def test_what_is_not_treated_is_that_of_the_reports():

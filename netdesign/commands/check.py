@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from netdesign.commands.check_outputs import plan_outputs, render_outputs
 from netdesign.commands.config import ConfiguredCommand
 from netdesign.commands.dry_run import announce
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.next_steps import tell_next_steps
 from netdesign.commands.options import (
     accuracy_option,
     force_option,
@@ -22,7 +25,18 @@ from netdesign.commands.options import (
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.report_options import choose_style, list_wanted, report_options
 from netdesign.commands.running import EXIT_CODES, own_command, report_places, tell_time
-from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.site_input import (
+    open_site,
+    require_effect,
+    site_options,
+    temporary_example,
+)
+from netdesign.commands.sizing import (
+    check_and_size,
+    print_sized,
+    require_one,
+    what_if_options,
+)
 from netdesign.commands.solving import open_run, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.streams import print_json
@@ -30,7 +44,7 @@ from netdesign.errors import StandardError
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from netdesign.checks import Standard
     from netdesign.checks.schema import Floor
@@ -66,6 +80,7 @@ DEFAULT_STANDARD = "nf-p-95-304-style"
     type=click.Choice(["guideline", "none"]),
     help="What no demand lies below [the limit profile's]; told on the first page.",
 )
+@what_if_options
 @solving_options
 @out_option(f"Folder of the outputs [{DEFAULT_FOLDER}; with --json none].")
 @report_options
@@ -82,6 +97,8 @@ def check(
     accuracy: float,
     method: Literal["steady", "transient"],
     floor: Floor | None,
+    size: bool,
+    instead: dict[str, str],
     jobs: int | None,
     executor: str,
     cache: bool,
@@ -109,6 +126,8 @@ def check(
     netdesign check site.xlsx --annotate site-marked.xlsx --dry-run
     netdesign check site.csv --delimiter ";" --decimal-mark comma
     netdesign check site.xlsx --standard eurocode --standard my-profile/ --explain
+    netdesign check site.xlsx --size --out sized
+    netdesign check site.xlsx --what-if Nets.P8=A40 --out what-if
     netdesign check site.xlsx --json > study.json
 
     The site is an xlsx, xlsm, ods or csv file, or a folder of csv files. Defaults
@@ -117,16 +136,15 @@ def check(
     """
     from netdesign.coupling.scene import SolverSettings
     from netdesign.edge.output import write_files
-    from netdesign.report.files import render_files
     from netdesign.study.cases import CheckRun
-    from netdesign.study.check_site import check_site
 
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
-    site = _read_site(site_file, overwrite=force, language=language, **reading)
-    profiles = _choose_profiles(standards, site)
-    if floor is not None:
-        profiles = [one.overrule_floor(floor) for one in profiles]
+    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
+    require_one(instead, size=size, has_folder=folder is not None, dry_run=dry_run)
+    reading |= {"overwrite": force, "language": language}
+    site = _read_site(site_file, instead, **reading)
+    profiles = _choose_profiles(standards, site, floor)
     run = CheckRun(
         settings=SolverSettings(accuracy=accuracy),
         method=method,
@@ -138,40 +156,66 @@ def check(
         count = len(profiles)
         sys.exit(announce(site, run, count, as_json=as_json, language=language))
     reports = {"html": html, "excel": excel, "csv": csv, "pdf": pdf, "docx": docx}
-    looks = {"language": language, "detail": detail, "template": template}
     kinds = list_wanted({**reports, "template": template})
-    style = choose_style(looks)
-    folder = out or (None if as_json else Path(DEFAULT_FOLDER))
-    names = _plan_files(folder, profiles, kinds, overwrite=force)
+    looks = {"language": language, "detail": detail, "template": template}
+    outputs = plan_outputs(
+        folder,
+        [profile.id for profile in profiles],
+        kinds,
+        choose_style(looks),
+        size=size,
+        is_what_if=instead,
+        overwrite=force,
+    )
+    read = partial(_read_site, site_file, **reading | {"annotate": None})
     with open_run(
         site,
         run,
         executor=executor,
         cache=cache,
         quiet=quiet,
-        profiles=len(profiles),
+        profiles=len(profiles) * (2 if size else 1),
         language=language,
     ) as (runner, progress):
-        studies = check_site(site, profiles, run, runner, progress)
+        studies, sized = check_and_size(
+            site, profiles, run, read if size else None, runner, progress
+        )
         progress.enter("reports")
         views = [] if as_json else _view_studies(studies, language)
-        files = render_files(studies, names, style, views)
+        files = render_outputs(outputs, studies, sized, views)
     failed = tell_faults(runner.faults, language)
     write_files(files, overwrite=force)
     _show(studies, views, language, as_json=as_json, explain=explain)
-    report_places(names, language, quiet=quiet or as_json)
+    if not as_json:
+        print_sized(sized, studies, language)
+    report_places([list(files)], language, quiet=quiet or as_json)
+    if not (quiet or as_json):
+        tell_next_steps(studies, str(site_file or "--example"), language, is_sized=size)
     sys.exit(failed or _exit_code(studies))
 
 
-def _read_site(site_file: Path | None, **reading: Any) -> Site:
+def _read_site(
+    site_file: Path | None, instead: Mapping[str, str], **reading: Any
+) -> Site:
     """Site from a file; the example goes through a real workbook too."""
-    if site_file is not None:
-        return open_site(site_file, **reading)
-    with temporary_example() as path:
-        return open_site(path, **reading)
+    if site_file is None:
+        with temporary_example() as path:
+            return _read_site(path, instead, **reading)
+    site = open_site(site_file, instead=instead, **reading)
+    bare = reading | {"annotate": None}
+    require_effect(instead, lambda cells: open_site(site_file, instead=cells, **bare))
+    return site
 
 
-def _choose_profiles(names: Sequence[str], site: Site) -> list[Standard]:
+def _choose_profiles(
+    names: Sequence[str], site: Site, floor: Floor | None
+) -> list[Standard]:
+    """Profiles, with the floor that was chosen for them, if any was."""
+    profiles = _find_profiles(names, site)
+    return [one.overrule_floor(floor) for one in profiles] if floor else profiles
+
+
+def _find_profiles(names: Sequence[str], site: Site) -> list[Standard]:
     """Profiles of the command line, else that of the site, else the default."""
     named = site.project.standard
     if names or not named:
@@ -197,23 +241,6 @@ def _load_profiles(names: Sequence[str]) -> list[Standard]:
     if len({profile.id for profile in profiles}) < len(profiles):
         raise UsageRefusal(say("usage.same_profiles"))
     return profiles
-
-
-def _plan_files(
-    folder: Path | None,
-    profiles: Sequence[Standard],
-    kinds: list[str],
-    *,
-    overwrite: bool,
-) -> list[list[Path]]:
-    """Places of the outputs of each profile, refused where something is there."""
-    from netdesign.edge.output import require_free
-    from netdesign.report.files import STUDY_FILE, name_files
-
-    ids = [profile.id for profile in profiles]
-    names = name_files(folder, ids, [STUDY_FILE, *kinds])
-    require_free([path for group in names for path in group], overwrite=overwrite)
-    return names
 
 
 def _view_studies(studies: Sequence[Study], language: Language) -> list[ReportView]:

@@ -11,6 +11,7 @@ import click
 from netdesign.commands.language import tell
 from netdesign.commands.options import force_option, out_option
 from netdesign.commands.report_options import choose_style, list_wanted, report_options
+from netdesign.commands.sizing import mark_names
 from netdesign.commands.stored_study import (
     contradict_command,
     origin_options,
@@ -61,7 +62,8 @@ def report(
 
     study = load_study(study_file)
     language: Language = options["language"]
-    names = name_files(out, [study.profile.id], list_wanted(options))
+    wanted = mark_names(list_wanted(options), is_what_if=study.what_if)
+    names = name_files(out, [study.profile.id], wanted)
     style = choose_style(options)
     require_free(names[0], overwrite=force)
     _require_sound(study, study_file, site_file, standard, language)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -73,8 +74,11 @@ def open_site(
     annotate: Path | None = None,
     overwrite: bool = False,
     language: Language = "en",
+    instead: Mapping[str, str] = MappingProxyType({}),
 ) -> Site:
     """Read a site; with ``annotate`` also write its copy, whether refused or not.
+
+    ``instead`` are texts that are read in the place of those of some cells.
 
     Raises
     ------
@@ -87,8 +91,9 @@ def open_site(
     from netdesign.site.reader import read_site
 
     text_format = build_text_format(delimiter=delimiter, decimal_mark=decimal_mark)
+    read = partial(read_site, path, text_format, instead)
     if annotate is None:
-        return read_site(path, text_format)
+        return read()
     if annotate.suffix.casefold() != ".xlsx":
         raise UsageRefusal(say("usage.annotate_xlsx", path=str(annotate)))
     if annotate.absolute() == path.absolute():
@@ -98,7 +103,7 @@ def open_site(
         _write_copy, path, annotate, text_format, overwrite=overwrite, language=language
     )
     try:
-        site = read_site(path, text_format)
+        site = read()
     except SiteDataError as error:
         write(error)
         raise
@@ -115,14 +120,47 @@ def build_text_format(
     return TextFormat(delimiter=delimiter, decimal_mark=_MARKS[decimal_mark or ""])
 
 
+def require_effect(instead: Mapping[str, str], read: Callable[..., Site]) -> None:
+    """Refuse replaced cells that nothing reads: their outputs would claim a change.
+
+    Raises
+    ------
+    UsageRefusal
+        Naming the first of them.
+    """
+    from dataclasses import replace
+
+    def read_bare(cells: Mapping[str, str]) -> Site:
+        """Site but for what only says that a cell was replaced."""
+        site = read(cells)
+        rows = (
+            replace(row, inputs=tuple(replace(e, derivation=None) for e in row.inputs))
+            for row in site.rows
+        )
+        return replace(site, what_if=(), rows=tuple(rows), findings=(), notes=())
+
+    whole = read_bare(instead) if instead else None
+    for cell in instead:
+        others = {key: text for key, text in instead.items() if key != cell}
+        if read_bare(others) == whole:
+            raise UsageRefusal(say("what_if.no_effect", cell=cell))
+
+
 def reopen_site(path: Path, typed: Mapping[str, Any]) -> Site:
     """Read a site again, with the words of an earlier command that say how."""
+    from netdesign.commands.sizing import read_instead
+
+    try:
+        instead = read_instead(None, None, typed.get("instead") or ())
+    except click.UsageError:  # of a command that was altered: its inputs contradict it
+        instead = {}
     delimiter = str(typed.get("delimiter") or "")
     mark = str(typed.get("decimal_mark") or "")
     return open_site(
         path,
         delimiter=_DELIMITERS.get(delimiter, delimiter),
         decimal_mark=mark if mark in _MARKS else None,
+        instead=instead,
     )
 
 

@@ -63,7 +63,7 @@ def read_own_site(study: Study, study_file: Path, site_file: Path | None) -> Sit
             say("stored.no_site", study=str(study_file), site=f"{name!r:.60}")
         )
     with temporary_example() as path:
-        return reopen_site(path, {})
+        return reopen_site(path, {"instead": values.get("instead")})
 
 
 def contradict_command(study: Study) -> Iterator[Message]:

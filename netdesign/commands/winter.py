@@ -21,7 +21,12 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.running import EXIT_CODES, report_places
-from netdesign.commands.site_input import open_site, site_options, temporary_example
+from netdesign.commands.site_input import (
+    build_text_format,
+    open_site,
+    site_options,
+    temporary_example,
+)
 from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.streams import print_json
@@ -32,11 +37,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from netdesign.files.winter import WinterRun
+    from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site, StationWinter
     from netdesign.solving.runner import Runner
     from netdesign.words.catalogue import Language
 
-MODELS = ("delta-snow", "delta-snow-ageing", "hs2swe")
+MODELS = ("delta-snow-ageing", "hs2swe", "delta-snow")  # the first is the default
 _FOLDER = "winter"
 _PHASE = 150  # solves of a row and winter, about; a table has 63
 EXAMPLE_HEIGHTS = "winter_2000.csv"
@@ -125,7 +131,12 @@ def winter(
     names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
     require_free(names, overwrite=force)
     site = _read_site(site_file, overwrite=force, language=language, **reading)
-    station = _find_heights(site, heights, median, example=example, language=language)
+    text_format = build_text_format(
+        delimiter=reading["delimiter"], decimal_mark=reading["decimal_mark"]
+    )
+    station = _find_heights(
+        site, heights, text_format, median, example=example, language=language
+    )
     chosen = _choose_rows(site, row_ids)
     with open_phases(
         _list_phases(chosen),
@@ -168,6 +179,7 @@ def _read_site(site_file: Path | None, **reading: Any) -> Site:
 def _find_heights(
     site: Site,
     heights: Path | None,
+    text_format: TextFormat,
     median: bool,
     *,
     example: bool,
@@ -182,7 +194,7 @@ def _find_heights(
 
     found = site.winter
     if heights is not None:
-        found, remarks = read_height_file(heights)
+        found, remarks = read_height_file(heights, text_format)
         for remark in remarks:
             tell(remark.message, language, err=True)
     elif found is None and example:
@@ -228,27 +240,40 @@ def _solve(
     from netdesign.coupling.scene import SolverSettings
     from netdesign.files.winter import WinterRun
     from netdesign.snowpack.follow import MODELS as KNOWN
+    from netdesign.study.measured_pulls import (
+        compare_row,
+        list_measured_pulls,
+        name_measured_winters,
+    )
     from netdesign.study.winter_row import build_winter_row, require_plausible_heights
     from netdesign.winter.day import DaySolver
-    from netdesign.winter.row_winters import follow_winters
+    from netdesign.winter.row_winters import follow_station, follow_winters
 
     rows = [build_winter_row(site, row, station) for row in site.rows]
+    pulls = [list_measured_pulls(site, row.id) for row in rows]
     if is_checked:
         require_plausible_heights(rows, site.rows, station)
     models = [KNOWN[model], *(one for name, one in KNOWN.items() if name != model)]
+    packs = follow_station(station.series, models)
     settings = SolverSettings(accuracy=accuracy)
+    results = [
+        follow_winters(
+            packs,
+            DaySolver(row=row, settings=settings, runner=runner),
+            every,
+            name_measured_winters(measured),
+        )
+        for row, measured in zip(rows, pulls, strict=True)
+    ]
     return WinterRun(
         site=site,
         winter=station,
         rows=rows,
-        results=[
-            follow_winters(
-                station.series,
-                models,
-                DaySolver(row=row, settings=settings, runner=runner),
-                every,
-            )
-            for row in rows
+        results=results,
+        packs=packs,
+        compared=[
+            compare_row(measured, result, row, station.series)
+            for measured, result, row in zip(pulls, results, rows, strict=True)
         ],
         is_smoothed=is_smoothed,
         accuracy=accuracy,

@@ -26,6 +26,7 @@ from netdesign.snow.fluidity import (
     FLUIDITY_EXPONENT,
     PAPER_FLUIDITY,
     compute_fluidity,
+    compute_settling_fluidity,
 )
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.law import FlowLayer, FlowProblem, Sides
@@ -93,8 +94,8 @@ class Scene:
         What holds the snow.
     creep_law : CreepLaw
         Set of a(D), b(D), n.
-    fluidity : float
-        B [Pa^-n s^-1]; of layers without a temperature.
+    fluidity : float or None
+        B [Pa^-n s^-1], of layers without a temperature; None where nobody gave one.
     ground_contact, net_contact : str
         ``two-sided`` (the paper) or ``one-sided`` (cannot pull on the snow).
     """
@@ -103,7 +104,7 @@ class Scene:
     ground: GroundLaw
     net: Net | Wall
     creep_law: CreepLaw = BOUTILLIER_2004
-    fluidity: float = PAPER_FLUIDITY
+    fluidity: float | None = None
     ground_contact: Sides = "two-sided"
     net_contact: Sides = "two-sided"
 
@@ -116,7 +117,8 @@ class Scene:
             )
         if isinstance(self.net, Net):
             _require_clear_of_ground(self.net)
-        require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
+        if self.fluidity is not None:
+            require_positive("fluidity", self.fluidity, "Pa^-n s^-1")
         if not any(self.snowpack.gravity_direction):
             raise ModelError(say("scene.no_weight"))
         for name in ("ground_contact", "net_contact"):
@@ -129,9 +131,7 @@ class Scene:
             0.25,
             200.0,
         )
-        if self.creep_law.exponent != FLUIDITY_EXPONENT and any(
-            layer.temperature is not None for layer in self.layers
-        ):
+        if self.creep_law.exponent != FLUIDITY_EXPONENT and self._has_temperatures:
             raise ModelError(
                 say(
                     "scene.layer_temperature",
@@ -148,6 +148,29 @@ class Scene:
         pack = self.snowpack
         whole = Layer(thickness=pack.thickness, density=pack.density)
         return pack.layers or (whole,)
+
+    @property
+    def settles_as_stations(self) -> bool:
+        """Nobody gave a fluidity or a temperature: settling sets the clock."""
+        return self.fluidity is None and not self._has_temperatures
+
+    @property
+    def creep_fluidity(self) -> float:
+        """B [Pa^-n s^-1]: as given; else of settling at mid-depth, (N25) and (N26).
+
+        Beside layers with a temperature it is the source paper's.
+        """
+        if self.fluidity is not None:
+            return self.fluidity
+        if self._has_temperatures:
+            return PAPER_FLUIDITY
+        pack = self.snowpack
+        middle = pack.stress_scale / 2.0
+        return compute_settling_fluidity(self.creep_law, pack.density, middle)
+
+    @property
+    def _has_temperatures(self) -> bool:
+        return any(layer.temperature is not None for layer in self.layers)
 
     @property
     def layer_tops(self) -> tuple[float, ...]:
@@ -223,7 +246,7 @@ class Scene:
         """B a^((n+1)/2) (rho g d)^n d [m/s], the scale of velocities."""
         n, pack = self.creep_law.exponent, self.snowpack
         shear = compute_shear_factor(self.creep_law, pack.relative_density)
-        rate = self.fluidity * shear ** ((n + 1) / 2) * pack.stress_scale**n
+        rate = self.creep_fluidity * shear ** ((n + 1) / 2) * pack.stress_scale**n
         return float(rate * pack.thickness)
 
     @property
@@ -239,7 +262,7 @@ class Scene:
         mean_shear = compute_shear_factor(law, pack.relative_density)
         warmth = 1.0
         if layer.temperature is not None:
-            warmth = compute_fluidity(layer.temperature) / self.fluidity
+            warmth = compute_fluidity(layer.temperature) / self.creep_fluidity
         return FlowLayer(
             top=top,
             bulk_ratio=shear / compute_bulk_factor(law, density),

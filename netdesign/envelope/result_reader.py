@@ -28,6 +28,7 @@ _NEAR = 0.9
 _ROPES_SHARE = 0.02
 _GUYS = (Member.UPHILL_GUY, Member.DOWNHILL_GUY)
 _PANEL_GUYS = tuple(map(name_in_panel, _GUYS))
+_ALONG = (RopeForce.LOWER_ALONG, RopeForce.UPPER_ALONG)
 _BY_PANEL = name_in_panel("")  # how the names of its quantities begin
 
 ReadSigned = Callable[[CaseResult, SupportLayout], dict[str, float] | None]
@@ -43,6 +44,8 @@ class ResultReader:
         Support of the net; None follows the net's own tensions.
     has_panel : bool
         The row has a panel between its posts.
+    has_end : bool
+        Pulls of the panel's ropes along the row are checked.
     members, signed : tuple of str
         Quantities of the results, and the signed forces behind them.
     is_shared : bool
@@ -56,6 +59,7 @@ class ResultReader:
 
     layout: SupportLayout | None
     has_panel: bool = False
+    has_end: bool = False
     members: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     is_shared: bool = False
@@ -154,7 +158,11 @@ class ResultReader:
             behind += [member for member in self.members if member in guys]
         if name in tuple(RopeForce):
             closest = _ROPES_SHARE * self.largest.get(name, 0.0)
-            return Watched(resolution=closest, floor=floor)
+            return Watched(
+                resolution=closest,
+                floor=floor,
+                is_deciding=self.has_end and name in _ALONG,
+            )
         errors = [self.errors[member] for member in behind if member in self.errors]
         return Watched(resolution=_RESOLUTION * max(errors, default=0.0), floor=floor)
 

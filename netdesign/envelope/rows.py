@@ -53,6 +53,8 @@ class RowTask:
         by one.
     panel : Panel or None
         Between the posts; its forces are searched beside those of the section.
+    has_end : bool
+        The pulls of its ropes along the row are checked, where the row ends.
     """
 
     scene: Scene
@@ -63,6 +65,7 @@ class RowTask:
     confirmed_by: Settings | None
     build: Callable[[Case], Scene] | None = None
     panel: Panel | None = None
+    has_end: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -111,7 +111,9 @@ class RowSearch:
         """Begin with nothing known of the row's cases."""
         self._search = search
         self._reader = ResultReader(
-            layout=self.task.layout, has_panel=self.task.panel is not None
+            layout=self.task.layout,
+            has_panel=self.task.panel is not None,
+            has_end=self.task.has_end,
         )
         self._skip = FrictionSkip(self.task.ranges.axes)
         self._results: list[CaseResult] = []

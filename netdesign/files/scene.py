@@ -30,7 +30,6 @@ from netdesign.snow.creep_law import (
 )
 from netdesign.snow.fluidity import (
     FLUIDITY_EXPONENT,
-    PAPER_FLUIDITY,
     compute_fluidity,
 )
 from netdesign.snow.ground import GroundKind, GroundLaw, build_ground_from_glide_factor
@@ -307,7 +306,7 @@ def _creep_law(snow: SnowTable) -> CreepLaw:
     return replace(CREEP_LAWS[snow.creep_law], exponent=snow.creep_exponent)
 
 
-def _fluidity(snow: SnowTable) -> float:
+def _fluidity(snow: SnowTable) -> float | None:
     given, temperature = snow.fluidity_per_MPa3_a, snow.temperature_C
     if given is not None and temperature is not None:
         raise ModelError(say("scene_file.fluidity_or_temperature"))
@@ -319,7 +318,7 @@ def _fluidity(snow: SnowTable) -> float:
         return compute_fluidity(kelvin_from_celsius(temperature))
     if given is not None:
         return fluidity_from_mpa_year(given, snow.creep_exponent)
-    return PAPER_FLUIDITY
+    return None
 
 
 def _ground(ground: GroundTable, thickness: float, creep_law: CreepLaw) -> GroundLaw:

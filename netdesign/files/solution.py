@@ -10,7 +10,7 @@ from netdesign import __version__
 from netdesign.core.library import name_core
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
-from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.coupling.solution import (
     RELEASED,
     Balance,
@@ -22,9 +22,14 @@ from netdesign.coupling.solution import (
 from netdesign.coupling.steady.bound import PullBound
 from netdesign.files.solved_support import SolvedSupport, write_support
 from netdesign.numerics.arrays import Floats, Mask
-from netdesign.snow.fluidity import FLUIDITY_EXPONENT, PAPER_FLUIDITY
+from netdesign.snow.fluidity import FLUIDITY_EXPONENT
 from netdesign.solving.solve import Settings
-from netdesign.units import day_from_second, kilonewton_from_newton, mm_per_day
+from netdesign.units import (
+    day_from_second,
+    fluidity_per_mpa_year,
+    kilonewton_from_newton,
+    mm_per_day,
+)
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
 
@@ -64,7 +69,7 @@ def write_solution_document(
         **held,
         **({} if support is None else {"support": write_support(support, language)}),
         "balance": _write_balance(solution.balance),
-        "largest_velocity_mm_per_day": _write_velocity(solution),
+        "largest_velocity_mm_per_day": mm_per_day(solution.largest_velocity),
         **_write_history(solution, language),
         "flags": [render(one, language) for one in _list_flags(solution)],
         "cost": _write_cost(solution.cost, wall_s),
@@ -72,6 +77,7 @@ def write_solution_document(
             "version": __version__,
             "core": name_core(),
             "creep_law": solution.scene.creep_law.name,
+            "clock": _write_clock(solution.scene),
             "element": solution.scene.flow_problem.element,
             "settings": _write_settings(settings),
         },
@@ -181,13 +187,14 @@ def _size(vector: Floats) -> float:
     return kilonewton_from_newton(float(np.hypot(*vector)))
 
 
-def _write_velocity(solution: Solution | WallSolution) -> float | None:
-    """Largest velocity; None where the only fluidity is that of another exponent."""
-    scene = solution.scene
-    is_default = scene.fluidity == PAPER_FLUIDITY
-    if is_default and scene.creep_law.exponent != FLUIDITY_EXPONENT:
-        return None
-    return mm_per_day(solution.largest_velocity)
+def _write_clock(scene: Scene) -> dict[str, Any]:
+    """Fluidity that turns creep time into time, and where it is from."""
+    n = scene.creep_law.exponent
+    return {
+        "source": "settling" if scene.settles_as_stations else "scene",
+        "fluidity_per_MPa_n_a": fluidity_per_mpa_year(scene.creep_fluidity, n),
+        "creep_exponent": n,
+    }
 
 
 def _write_net(solution: Solution) -> dict[str, Any]:
@@ -264,7 +271,7 @@ def _write_balance(balance: Balance) -> dict[str, float]:
 def _list_flags(solution: Solution | WallSolution) -> list[Message]:
     """Remarks that a reader must know before using the numbers."""
     law = solution.scene.creep_law
-    flags = _list_history_flags(getattr(solution, "history", None))
+    flags = _list_history_flags(getattr(solution, "history", None), solution.scene)
     if getattr(solution, "is_released", False):
         flags.append(RELEASED)
     if not solution.scene.is_calibrated:
@@ -275,10 +282,10 @@ def _list_flags(solution: Solution | WallSolution) -> list[Message]:
     return flags
 
 
-def _list_history_flags(history: History | None) -> list[Message]:
+def _list_history_flags(history: History | None, scene: Scene) -> list[Message]:
     if history is None:
         return []
-    flags: list[Message] = []
+    flags = [_tell_clock(scene)] if scene.settles_as_stations else []
     plateau = history.plateau
     if plateau.was_left:
         flags.append(
@@ -295,3 +302,9 @@ def _list_history_flags(history: History | None) -> list[Message]:
     if history.fallen_share > _NOTED_LOSS:
         flags.append(say("solution.fell_over", share=float(history.fallen_share)))
     return flags
+
+
+def _tell_clock(scene: Scene) -> Message:
+    n = scene.creep_law.exponent
+    fluidity = fluidity_per_mpa_year(scene.creep_fluidity, n)
+    return say("solution.settling_clock", fluidity=fluidity, exponent=n)

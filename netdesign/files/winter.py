@@ -7,18 +7,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from netdesign.checks.result import Band
+from netdesign.files.measured import write_measured
 from netdesign.site.model import Site, StationWinter
-from netdesign.snowpack.follow import MODELS
 from netdesign.snowpack.pack import DayPack
 from netdesign.units import (
     celsius_from_kelvin,
     degree_from_radian,
     kilonewton_from_newton,
 )
+from netdesign.winter.compared import Comparison
 from netdesign.winter.day import RowDay, WinterRow
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
-from netdesign.winter.row_winters import RowWinters, list_complete, split_packs
+from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
 from netdesign.winter.season import Season
 from netdesign.words.catalogue import Language, render
 from netdesign.words.message import Message, say
@@ -40,6 +41,10 @@ class WinterRun:
         As loaded.
     results : sequence of RowWinters
         Of each row.
+    packs : StationPacks
+        Snow of the station, from which they come.
+    compared : sequence of sequence of Comparison
+        Measured forces of each row beside its curves.
     is_smoothed : bool
         Heights are medians of three days.
     accuracy : float
@@ -52,6 +57,8 @@ class WinterRun:
     winter: StationWinter
     rows: Sequence[WinterRow]
     results: Sequence[RowWinters]
+    packs: StationPacks
+    compared: Sequence[Sequence[Comparison]]
     is_smoothed: bool
     accuracy: float
     step: int
@@ -90,7 +97,10 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "air_temperatures_C": _write_temperatures(station),
         "rows": [
             _write_row(row, result, run, language)
-            for row, result in zip(run.rows, run.results, strict=True)
+            | write_measured(run.site, row.id, compared, station.series, language)
+            for row, result, compared in zip(
+                run.rows, run.results, run.compared, strict=True
+            )
         ],
     }
 
@@ -109,7 +119,7 @@ def _write_row(
     row: WinterRow, result: RowWinters, run: WinterRun, language: Language
 ) -> dict[str, Any]:
     scene, net = row.scene, row.scene.net
-    packs = split_packs(run.winter.series, MODELS[result.model])
+    packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
     winters = [

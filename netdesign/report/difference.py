@@ -94,7 +94,7 @@ class Change:
         words = Words(language)
         pairs = zip(self.names, (self.old, self.new), strict=True)
         old, new = (words.show(name) if name else one for name, one in pairs)
-        before, after = _show(old, new, words("diff.none"))
+        before, after = _show(old, new, words)
         told = {"what": self.name(words), "old": before, "new": after}
         if self.row:
             sentence = words("diff.change_of_row", row=self.row, **told)
@@ -379,6 +379,7 @@ def _list_settings(study: Study) -> Named:
     return {
         say("diff.version"): provenance.version,
         say("diff.site_file"): provenance.site_file,
+        **{say("diff.what_if", cell=one.cell): one.now for one in study.what_if},
         **{name("setting", key): value for key, value in settings},
         **{as_given(key): value for key, value in provenance.libraries.items()},
     }
@@ -416,16 +417,17 @@ def _keep_row_rest(row: RowStudy) -> object:
     )
 
 
-def _show(old: Any, new: Any, none: str) -> tuple[str, str]:
+def _show(old: Any, new: Any, words: Words) -> tuple[str, str]:
     """Both values, with as many digits as tell them apart."""
     for digits in range(4, _MOST_DIGITS + 1):
-        shown = _round(old, digits, none), _round(new, digits, none)
+        shown = _round(old, digits, words), _round(new, digits, words)
         if shown[0] != shown[1]:
             break
     return shown
 
 
-def _round(value: Any, digits: int, none: str) -> str:
+def _round(value: Any, digits: int, words: Words) -> str:
     if value in _NOTHING:
-        return none
-    return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
+        return words("diff.none")
+    is_number = isinstance(value, float)
+    return words.write(f"{value:.{digits}g}") if is_number else str(value)

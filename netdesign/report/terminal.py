@@ -75,6 +75,8 @@ def print_summary(
     none = words("heading.no_check")
     for row in view.rows:
         table.add_row(*_list_cells(row, none, is_narrow=is_narrow))
+    if view.mark:
+        console.print(Text(view.mark, style="bold"), soft_wrap=True)
     if view.rows:
         console.print(table)
         legend = Text(view.legend)

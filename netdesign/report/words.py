@@ -21,8 +21,11 @@ from netdesign.study.records import CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
+from netdesign.words.numerals import set_marks
 
 MISSING = "-"
+_FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
+_SAME = 1e-12  # relative; a typed number after its way through SI units
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +45,117 @@ class Words:
     def show(self, message: Message | None) -> str:
         """Message on one line; "-" for none."""
         return show_text(render(message, self.language)) if message else MISSING
+
+    def write(self, number: str) -> str:
+        """Number in Python's notation with the decimal mark of the language."""
+        return set_marks(number, self.language)
+
+    def write_formula(self, formula: str) -> str:
+        """Formula of ours whose numbers have the decimal mark of the language."""
+        return re.sub(r"(?<=\d)\.(?=\d)", self.write("."), formula)
+
+    def show_number(self, key: str, value: float | None) -> str:
+        """Value of the quantity ``key`` with its decimals, without unit.
+
+        Examples
+        --------
+        >>> ENGLISH.show_number("demand_kN", 126.26)
+        '126.3'
+        >>> Words("fr").show_number("sag_m", 2.5)
+        '2,500'
+        >>> ENGLISH.show_number("utilisation", 1.0004)  # never rounded down to a pass
+        '>1.000'
+        """
+        if value is None or not math.isfinite(value):
+            return MISSING
+        quantity = QUANTITIES[key]
+        if quantity.decimals is None:
+            return self.show_given(round(value, quantity.most))
+        kind = "e" if quantity.scientific else "f"
+        shown = f"{value:.{quantity.decimals}{kind}}"
+        if not float(shown):
+            shown = shown.removeprefix("-")
+        over = key == "utilisation" and value > 1 and float(shown) <= 1
+        return self.write(f">{shown}" if over else shown)
+
+    def show_fixed(self, value: float | None, decimals: int) -> str:
+        """Number with so many decimals; "-" for none."""
+        return MISSING if value is None else self.write(f"{value:.{decimals}f}")
+
+    def show_given(self, value: float) -> str:
+        """Value that somebody typed, as it is; one that has more digits, with five.
+
+        Examples
+        --------
+        >>> ENGLISH.show_given(30.000000000000004), Words("de").show_given(366.8)
+        ('30', '366,8')
+        >>> ENGLISH.show_given(22.03125), ENGLISH.show_given(12345678.9)
+        ('22.031', '12345679')
+        """
+        if not math.isfinite(value):
+            return MISSING
+        shown = f"{value:.6g}"
+        if not math.isclose(float(shown), value, rel_tol=_SAME):
+            shown = _round_figures(value)
+        return self.write(shown)
+
+    def show_digits(self, value: float | None) -> str:
+        """Number to five significant digits: enough to redo what follows from it."""
+        if value is None:
+            return MISSING
+        is_long = math.isfinite(value) and abs(value) >= 1e5
+        return self.write(f"{value:.0f}" if is_long else f"{value:.5g}")
+
+    def show_share(self, value: float | None) -> str:
+        """Pure number of any size: ``3.8e-16``, ``1.08``."""
+        return MISSING if value is None else self.write(f"{value:.3g}")
+
+    def show_quantity(self, value: float | str, unit: str) -> str:
+        """Value that somebody chose, with its unit if it has one."""
+        text = value if isinstance(value, str) else self.show_given(value)
+        shown = show_unit(unit)
+        gap = "" if shown == "°" else " "
+        return show_text(f"{text}{gap}{shown}" if shown != MISSING else text)
+
+    def show_with_unit(self, key: str, value: float | None) -> str:
+        """Number and unit; the sign of a missing number has no unit."""
+        shown = self.show_number(key, value)
+        unit = QUANTITIES[key].unit
+        if shown == MISSING or not unit:
+            return shown
+        return f"{shown}{unit}" if unit == "°" else f"{shown} {unit}"
+
+    def show_band(self, key: str, low: float | None, high: float | None) -> str:
+        """Band of a number: ``0.842 to 0.871``."""
+        if low is None or high is None:
+            return MISSING
+        ends = {"low": self.show_number(key, low), "high": self.show_number(key, high)}
+        return self("show.band", **ends)
+
+    def name_case(self, case: CasePoint | None) -> str:
+        """Name of a case: ``350 kg/m³, φ 30°, θ 25°``, and what else ranges."""
+        if case is None:
+            return MISSING
+        density, *others = case.values.items()
+        return ", ".join((self.show_with_unit(*density), *self._name_values(others)))
+
+    def name_further(self, case: CasePoint | None) -> str:
+        """Values of a case beside the usual three, after a comma: ``, d 2.5 m``."""
+        if case is None:
+            return ""
+        return "".join(f", {x}" for x in self._name_values([*case.values.items()][3:]))
+
+    def name_case_short(self, case: CasePoint | None) -> str:
+        """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
+        if case is None:
+            return MISSING
+        return " / ".join(self.show_number(*one) for one in case.values.items())
+
+    def _name_values(self, values: Sequence[tuple[str, float]]) -> list[str]:
+        return [
+            f"{QUANTITIES[key].symbol} {self.show_with_unit(key, x)}"
+            for key, x in values
+        ]
 
 
 ENGLISH = Words()
@@ -96,57 +210,18 @@ def show_text(text: str) -> str:
     return re.sub("[ \n]+", " ", make_printable(text)).strip() or MISSING
 
 
-def show_number(key: str, value: float | None) -> str:
-    """Value of the quantity ``key`` with its decimals, without unit.
-
-    Examples
-    --------
-    >>> show_number("demand_kN", 126.26), show_number("demand_kN", None)
-    ('126.3', '-')
-    >>> show_number("utilisation", 1.0004)  # never rounded down to a pass
-    '>1.000'
-    """
-    if value is None or not math.isfinite(value):
-        return MISSING
-    quantity = QUANTITIES[key]
-    if quantity.decimals is None:
-        return show_given(value)
-    kind = "e" if quantity.scientific else "f"
-    shown = f"{value:.{quantity.decimals}{kind}}"
-    if not float(shown):
-        shown = shown.removeprefix("-")
-    if key == "utilisation" and value > 1 and float(shown) <= 1:
-        return f">{shown}"
-    return shown
-
-
-def show_given(value: float) -> str:
-    """Value that somebody typed: up to six significant digits, none added.
-
-    Examples
-    --------
-    >>> show_given(30.000000000000004), show_given(366.8)
-    ('30', '366.8')
-    """
-    return f"{value:.6g}" if math.isfinite(value) else MISSING
-
-
-def show_digits(value: float | None) -> str:
-    """Number to five significant digits: enough to redo what follows from it."""
-    return MISSING if value is None else f"{value:.5g}"
+def _round_figures(value: float) -> str:
+    """Computed number as an engineer writes it: five figures, no zeros behind them."""
+    if abs(value) < 1e-4:
+        return f"{value:.{_FIGURES}g}"
+    places = max(0, _FIGURES - 1 - math.floor(math.log10(abs(value))))
+    shown = f"{value:.{places}f}"
+    return shown.rstrip("0").rstrip(".") if places else shown
 
 
 def show_unit(unit: str) -> str:
     """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
     return _UNITS.get(unit, show_text(unit))
-
-
-def show_quantity(value: float | str, unit: str) -> str:
-    """Value that somebody chose, with its unit if it has one."""
-    text = value if isinstance(value, str) else show_given(value)
-    shown = show_unit(unit)
-    gap = "" if shown == "°" else " "
-    return show_text(f"{text}{gap}{shown}" if shown != MISSING else text)
 
 
 def understand(echo: InputEcho, words: Words) -> float | str:
@@ -166,53 +241,6 @@ def name_choice(column: str, word: str) -> Message | None:
     """Word of a column by its name in every language; None where it has none."""
     key = f"choice.{column}.{normalise(word)}"
     return say(key) if key in load_texts("en") else None
-
-
-def show_share(value: float | None) -> str:
-    """Pure number of any size: ``3.8e-16``, ``1.08``."""
-    return MISSING if value is None else f"{value:.3g}"
-
-
-def show_with_unit(key: str, value: float | None) -> str:
-    """Number and unit; the sign of a missing number has no unit."""
-    shown = show_number(key, value)
-    unit = QUANTITIES[key].unit
-    if shown == MISSING or not unit:
-        return shown
-    return f"{shown}{unit}" if unit == "°" else f"{shown} {unit}"
-
-
-def show_band(words: Words, key: str, low: float | None, high: float | None) -> str:
-    """Band of a number: ``0.842 to 0.871``."""
-    if low is None or high is None:
-        return MISSING
-    return words("show.band", low=show_number(key, low), high=show_number(key, high))
-
-
-def name_case(case: CasePoint | None) -> str:
-    """Name of a case: ``350 kg/m³, φ 30°, θ 25°``, and what else ranges."""
-    if case is None:
-        return MISSING
-    density, *others = case.values.items()
-    return ", ".join((show_with_unit(*density), *_name_values(others)))
-
-
-def name_further(case: CasePoint | None) -> str:
-    """Values of a case beside the usual three, after a comma: ``, d 2.5 m, s 0.02``."""
-    if case is None:
-        return ""
-    return "".join(f", {one}" for one in _name_values([*case.values.items()][3:]))
-
-
-def _name_values(values: Sequence[tuple[str, float]]) -> list[str]:
-    return [f"{QUANTITIES[key].symbol} {show_with_unit(key, x)}" for key, x in values]
-
-
-def name_case_short(case: CasePoint | None) -> str:
-    """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
-    if case is None:
-        return MISSING
-    return " / ".join(show_given(number) for number in case.values.values())
 
 
 def show_member(words: Words, member: str) -> str:

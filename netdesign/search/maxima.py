@@ -94,10 +94,14 @@ class Watched:
         cases are accurate.
     floor : float
         Below it the quantity does not matter, since another one is as large already.
+    is_deciding : bool
+        Its bound has to be close. That of another one follows from the same cases,
+        close or not: it asks for none, and no test of it counts.
     """
 
     resolution: float = 0.0
     floor: float = 0.0
+    is_deciding: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -296,7 +300,8 @@ class MaximaSearch:
         allowed = np.maximum(
             self.settings.certainty * expected.standard_error, bounds.tolerance / 2.0
         )
-        has_passed = bounds.is_closed and bool(np.all(errors <= allowed))
+        is_held = (errors <= allowed)[:, list(bounds.deciding)]
+        has_passed = bounds.is_closed and bool(np.all(is_held))
         self._passed = self._passed + 1 if has_passed else 0
         self._inflations += [
             Inflation(place=np.array(point), ratio=np.minimum(ratio, _MOST_INFLATION))
@@ -334,6 +339,7 @@ class MaximaSearch:
             best=_find_best(values, watched),
             tolerance=tolerance,
             watched=list(watched),
+            deciding=[q for q, one in watched.items() if one.is_deciding],
             lattice=self._lattice,
             certainty=self.settings.certainty,
             inflations=self._inflations,

@@ -65,14 +65,14 @@ def choose_questions(
     most = min(batch, room)
     if not bounds.is_closed:
         # the places that could exceed may all be known cases: then the best others
-        return _pick(bounds, bounds.watched, points, most, 0.0, GRAIN) or _pick(
+        return _pick(bounds, bounds.deciding, points, most, 0.0, GRAIN) or _pick(
             bounds, bounds.open, points, most, -math.inf, _BESIDE
         )
     known = set(points)
     beside = [one for one in _list_neighbours(bounds) if one.point not in known]
     if beside:
         return beside[:room]
-    return _pick(bounds, bounds.watched, points, most, -math.inf, _TEST_APART)
+    return _pick(bounds, bounds.deciding, points, most, -math.inf, _TEST_APART)
 
 
 def _pick(

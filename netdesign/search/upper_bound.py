@@ -43,20 +43,21 @@ class Bounds:
     tolerance: Floats  # shape (quantities,)
     upper: Floats
     watched: tuple[int, ...]
-    summits: tuple[tuple[Point, int], ...]  # best values of the watched quantities
+    deciding: tuple[int, ...]  # those of them that have to be close
+    summits: tuple[tuple[Point, int], ...]  # best values of the deciding quantities
     wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
 
     @property
     def open(self) -> tuple[int, ...]:
-        """Watched quantities whose gap is larger than its tolerance."""
+        """Deciding quantities whose gap is larger than its tolerance."""
         gaps = (self.upper - self.best) / self.tolerance
-        return tuple(q for q in self.watched if gaps[q] > 1.0 + 1e-9)
+        return tuple(q for q in self.deciding if gaps[q] > 1.0 + 1e-9)
 
     @property
     def gap(self) -> float:
         """Largest gap over its tolerance."""
         gaps = (self.upper - self.best) / self.tolerance
-        return float(np.max(gaps[list(self.watched)]))
+        return float(np.max(gaps[list(self.deciding)]))
 
     @property
     def is_closed(self) -> bool:
@@ -77,6 +78,7 @@ def bound_quantities(
     best: Floats,
     tolerance: Floats,
     watched: Sequence[int],
+    deciding: Sequence[int],
     lattice: Floats,
     certainty: float,
     inflations: Sequence[Inflation],
@@ -93,6 +95,8 @@ def bound_quantities(
         What each quantity has to exceed to matter, and the gap that it may keep.
     watched : sequence of int
         Quantities that are bounded; the others have no bound.
+    deciding : sequence of int
+        Those of them whose bounds have to be close.
     lattice : ndarray, shape (m, dimension)
         Of `build_lattice`.
     certainty : float
@@ -126,6 +130,8 @@ def bound_quantities(
     wanted: list[tuple[float, Point, int]] = []
     for quantity, (tops, heights) in climbed.items():
         upper[quantity] = max(upper[quantity], heights.max())
+        if quantity not in deciding:
+            continue
         places = np.concatenate([tops, looked_at[order[quantity]]])
         reached = np.concatenate([heights, allowed[order[quantity], quantity]])
         excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
@@ -137,7 +143,10 @@ def bound_quantities(
         tolerance=tolerance,
         upper=_close_above(upper, best, _MARGIN * tolerance),
         watched=tuple(asked),
-        summits=tuple((summits[q], q) for q in asked if values[:, q].max() >= best[q]),
+        deciding=tuple(deciding),
+        summits=tuple(
+            (summits[q], q) for q in deciding if values[:, q].max() >= best[q]
+        ),
         wanted=tuple(wanted),
     )
 

@@ -424,16 +424,29 @@ def _describe_missing_unit(cells: list[Cell], field: Field) -> Message:
     number = parse_number(example.value, example.decimal_mark)
     if isinstance(number, Refusal):
         return say("heading.no_unit")
-    readings: list[str] = []
+    readings: list[Message] = []
     for unit in field.units:
         value = convert_unit(number, unit, field.unit)
         if field.bounds[0] <= value <= field.bounds[1]:
-            same = "" if unit == field.unit else f" ({value:.4g} {field.unit})"
-            readings.append(f"{number:g} {unit}{same}")
+            readings.append(_tell_reading((number, unit), (value, field.unit)))
     if len(readings) < 2:
         return say("heading.no_unit")
     return say(
         "heading.no_unit_could_be", cell=example.address, readings=tuple(readings)
+    )
+
+
+def _tell_reading(typed: tuple[float, str], own: tuple[float, str]) -> Message:
+    """A number with the unit that it may have, and what it is in the field's unit."""
+    (number, unit), (other, other_unit) = typed, own
+    if unit == other_unit:
+        return say("text.number_in", number=number, unit=unit)
+    return say(
+        "text.number_in_two",
+        number=number,
+        unit=unit,
+        other=other,
+        other_unit=other_unit,
     )
 
 

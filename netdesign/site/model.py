@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from typing import get_args
 
 from netdesign.checks import Declaration
@@ -169,6 +170,15 @@ class InputEcho:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReplacedCell:
+    """A cell that is read as if another text were typed there: a what-if."""
+
+    cell: str  # "Nets!P8"
+    was: str  # as typed in the workbook, "" where nothing is
+    now: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NetRow:
     """One row of nets. SI units; angles in radians.
 
@@ -319,6 +329,8 @@ class MonitoringSeries:
         [K]; None where a line has none.
     source : str
         First cell.
+    start : datetime or None
+        Of the first reading; None where times are given without a date.
     """
 
     row_id: str
@@ -327,6 +339,7 @@ class MonitoringSeries:
     tensions: tuple[float | None, ...]
     air_temperatures: tuple[float | None, ...]
     source: str
+    start: datetime | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -391,6 +404,8 @@ class Site:
     map_file: str = ""  # answers to headings, where there are any
     map_sha256: str = ""
     winter: StationWinter | None = None
+    catalogue: tuple[Resistance, ...] = ()  # of every type, whether used or not
+    what_if: tuple[ReplacedCell, ...] = ()  # empty: the site as its workbook has it
 
     def find_declaration(
         self, row: NetRow, member: str, mode: str, position: str = ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from datetime import datetime
+from datetime import datetime, timedelta
 from itertools import pairwise
 
 from netdesign.site.cells.findings import Finding, add_nearest
@@ -11,6 +11,8 @@ from netdesign.site.model import MonitoringSeries
 from netdesign.site.readings import Row, refuse
 from netdesign.site.tables import Table, read_rows
 from netdesign.words.message import say
+
+_EPOCH = datetime(1970, 1, 1)
 
 
 def read_monitoring(
@@ -52,10 +54,14 @@ def read_monitoring(
 def _build(
     key: tuple[str, str], lines: list[tuple[float, Row]], findings: list[Finding]
 ) -> MonitoringSeries:
-    first = lines[0][0]
+    first, head = lines[0]
+    is_dated = head["date"].state == "given"
     for (before, _), (after, line) in pairwise(lines):
-        if after <= before:
-            place = line["time"] if line["time"].state == "given" else line["date"]
+        place = line["time"] if line["time"].state == "given" else line["date"]
+        if (line["date"].state == "given") != is_dated:
+            rule = say("measured.mixed")
+            refuse(place, rule, say("measured.one_kind"), findings)
+        elif after <= before:
             rule = say("measured.not_after")
             refuse(place, rule, say("measured.ascending"), findings)
     return MonitoringSeries(
@@ -64,7 +70,8 @@ def _build(
         times=tuple(time - first for time, _ in lines),
         tensions=tuple(line["tension"].given_si for _, line in lines),
         air_temperatures=tuple(line["temperature"].given_si for _, line in lines),
-        source=lines[0][1]["row"].place,
+        source=head["row"].place,
+        start=_EPOCH + timedelta(seconds=first) if is_dated else None,
     )
 
 
@@ -86,4 +93,4 @@ def _read_time(line: Row, findings: list[Finding]) -> float | None:
     except ValueError:
         refuse(date, say("measured.no_date"), say("measured.such_as"), findings)
         return None
-    return (moment.replace(tzinfo=None) - datetime(1970, 1, 1)).total_seconds()
+    return (moment.replace(tzinfo=None) - _EPOCH).total_seconds()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -65,6 +65,15 @@ from netdesign.structure.layout import (
 )
 from netdesign.structure.members import EndMember, Member
 from netdesign.words.message import Message, say
+
+# By type sheet: a member that takes its types, and what these may fail by.
+_CATALOGUE: Mapping[str, tuple[Member, tuple[str, ...]]] = MappingProxyType(
+    {
+        "Anchors": (Member.FOOT_ANCHOR, ("tendon", "pull_out")),
+        "Ropes": (Member.UPHILL_GUY, ("rope",)),
+        "Posts": (Member.POST, ("compression",)),
+    }
+)
 
 
 def build_net_rows(
@@ -377,7 +386,29 @@ def _find_resistance(
     """Resistance of a member in one mode; no type or no value gives None."""
     if not reading.word:
         return _lack_resistance(member, mode, reading.place or "Nets")
-    kind = (type_sheets[reading.field.refers_to] or {})[reading.word]
+    sheet = reading.field.refers_to
+    kind = (type_sheets[sheet] or {})[reading.word]
+    return _describe_type(kind, mode, member, sheet)
+
+
+def list_catalogue(type_sheets: TypeSheets) -> tuple[Resistance, ...]:
+    """Resistances of every type of the workbook, of some member that may have it.
+
+    Those that follow the demand have no place here: they need a member.
+    """
+    by_sheet = {name: types or {} for name, types in type_sheets.items()}
+    return tuple(
+        _describe_type(kind, mode, member, sheet)
+        for sheet, (member, modes) in _CATALOGUE.items()
+        for kind in by_sheet.get(sheet, {}).values()
+        for mode in modes
+    )
+
+
+def _describe_type(
+    kind: Row, mode: str, member: Member | EndMember, sheet: str
+) -> Resistance:
+    """Resistance of a type in one mode, given or not."""
     resistance = kind[mode]
     tests = find_tests(kind) if mode == "pull_out" else None
     is_given = resistance.state == "given"
@@ -392,8 +423,8 @@ def _find_resistance(
         mode=mode,
         value=resistance.si if is_given and not tests else None,
         basis="tested" if tests else basis if is_given else "",
-        type_id=reading.word,
-        source=place or reading.field.refers_to,
+        type_id=kind["id"].word,
+        source=place or sheet,
         derivation=resistance.derivation if is_given else None,
         tests=tests,
     )

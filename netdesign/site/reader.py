@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache, partial
 from pathlib import Path
+from types import MappingProxyType
 
 from netdesign.errors import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, Answers, TextFormat, Workbook
@@ -36,10 +38,11 @@ from netdesign.site.mapping import (
 )
 from netdesign.site.model import NetRow, Project, Site
 from netdesign.site.monitoring_sheet import read_monitoring
-from netdesign.site.net_rows import build_net_rows, index_by_id
+from netdesign.site.net_rows import build_net_rows, index_by_id, list_catalogue
 from netdesign.site.ranged_columns import free_columns
 from netdesign.site.ranges import RangesSheet, build_ranges
 from netdesign.site.readings import Row, refuse
+from netdesign.site.replaced import replace_cells, tell_replaced
 from netdesign.site.snow_layers import check_layers, read_layers
 from netdesign.site.support_types import check_support_types
 from netdesign.site.tables import (
@@ -59,7 +62,11 @@ _LAWS = tuple(CREEP_LAWS)
 _TYPE_SHEETS = (ANCHORS, ROPES, POSTS)
 
 
-def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
+def read_site(
+    path: Path,
+    text_format: TextFormat = UNDECLARED,
+    instead: Mapping[str, str] = MappingProxyType({}),
+) -> Site:
     """Read a site workbook.
 
     Parameters
@@ -69,6 +76,8 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         `netdesign.site.columns.all_tables` says.
     text_format : TextFormat
         What is declared of the file's text.
+    instead : mapping of str to str
+        Texts that are read in the place of those of some cells (``Nets!P8``).
 
     Returns
     -------
@@ -81,7 +90,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     SiteDataError
         With all findings of all sheets, if any of them is an error.
     """
-    workbook = read_cells(path, text_format)
+    workbook, replaced = replace_cells(read_cells(path, text_format), instead)
     findings = [*workbook.remarks, *judge_answers(workbook)]
     ranged = _read_ranges(find_table(workbook, RANGES_AS_TYPED, []), []).ends
     as_typed = {NETS.name: free_columns(NETS, ranged), RANGES.name: RANGES_AS_TYPED}
@@ -113,7 +122,7 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
     return Site(
         project=project,
         ranges=built.ranges,
-        rows=net_rows,
+        rows=tuple(tell_replaced(row, replaced) for row in net_rows),
         file_name=workbook.file,
         sha256=workbook.sha256,
         notes=fold_findings([_shorten(one) for one in findings]),
@@ -125,6 +134,8 @@ def read_site(path: Path, text_format: TextFormat = UNDECLARED) -> Site:
         declared=declared,
         map_file=workbook.answers.file,
         map_sha256=workbook.answers.sha256,
+        catalogue=list_catalogue(type_sheets),
+        what_if=replaced,
     )
 
 

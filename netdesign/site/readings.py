@@ -259,19 +259,25 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
     number = _parse(cell)
     if isinstance(number, Refusal):
         return number
-    shown = f"{number:g} {cell.shown_unit}"
+    shown = _name_number(number, cell.shown_unit)
     if cell.is_percent:
         if unit in ("-", "%"):
             return _shift(number, 2) if unit == "%" else number
-        shown = f"{100 * number:g} %"
+        shown = _name_number(100 * number, "%")
     elif cell.is_thousandth:
-        shown = f"{number / 1000:g} {cell.shown_unit}".strip()
+        shown = _name_number(number / 1000, cell.shown_unit)
     elif not cell.shown_unit or normalise_unit(cell.shown_unit) == unit:
         return number
     rule = say("cell.format_ambiguous", shown=shown, number=number)
     if unit:
         rule = say("cell.format_other_unit", shown=shown, number=number, unit=unit)
     return Refusal(rule, say("accepted.plain_number"))
+
+
+def _name_number(number: float, unit: str) -> Message:
+    """Number with the unit that the cell's format shows, if it shows one."""
+    key = "text.number_in" if unit else "value.number"
+    return say(key, number=number, **({"unit": unit} if unit else {}))
 
 
 def _take_typed_number(text: str, mark: DecimalMark, unit: str) -> float | Refusal:

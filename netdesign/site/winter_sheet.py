@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import date, datetime
 from pathlib import Path
 
 from netdesign.errors import SiteDataError
 from netdesign.site.cells.cells import UNDECLARED, TextFormat
-from netdesign.site.cells.findings import Finding
+from netdesign.site.cells.findings import Finding, fold_findings
 from netdesign.site.cells.spreadsheet import read_workbook
 from netdesign.site.columns.fields import split_heading
 from netdesign.site.columns.winter_columns import WINTER
@@ -24,6 +24,8 @@ from netdesign.snowpack.series import (
     find_spikes,
 )
 from netdesign.words.message import Message, say
+
+_MOST_LISTED = 8  # days in one remark
 
 
 def read_winter(table: Table | None, findings: list[Finding]) -> StationWinter | None:
@@ -97,8 +99,16 @@ def read_height_file(
             rule = say("winter_sheet.no_height")
             accepted = say("winter_sheet.heights")
             findings.append(Finding(file=path.name, rule=rule, accepted=accepted))
-        raise SiteDataError(findings)
+        raise SiteDataError(findings, fold_findings(findings))
     return winter, tuple(findings)
+
+
+def _list_days(days: Sequence[date]) -> Message:
+    """The first days, and how many more there are."""
+    listed = tuple(day.isoformat() for day in days[:_MOST_LISTED])
+    if more := len(days) - len(listed):
+        return say("winter_sheet.days_more", days=listed, count=more)
+    return say("winter_sheet.days", days=listed)
 
 
 def _build(
@@ -162,15 +172,19 @@ def _note_oddities(
 ) -> tuple[Message, ...]:
     """Remarks in the findings, and one of each kind for the page of the winter."""
     notes: list[Message] = []
-    for gap in find_gaps(heights):
-        if gap.is_closable and any(heights[day] > 0 for day in (gap.before, gap.after)):
-            listed = tuple(day.isoformat() for day in gap.days)
-            notes.append(say("winter_sheet.filled", days=listed))
-            reading = days[gap.after]["date"]
-            refuse(reading, notes[-1], "", findings, severity="note")
-    for day in find_spikes(series):
-        notes.append(say("winter_sheet.spike", day=day.isoformat()))
-        reading = days.get(day, next(iter(days.values())))["snow_height"]
+    gaps = [
+        gap
+        for gap in find_gaps(heights)
+        if gap.is_closable and any(heights[day] > 0 for day in (gap.before, gap.after))
+    ]
+    if gaps:
+        listed = _list_days([day for gap in gaps for day in gap.days])
+        notes.append(say("winter_sheet.filled", days=listed))
+        reading = days[gaps[0].after]["date"]
+        refuse(reading, notes[-1], "", findings, severity="note")
+    if spikes := find_spikes(series):
+        notes.append(say("winter_sheet.spike", days=_list_days(spikes)))
+        reading = days.get(spikes[0], next(iter(days.values())))["snow_height"]
         refuse(reading, notes[-1], "", findings, severity="note")
     if series.starts_in_snow:
         notes.append(say("winter_sheet.starts_in_snow"))

@@ -33,15 +33,15 @@ class SettlingModel(Protocol):
         """
 
 
+# The first is the default: snowpack/THEORY.md, section 3.
 MODELS: dict[str, SettlingModel] = {
-    model.name: model for model in (DELTA_SNOW, DELTA_SNOW_AGEING, HS2SWE)
+    model.name: model for model in (DELTA_SNOW_AGEING, HS2SWE, DELTA_SNOW)
 }
-DEFAULT_MODEL = DELTA_SNOW.name
 
 
 def follow_heights(
     heights: Sequence[float],
-    model: SettlingModel = DELTA_SNOW,
+    model: SettlingModel,
     first_density: float | None = None,
 ) -> tuple[DayPack, ...]:
     """Snowpack of each day of a series.

@@ -100,16 +100,12 @@ class Hs2swe:
         self, pack: DayPack, rise: Floats, height: float, *, slower: bool
     ) -> Floats:
         """Heights [m] with the first rate that reaches the height, eq. (D7)."""
-        settled = self._settle(pack, rise)
-        for count in range(1, self.rate_steps + 1):
-            if (settled.sum() >= height) == slower or self._is_dense(pack, settled):
-                break
-            rate = 1.0 + count * self.rate_step
-            settled = self._settle(pack, rise / rate if slower else rise * rate)
-        return settled
-
-    def _is_dense(self, pack: DayPack, settled: Floats) -> bool:
-        return bool((pack.masses >= self.largest_density * settled).all())
+        rates = 1.0 + self.rate_step * np.arange(self.rate_steps + 1)[:, None]
+        settled = self._settle(pack, rise / rates if slower else rise * rates)
+        reached = (settled.sum(axis=1) >= height) == slower
+        dense = (pack.masses >= self.largest_density * settled).all(axis=1)
+        found = np.flatnonzero(reached | dense)
+        return np.asarray(settled[found[0] if found.size else -1])
 
     def _snow(self, before: DayPack, settled: Floats, top: float) -> DayPack:
         new_mass = self.new_density * top

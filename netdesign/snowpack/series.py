@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import date, timedelta
+from datetime import date, datetime, time, timedelta
 from itertools import pairwise
 
 import numpy as np
@@ -42,6 +42,11 @@ class HeightSeries:
     def day(self, index: int) -> date:
         """Date of a height."""
         return self.first_day + timedelta(days=index)
+
+    def place(self, moment: datetime) -> float:
+        """Days from the beginning of the first day to a moment [d]."""
+        begin = datetime.combine(self.first_day, time())
+        return (moment - begin).total_seconds() / 86400.0
 
     @property
     def days(self) -> tuple[date, ...]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import product
 from typing import Literal, cast, get_args
 
@@ -26,8 +25,6 @@ from netdesign.site.model import NetRow, Site
 from netdesign.snow.creep_law import BOUTILLIER_2004, CreepLaw
 from netdesign.solving.runner import Runner
 from netdesign.study.probe import build_scene
-from netdesign.study.record_monitoring import follow_monitoring
-from netdesign.study.records import MonitoringRecord
 from netdesign.words.message import Message, say
 
 # Solves of a row, usual and at most, as --dry-run and progress expect them. A search
@@ -83,8 +80,6 @@ def count_cases(site: Site) -> int:
 def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
     """Phases of the check of a site, in their order, with about so many solves."""
     rows = len(site.rows)
-    ids = {row.id for row in site.rows}
-    measured = sum(one.row_id in ids for one in site.monitoring)
     histories = rows if run.method == "transient" else 0
     checks = sum(map(_count_checks, site.rows))
     phases = [
@@ -95,13 +90,6 @@ def list_phases(site: Site, run: CheckRun, profiles: int = 1) -> list[Phase]:
             cases=histories * _HISTORIES[0],
             most=histories * _HISTORIES[1],
             cost=HISTORY / run.jobs,
-        ),
-        Phase(
-            key="measured",
-            words=say("phase.measured"),
-            cases=measured,
-            most=measured,
-            cost=HISTORY,
         ),
         Phase(
             key="checks",
@@ -195,7 +183,15 @@ def _build_search(row: NetRow, ranges: Ranges, run: CheckRun) -> RowTask:
         confirmed_by=refine_settings(run.settings),
         build=_build_scenes(row, run.creep_law) if is_own else None,
         panel=row.panel.panel if row.panel else None,
+        has_end=row.row_end is not None,
     )
+
+
+def have_same_forces(
+    row: NetRow, ranges: Ranges, other: NetRow, others: Ranges, run: CheckRun
+) -> bool:
+    """Two rows over their ranges are solved alike, whatever bears their forces."""
+    return _build_search(row, ranges, run) == _build_search(other, others, run)
 
 
 def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
@@ -205,6 +201,8 @@ def _build_scenes(row: NetRow, law: CreepLaw) -> _RowScenes:
         inputs=(),
         resistances=(),
         end_resistances=None,
+        anchors=(),
+        end_anchors=None,
         panel=None,
         row_end=None,
         panel_lack=None,
@@ -261,28 +259,6 @@ def solve_site(
         settings = build_history_settings(run.settings)
         by_row = confirm_rows(tasks, by_row, settings, runner)
     return [RowGrid(results=of_row) for of_row in by_row]
-
-
-def follow_site(
-    site: Site, run: CheckRun, runner: Runner | None = None
-) -> dict[str, list[MonitoringRecord]]:
-    """Measured series by net row, each beside a history of the middle of the ranges.
-
-    Nothing is solved for rows without a measurement; the runner, if there is one,
-    remembers the faults of the program, and tells of each series.
-    """
-    runner = runner or Runner()
-    middle = Case.of(site.ranges.place([0.5] * len(site.ranges.axes)))
-    found = {}
-    for row in site.rows:
-        series = [one for one in site.monitoring if one.row_id == row.id]
-        if series:
-            (task,) = _build_tasks(row, [middle], run)
-            on_fault = partial(runner.keep_fault, row_id=row.id)
-            found[row.id] = follow_monitoring(task, series, on_fault)
-            for record in found[row.id]:
-                runner.on_done(record)
-    return found
 
 
 def _build_tasks(row: NetRow, cases: Sequence[Case], run: CheckRun) -> list[CaseTask]:

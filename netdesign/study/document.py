@@ -17,6 +17,8 @@ from netdesign.study.records import SCHEMA, Study
 from netdesign.words.message import say
 
 _OLD_SCHEMA = "netdesign.study/1"
+# As a study without its digest has that line.
+_OPEN_LINE = '\n "digest": ""'
 _HOW_FAR = 200  # signs from the start, among which a document names its schema
 
 
@@ -27,8 +29,12 @@ def compute_digest(study: Study) -> str:
     was altered by somebody who did not think of it. Who alters a document on purpose
     can compute it again: only a new solve shows that the numbers are true.
     """
+    return _digest(write_json(replace(study, digest="")))
+
+
+def _digest(text: str) -> str:
     # 2 and 2.0 are one number, and become one when a document is read
-    values = json.loads(write_json(replace(study, digest="")), parse_int=float)
+    values = json.loads(text, parse_int=float)
     return hashlib.sha256(json.dumps(values).encode()).hexdigest()
 
 
@@ -37,7 +43,9 @@ def write_document(study: Study) -> str:
 
     Numbers stand in full, keys in the order of the fields.
     """
-    return write_json(replace(study, digest=compute_digest(study)))
+    text = write_json(replace(study, digest=""))
+    # no text in the document has a line end of its own, so this line stands once
+    return text.replace(_OPEN_LINE, f'{_OPEN_LINE[:-1]}{_digest(text)}"', 1)
 
 
 def read_document(text: str) -> Study:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from types import MappingProxyType
 
 from netdesign.checks import Standard
 from netdesign.envelope.extremes import Extreme
@@ -37,6 +36,7 @@ from netdesign.study.record_cases import record_case, record_extreme
 from netdesign.study.record_envelope import record_envelope
 from netdesign.study.record_guideline import record_guideline
 from netdesign.study.record_independent import record_independent
+from netdesign.study.record_monitoring import record_monitoring
 from netdesign.study.record_panel import record_panel
 from netdesign.study.record_provenance import record_profile, record_provenance
 from netdesign.study.record_slab import record_slab
@@ -45,7 +45,6 @@ from netdesign.study.record_support import record_anchors, record_drawing, recor
 from netdesign.study.records import (
     SCHEMA,
     CheckRecord,
-    MonitoringRecord,
     RowStudy,
     Study,
     list_verdicts,
@@ -61,7 +60,6 @@ def judge_site(
     standard: Standard,
     run: CheckRun,
     probe: Probe | None = None,
-    monitoring: Mapping[str, list[MonitoringRecord]] = MappingProxyType({}),
     on_check: Callable[[], None] = lambda: None,
 ) -> Study:
     """Check every anchor of every net row against one profile.
@@ -79,8 +77,6 @@ def judge_site(
     probe : Probe, optional
         Solves what the envelope does not hold: other creep laws, and where a check
         flips. Without it a study has neither; give the same one for each profile.
-    monitoring : mapping of str to list of MonitoringRecord
-        As ``follow_site`` returns it; decides nothing.
     on_check : callable, optional
         Called after each check of a force.
 
@@ -105,6 +101,7 @@ def judge_site(
         )
         for row, of_row in zip(site.rows, solved, strict=True)
     ]
+    monitoring = record_monitoring(site)
     rows = [replace(row, monitoring=monitoring.get(row.id, [])) for row in rows]
     return Study(
         schema=SCHEMA,
@@ -115,6 +112,7 @@ def judge_site(
         range_inputs=list(site.range_inputs),
         notes=list_site_notes(site, run.creep_law),
         provenance=record_provenance(site, run),
+        what_if=list(site.what_if),
     )
 
 

@@ -26,7 +26,9 @@ from netdesign.words.names import name, name_check, name_member
 
 def list_site_notes(site: Site, law: CreepLaw) -> list[Message]:
     """Notes of the importer, and on what the model does with the site's snow."""
-    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site)]
+    without_winter = bool(site.monitoring) and site.winter is None
+    measured = [say("monitoring.needs_winter")] if without_winter else []
+    return [*site.notes, *_validity_notes(site, law), *_layer_notes(site), *measured]
 
 
 def _validity_notes(site: Site, law: CreepLaw) -> list[Message]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from netdesign.coupling.face import NetState, find_net_face
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.structure.anchors import AnchorForces
@@ -12,6 +13,7 @@ from netdesign.study.record_cases import record_point
 from netdesign.study.support_records import AnchorRecord, Arrow, Drawing, HeadForce
 from netdesign.units import degree_from_radian, kilonewton_from_newton
 
+_PRESSURE_DECIMALS = 3  # [kPa]
 _DRAWN_DECIMALS = 4  # of positions in drawings: a tenth of a millimetre
 
 
@@ -92,7 +94,18 @@ def record_drawing(row: NetRow, result: CaseResult | None) -> Drawing | None:
         uphill_anchor_m=points.uphill_anchor,
         downhill_anchor_m=points.downhill_anchor,
         arrows=_list_arrows(points, anchors),
+        pressure_kPa=_list_pressures(solution),
     )
+
+
+def _list_pressures(net: NetState) -> list[float | None]:
+    """Pressure of the snow on each net point [kPa]; None where it is not known."""
+    face = find_net_face(net, friction=None)
+    pressure, _ = face.tractions
+    values = (pressure[face.inner] / 1e3).round(_PRESSURE_DECIMALS).tolist()
+    before = face.inner.start
+    after = net.net_curve.shape[1] - before - len(values)
+    return [*[None] * before, *values, *[None] * after]
 
 
 def _list_arrows(points: SupportPoints, anchors: AnchorForces) -> list[Arrow]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from netdesign.outcome import Verdict
-from netdesign.site.model import InputEcho, Project
+from netdesign.site.model import InputEcho, Project, ReplacedCell
 from netdesign.study.case_records import CasePoint, CaseRecord, ExtremeRecord
 from netdesign.study.envelope_records import EnvelopeRecord
 from netdesign.study.guideline_records import FloorRecord, GuidelineRecord
@@ -216,10 +216,9 @@ class CheckRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class MonitoringRecord:
-    """Measurements at one member, and the model's history beside them.
+    """Measurements at one member; missing readings are None.
 
-    Missing readings are None; without a history its lists are empty and
-    ``model_reason`` says why.
+    ``model`` says where the model's forces on these dates stand, or what they need.
     """
 
     member: str
@@ -227,10 +226,7 @@ class MonitoringRecord:
     times_d: list[float]  # since the first reading
     tensions_kN: list[float | None]
     air_temperatures_C: list[float | None]
-    model_times_d: list[float]
-    model_kN: list[float]
-    model_start: str
-    model_reason: Text | None
+    model: Text
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -341,4 +337,5 @@ class Study:
     range_inputs: list[InputEcho]
     notes: list[Text]
     provenance: Provenance
+    what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there

@@ -22,23 +22,22 @@ def find_type_change(
 ) -> ChangeRecord | None:
     """Type whose design resistance reaches the design ``demand`` [N].
 
-    First the weakest type of the workbook, as far as any net row uses it; else, for
+    First the weakest type of the workbook, whether a net row uses it or not; else, for
     ropes, a diameter of the catalogue. None where the type that is there does, where
     it is that of another member, or nothing is known that would.
     """
     if given.member in NAMED_BY:
         return None
     enough: dict[str, tuple[float, float]] = {}  # design, characteristic [N]
-    for row in site.rows:
-        for other in (*row.resistances, *(row.end_resistances or ())):
-            if other.mode != given.mode:
-                continue
-            factor = standard.find_resistance_factor(other.mode, other.basis)
-            value, lack = find_characteristic(other, standard)
-            if value is None or lack or factor is None:
-                continue
-            if value / factor.value_si >= demand:
-                enough[other.type_id] = (value / factor.value_si, value)
+    for other in site.catalogue:
+        if other.mode != given.mode:
+            continue
+        factor = standard.find_resistance_factor(other.mode, other.basis)
+        value, lack = find_characteristic(other, standard)
+        if value is None or lack or factor is None:
+            continue
+        if value / factor.value_si >= demand:
+            enough[other.type_id] = (value / factor.value_si, value)
     if given.type_id in enough:
         return None
     if enough:

@@ -5,7 +5,7 @@ All numbers in engineer's units, as in ``records``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from netdesign.study.case_records import CasePoint, ExtremeRecord
 from netdesign.study.guideline_records import GuidelineLoadRecord
@@ -37,6 +37,9 @@ class Drawing:
     uphill_anchor_m: tuple[float, float]
     downhill_anchor_m: tuple[float, float]
     arrows: list[Arrow]
+    # Of the snow, per net point; None at the ends, where it is singular, and above the
+    # snow. Empty in studies of earlier versions.
+    pressure_kPa: list[float | None] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,8 +34,10 @@ class Difference:
 
 
 def show_value(value: object) -> Message | str:
-    """A value as Python writes it; where there is none, that is said."""
-    return say("value.none") if value is None else repr(value)
+    """A value as Python writes it, a number with the reader's decimal mark; or none."""
+    if value is None:
+        return say("value.none")
+    return say("value.number", number=value) if type(value) is float else repr(value)
 
 
 def list_values(part: object) -> dict[str, Any]:

@@ -99,28 +99,33 @@ def find_annual_maximum(
 
 
 def find_many_maxima(
-    winters: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
-) -> tuple[AnnualMaximum, ...]:
+    groups: Mapping[str, Mapping[str, Mapping[int, DayPack]]], solver: DaySolver
+) -> dict[str, tuple[AnnualMaximum, ...]]:
     """Annual maxima of many winters through one table; by solves where it has none.
 
     Parameters
     ----------
-    winters : mapping of str to mapping
-        Packs of each winter by its name.
+    groups : mapping of str to mapping
+        Packs of each winter by its name, for each settling model.
     solver : DaySolver
         Of the row.
     """
     days = {
-        name: solver.prepare(packs, layered=False) for name, packs in winters.items()
+        (model, winter): solver.prepare(packs, layered=False)
+        for model, winters in groups.items()
+        for winter, packs in winters.items()
     }
-    chosen = {name: choose_days(one, solver) for name, one in days.items()}
+    chosen = {key: choose_days(one, solver) for key, one in days.items()}
     every = [day for one in chosen.values() for day in one]
-    table = _build_table(every, days, solver) if every else None
-    found = []
-    for name, packs in winters.items():
-        maximum = _look_up(name, days[name], chosen[name], table) if table else None
-        found.append(maximum or find_annual_maximum(name, packs, solver)[0])
-    return tuple(found)
+    table = _build_table(every, days.values(), solver) if every else None
+    found: dict[str, list[AnnualMaximum]] = {model: [] for model in groups}
+    for (model, winter), one in days.items():
+        key = model, winter
+        maximum = _look_up(winter, one, chosen[key], table) if table else None
+        found[model].append(
+            maximum or find_annual_maximum(winter, groups[model][winter], solver)[0]
+        )
+    return {model: tuple(maxima) for model, maxima in found.items()}
 
 
 def choose_days(days: Sequence[RowDay], solver: DaySolver) -> tuple[RowDay, ...]:
@@ -226,11 +231,11 @@ def _judge(
 
 def _build_table(
     chosen: Sequence[RowDay],
-    days: Mapping[str, Sequence[RowDay]],
+    days: Iterable[Sequence[RowDay]],
     solver: DaySolver,
 ) -> UniformTable | None:
     """Table over the days that may govern, and over the largest heights."""
-    tops = [max(day.thickness for day in one) for one in days.values() if one]
+    tops = [max(day.thickness for day in one) for one in days if one]
     held = [top for top in tops if solver.row.holds(top)]
     thicknesses = [*(day.thickness for day in chosen), *held]
     densities = [day.density for day in chosen]

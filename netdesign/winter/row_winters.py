@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 
@@ -19,6 +19,23 @@ MANY = 4  # more winters than these go through a table
 SHOWN = 3  # largest winters of a table that are solved with their layers
 # A winter counts in statistics if its series covers these months and days (assumed).
 _COVERED = ((12, 1), (4, 30))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StationPacks:
+    """Snowpacks of a station's winters, the same for all rows.
+
+    Attributes
+    ----------
+    series : HeightSeries
+        Of the station.
+    packs : mapping of str to mapping
+        By settling model, then by winter, then by place in the series; the first model
+        is that of the curves.
+    """
+
+    series: HeightSeries
+    packs: Mapping[str, Mapping[str, Mapping[int, DayPack]]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -100,51 +117,68 @@ def list_complete(series: HeightSeries) -> tuple[str, ...]:
     return tuple(found)
 
 
-def follow_winters(
-    series: HeightSeries,
-    models: Sequence[SettlingModel],
-    solver: DaySolver,
-    step: int = CURVE_STEP,
-) -> RowWinters:
-    """Winters of a row: by the first model with layers, by the others their maxima.
+def follow_station(
+    series: HeightSeries, models: Sequence[SettlingModel]
+) -> StationPacks:
+    """Packs of a station's winters by some settling models.
 
     Parameters
     ----------
     series : HeightSeries
         Of the station.
     models : sequence of SettlingModel
-        At least one.
+        At least one; the first is that of the curves.
+    """
+    return StationPacks(
+        series=series, packs={one.name: split_packs(series, one) for one in models}
+    )
+
+
+def follow_winters(
+    station: StationPacks,
+    solver: DaySolver,
+    step: int = CURVE_STEP,
+    measured: Collection[str] = (),
+) -> RowWinters:
+    """Winters of a row: by the first model with layers, by the others their maxima.
+
+    Parameters
+    ----------
+    station : StationPacks
+        By at least one model.
     solver : DaySolver
         Of the row.
     step : int
         Days between those of a curve.
+    measured : collection of str
+        Winters that have a curve in any case.
     """
-    chosen, *rest = models
-    packs = split_packs(series, chosen)
+    chosen, *rest = station.packs
+    packs = station.packs[chosen]
+    maxima: dict[str, tuple[AnnualMaximum, ...]] = {}
+    names = list(packs)
     if len(packs) > MANY:
-        maxima = find_many_maxima(packs, solver)
-        ranked = sorted(maxima, key=lambda one: -one.foot)[:SHOWN]
-        names = sorted(one.winter for one in ranked if one.index is not None)
-    else:
-        maxima, names = (), list(packs)
+        maxima = find_many_maxima(station.packs, solver)
+        ranked = sorted(maxima[chosen], key=lambda one: -one.foot)[:SHOWN]
+        largest = {one.winter for one in ranked if one.index is not None}
+        names = sorted(largest | (set(measured) & packs.keys()))
     seasons = tuple(follow_season(name, packs[name], solver, step) for name in names)
-    maxima = maxima or tuple(season.maximum for season in seasons)
+    if not maxima:
+        maxima = {one: _find_maxima(station.packs[one], solver) for one in rest}
+        maxima[chosen] = tuple(season.maximum for season in seasons)
     return RowWinters(
         row_id=solver.row.id,
-        model=chosen.name,
-        maxima=maxima,
+        model=chosen,
+        maxima=maxima[chosen],
         seasons=seasons,
-        others={one.name: _find_maxima(series, one, solver) for one in rest},
-        statistics=_fit(maxima, list_complete(series)),
+        others={one: maxima[one] for one in rest},
+        statistics=_fit(maxima[chosen], list_complete(station.series)),
     )
 
 
 def _find_maxima(
-    series: HeightSeries, model: SettlingModel, solver: DaySolver
+    packs: Mapping[str, Mapping[int, DayPack]], solver: DaySolver
 ) -> tuple[AnnualMaximum, ...]:
-    packs = split_packs(series, model)
-    if len(packs) > MANY:
-        return find_many_maxima(packs, solver)
     return tuple(
         find_annual_maximum(name, one, solver)[0] for name, one in packs.items()
     )

@@ -41,6 +41,8 @@ class Season:
         Ascending: those of the curve, and those that may govern.
     highest, heaviest : RowDay
         Days of the largest snow height, and of the largest mass.
+    days : slice
+        Of the winter in the series of heights.
     equivalent_density : float or None
         Of uniform snow of the largest height that pulls as much as the governing day
         [kg/m3]; None where there is none.
@@ -51,6 +53,7 @@ class Season:
     curve: tuple[RowDay, ...]
     highest: RowDay
     heaviest: RowDay
+    days: slice
     equivalent_density: float | None
 
     @property
@@ -110,6 +113,7 @@ def follow_season(
         curve=tuple(curve[k] for k in sorted(curve)),
         highest=curve[highest],
         heaviest=curve[heaviest],
+        days=slice(min(packs), max(packs) + 1),
         equivalent_density=(
             find_equivalent(top, governing, solver) if governing else None
         ),

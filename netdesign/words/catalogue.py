@@ -3,6 +3,7 @@
 A language is a folder of TOML files, one for each area, whose tables give the first
 part of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistance``. A
 gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace.
+A number has the decimal mark of the language; an argument that is text stays as it is.
 Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sentence
 that becomes part of another loses its full stop by ``{reason:clause}``.
 Every language has every key with the same gaps; a test says so.
@@ -17,12 +18,12 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from importlib.resources import files
 from types import MappingProxyType
-from typing import Any, Literal, get_args
+from typing import Any
 
 from netdesign.words.message import Message
-
-Language = Literal["en", "fr", "de"]
-LANGUAGES: tuple[Language, ...] = get_args(Language)
+from netdesign.words.numerals import LANGUAGES as LANGUAGES
+from netdesign.words.numerals import Language as Language
+from netdesign.words.numerals import set_marks
 
 _CLAUSE = "clause"
 _GAP = re.compile(r"(\{[^{}]*\})")
@@ -60,7 +61,10 @@ class _Gaps(string.Formatter):
             parts = (self.format_field(one, "") for one in value)
             joint = format_spec or ", "
             return (_set_apart(joint) if self.language == "fr" else joint).join(parts)
-        return str(super().format_field(value, format_spec))
+        text = str(super().format_field(value, format_spec))
+        return (
+            set_marks(text, self.language) if isinstance(value, int | float) else text
+        )
 
 
 @lru_cache(maxsize=len(LANGUAGES))

@@ -7,6 +7,7 @@ end early with a reason; neither may hide in a result.
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import Solution
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.errors import ModelError, SolveError
+from netdesign.snow.fluidity import PAPER_FLUIDITY
 from netdesign.snow.mesh import MeshSize
 
 FRICTIONS = [float(phi) for phi in range(46)]
@@ -105,6 +107,7 @@ def history_faults(a_scene, grid, start, level=0):
     wrong = {}
     for key, scene in build_scenes(a_scene, grid):
         friction, inclination, *_ = key
+        scene = replace(scene, fluidity=PAPER_FLUIDITY)
         settings = TransientSettings(start=start, stops_at_plateau=True, accuracy=0.03)
         try:
             run = run_history(

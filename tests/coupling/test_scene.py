@@ -29,7 +29,7 @@ def test_scales(a_scene):
 def test_fluidity_does_not_reach_the_flow_of_uniform_snow(a_scene):
     """It only rescales time: no force of a steady state can depend on it."""
     scene = a_scene()
-    faster = replace(scene, fluidity=7.0 * scene.fluidity)
+    faster = replace(scene, fluidity=7.0 * scene.creep_fluidity)
     assert faster.flow_problem == scene.flow_problem
     assert faster.velocity_scale == pytest.approx(7.0 * scene.velocity_scale, rel=1e-14)
 

@@ -54,6 +54,7 @@ OPEN = replace(TASK, search=SearchSettings(gap=1e-3, certainty=10.0, max_cases=1
         replace(TASK, build=replace(COARSE)),
         replace(TASK, panel=PANEL),
         replace(TASK, panel=replace(PANEL, cut="fitted")),
+        replace(TASK, has_end=True),
     ],
 )
 def test_everything_that_is_given_is_in_the_name(other):
@@ -63,7 +64,7 @@ def test_everything_that_is_given_is_in_the_name(other):
 def test_every_field_of_a_task_was_changed_above():
     assert {field.name for field in fields(RowTask)} == {
         *("scene", "ranges", "layout", "settings", "search", "confirmed_by", "build"),
-        "panel",
+        *("panel", "has_end"),
     }
 
 

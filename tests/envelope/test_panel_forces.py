@@ -257,3 +257,16 @@ def test_where_a_history_is_the_demand_nothing_is_known_of_the_panel(share):
     else:
         assert "panel_post" not in merged.member_forces
         assert "by the panel between posts" in str(grid.gap)
+
+
+def test_ropes_that_nothing_checks_cost_no_case_and_keep_their_bounds(
+    found, grid, runner
+):
+    """Pulls along the row decide at a row's end only; without one they are told."""
+    (ended,) = search_rows([replace(TASK, has_end=True)], runner)
+    assert len(found.results) <= len(ended.results)
+    for name in RopeForce:
+        tops = [one.extremes[name].widened.high for one in (found, ended)]
+        largest = max(result.member_forces[name].value for result in grid)
+        assert largest <= min(tops)
+        assert max(tops) < 1.2 * largest

@@ -2,9 +2,11 @@ import copy
 import json
 import math
 import tomllib
+from dataclasses import replace
 
 import pytest
 
+from netdesign.coupling.history.transient import TransientSettings, solve_transient
 from netdesign.coupling.scene import MESH_LEVELS, SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.rigid import solve_rigid
@@ -13,7 +15,7 @@ from netdesign.errors import ModelError, SceneFileError
 from netdesign.files.scene import SceneFile, build_scene, read_scene
 from netdesign.files.solution import write_solution_document
 from netdesign.outcome import Outcome
-from netdesign.snow.fluidity import compute_fluidity
+from netdesign.snow.fluidity import PAPER_FLUIDITY, compute_fluidity
 from netdesign.snow.ground import build_ground_from_glide_factor
 from tests.full_scene import FULL_SCENE
 
@@ -276,7 +278,7 @@ def test_solution_document_has_the_keys_of_the_interface(solved):
     assert {"wall_s", "linear_solves", "elements", "degrees_of_freedom"} <= set(
         document["cost"]
     )
-    assert {"version", "creep_law", "element", "settings"} == set(
+    assert {"version", "creep_law", "clock", "element", "settings"} == set(
         document["provenance"]
     )
     assert document["cost"]["wall_s"] == 1.5
@@ -383,6 +385,34 @@ def test_temperature_and_fluidity_exclude_each_other(tables):
     tables["snow"] |= {"temperature_C": -5.0, "fluidity_per_MPa3_a": 20.0}
     with pytest.raises(ModelError, match="one of them at most"):
         build(tables)
+
+
+def test_without_either_the_clock_is_that_of_settling(tables):
+    scene = build(tables)
+    assert scene.settles_as_stations
+    assert 1e-27 < scene.creep_fluidity < 1e-24
+    tables["snow"]["fluidity_per_MPa3_a"] = 20.0
+    given = build(tables)
+    assert not given.settles_as_stations
+    assert given.creep_fluidity == PAPER_FLUIDITY
+
+
+def test_a_history_says_its_clock(tables):
+    scene = build(tables)
+    for one, source, count in ((scene, "settling", 1), (warm(scene), "scene", 0)):
+        settings = TransientSettings(accuracy=0.1, horizon=1e-4 * one.time_scale)
+        solution = solve_transient(one, settings, on_failure="raise")
+        document = write_solution_document(solution, settings, wall_s=0.0)
+        clock = document["provenance"]["clock"]
+        assert clock["source"] == source
+        si = clock["fluidity_per_MPa_n_a"] / (1e18 * 365.25 * 86400.0)
+        assert si == pytest.approx(one.creep_fluidity, rel=1e-9)
+        told = [flag for flag in document["flags"] if "clock of settling" in flag]
+        assert len(told) == count
+
+
+def warm(scene):
+    return replace(scene, fluidity=compute_fluidity(272.0))
 
 
 def test_temperature_becomes_fluidity(tables):

@@ -132,6 +132,7 @@ def test_page_has_every_force_and_a_drawing(section, language):
         written["row_end"]["foot_kN"]["z"],
         written["panel"]["upper_rope"]["T_kN"],
     ):
-        assert f"{force:.1f}" in shown
+        assert Words(language).write(f"{force:.1f}") in shown
     drawn = draw_panel(record_solved_panel(solved.result), Words(language))
-    assert f"{written['row_end']['foot_kN']['size']:.1f}" in drawn
+    size = written["row_end"]["foot_kN"]["size"]
+    assert Words(language).write(f"{size:.1f}") in drawn

@@ -16,16 +16,12 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.envelope import support_bands
 from netdesign.errors import ModelError
 from netdesign.fault import SENTENCE
-from netdesign.site.model import MonitoringSeries
 from netdesign.solving import solve as solve_module
 from netdesign.solving import workers as workers_module
-from netdesign.solving.runner import Runner
 from netdesign.solving.solve import solve_scene
 from netdesign.solving.workers import ProcessPool
 from netdesign.study import cases as site_cases
-from netdesign.study import record_monitoring as monitoring
 from netdesign.study.probe import build_scene
-from tests import small_site
 from tests.short_example import write_short_example
 from tests.small_scene import SMALL_SCENE
 
@@ -253,31 +249,7 @@ def test_a_lack_of_memory_stays_that_of_its_case(spoil, check):
     assert "worker.no_memory" in json.dumps(rows["R1"]["reasons"])
 
 
-# --- measured series, one scene, one envelope ----------------------------------------
-
-
-def test_a_fault_beside_a_measured_series_is_its_reason(monkeypatch):
-    def fail(*_, **__):
-        message = "spoilt 5 times"
-        raise IndexError(message)
-
-    monkeypatch.setattr(monitoring, "solve_transient", fail)
-    series = MonitoringSeries(
-        row_id="R2",
-        member="foot_anchor",
-        times=(0.0, 4e4),
-        tensions=(1e4, None),
-        air_temperatures=(None, 263.15),
-        source="Monitoring!A2",
-    )
-    site, seen = small_site.build_site(*small_site.ROWS, monitoring=(series,)), []
-    runner = Runner(on_done=seen.append)
-    (record,) = site_cases.follow_site(site, small_site.RUN, runner)["R2"]
-    assert (record.model_reason, record.model_kN) == (SENTENCE, [])
-    assert seen == [record]
-    ((fault, rows),) = runner.faults.items()
-    assert (fault.kind, rows) == ("IndexError", {"R2"})
-    assert "Monitoring!A2" in fault.case
+# --- one scene, one envelope ----------------------------------------
 
 
 @pytest.fixture

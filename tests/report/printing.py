@@ -42,6 +42,43 @@ def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[s
     return told.split("\n") if told else []
 
 
+# Texts of drawings that share more than half a pixel of width and a quarter of their
+# height, and those that leave their drawing.
+_MEETING = """<script>
+const found = [];
+for (const svg of document.querySelectorAll("svg[role=img]")) {
+  const title = ": " + svg.getAttribute("aria-label").split(".")[0];
+  const frame = svg.getBoundingClientRect();
+  const boxes = [];
+  for (const text of svg.querySelectorAll("text")) {
+    const a = text.getBoundingClientRect(), name = text.textContent.trim();
+    if (!a.width || !name) continue;
+    for (const [b, other] of boxes) {
+      const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+      const tall = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+      if (wide > 0.5 && tall > Math.min(a.height, b.height) / 4)
+        found.push(name + " / " + other + title);
+    }
+    if (a.left < frame.left - 1 || a.right > frame.right + 1
+        || a.top < frame.top - 2 || a.bottom > frame.bottom + 2)
+      found.push(name + title);
+    boxes.push([a, name]);
+  }
+}
+document.body.innerHTML = "<pre>" + found.join("\\n") + "</pre>";
+</script></body>"""
+
+
+def list_meeting(drawings: list[str], folder) -> list[str]:
+    """Labels that meet in the drawings' SVG, and those beyond its edges."""
+    style = "body { font-family: Arial, sans-serif; } svg { display: block; }"
+    figures = "".join(f"<figure>{svg}</figure>" for svg in drawings)
+    page = f"<html><style>{style}</style><body>{figures}</body></html>"
+    tree = _open(page.replace("</body>", _MEETING), folder, "--dump-dom")
+    (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
+    return told.split("\n") if told else []
+
+
 _HIDDEN = """<script>
 const gone = [...document.querySelectorAll("section")].filter(
   (one) => getComputedStyle(one).display === "none").map((one) => one.id);

@@ -69,7 +69,8 @@ def read_rows(sheet: Worksheet, head: str) -> list[dict[str, object]]:
     for line in lines[start + 1 :]:
         if line[0] is None:
             break
-        rows.append(dict(zip(lines[start], line, strict=True)))
+        named = zip(lines[start], line, strict=True)
+        rows.append({name: value for name, value in named if name is not None})
     return rows
 
 

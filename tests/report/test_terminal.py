@@ -37,7 +37,9 @@ def test_summary_in_french_has_the_same_numbers():
     english = printed(build_study()).splitlines()
     for number in range(1, 4):
         numbers = re.findall(r"\d+\.\d+", english[number])
-        assert re.findall(r"\d+\.\d+", lines[number]) == numbers
+        shown = re.findall(r"\d+,\d+", lines[number])
+        assert [one.replace(",", ".") for one in shown] == numbers
+        assert not re.search(r"\d\.\d", lines[number])
 
 
 def test_no_colour_where_the_console_has_none():

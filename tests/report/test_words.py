@@ -36,8 +36,8 @@ def test_exit_codes_are_those_of_the_interface():
 
 @pytest.mark.parametrize("value", [None, math.nan, math.inf])
 def test_a_missing_number_is_never_zero_or_empty(value):
-    assert words.show_number("demand_kN", value) == "-"
-    assert words.show_with_unit("demand_kN", value) == "-"
+    assert words.ENGLISH.show_number("demand_kN", value) == "-"
+    assert words.ENGLISH.show_with_unit("demand_kN", value) == "-"
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_a_missing_number_is_never_zero_or_empty(value):
     [(0.99999, "1.000"), (1.0, "1.000"), (1.0000001, ">1.000"), (1.001, "1.001")],
 )
 def test_a_ratio_above_one_never_reads_as_one(value, expected):
-    assert words.show_number("utilisation", value) == expected
+    assert words.ENGLISH.show_number("utilisation", value) == expected
 
 
 def test_text_loses_control_characters_and_line_breaks():
@@ -73,8 +73,8 @@ def test_names_of_checks_and_cases():
     check = build_check("foot_anchor", "pull_out", row.extremes[0], 480.0)
     assert words.show_check(words.ENGLISH, check) == "Foot anchor, pull-out"
     worst = build_extreme("post", row.cases).case
-    assert words.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
-    assert words.name_case_short(worst) == "450 / 15 / 35"
+    assert words.ENGLISH.name_case(worst) == "450 kg/m³, φ 15°, θ 35°"
+    assert words.ENGLISH.name_case_short(worst) == "450 / 15 / 35"
 
 
 @pytest.mark.parametrize("law", CREEP_LAWS.values(), ids=str)

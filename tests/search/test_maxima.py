@@ -146,6 +146,32 @@ def test_only_what_is_watched_decides():
     assert alone.is_closed
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_what_does_not_decide_is_bounded_and_costs_no_case(seed):
+    """Its bound, close or not, holds for every case and is the model's."""
+    tilt, kink, place = np.random.default_rng(seed).uniform(0.2, 0.8, 3)
+
+    def search(watched):
+        open_search = MaximaSearch(3, SearchSettings())
+        while points := open_search.ask():
+            values = [
+                (
+                    9.0 + p[0] - tilt * (p[2] - place) ** 2 + kink * math.sin(p[1]),
+                    7.0 + kink * abs(p[1] - place) + p[0] * p[2],
+                )
+                for p in points
+            ]
+            open_search.tell(values, watched)
+        return open_search.result
+
+    alone = search({0: Watched()})
+    both = search({0: Watched(), 1: Watched(is_deciding=False)})
+    assert both.points == alone.points
+    assert both.is_closed
+    assert math.isinf(alone.upper_bound[1])
+    assert both.maximum[1] < both.upper_bound[1] < 2.0 * both.maximum[1]
+
+
 def test_same_answers_give_the_same_search():
     one, other = drive(ridge(3), 3), drive(ridge(3), 3)
     assert one.points == other.points

@@ -15,6 +15,7 @@ OPEN = Bounds(
     tolerance=np.array([0.04, 0.04]),
     upper=np.array([7.7, 2.91]),
     watched=(0, 1),
+    deciding=(0, 1),
     summits=(((0.0, 0.4375), 0), ((0.5, 1.0), 1)),
     wanted=(
         (9.0, (0.25, 0.25), 0),

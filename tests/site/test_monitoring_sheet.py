@@ -37,6 +37,7 @@ def test_series_are_read_by_row_and_member(sheets, save):
     assert uphill.source == "Monitoring!A2"
     assert foot.tensions == (80000.0,)
     assert foot.air_temperatures == (None,)
+    assert uphill.start is None
     assert not [note for note in map(str, site.notes) if "Monitoring" in note]
 
 
@@ -52,6 +53,7 @@ def test_dates_become_times_since_the_first(sheets, save, moments):
     lines = [["R1", "post", moment, 10.0] for moment in moments]
     site = read_site(save(with_lines(sheets, *lines, headings=headings)))
     assert site.monitoring[0].times == (0.0, 43200.0)
+    assert site.monitoring[0].start == datetime(2003, 2, 18, 6)
 
 
 @pytest.mark.parametrize(
@@ -104,3 +106,14 @@ def test_what_is_no_date_is_refused(sheets, save, refused):
     lines = [["R1", "post", "18th of February", 10.0]]
     (finding,) = refused(save(with_lines(sheets, *lines, headings=headings)))
     assert str(finding.rule) == "is no date"
+
+
+def test_dates_and_days_are_not_mixed(sheets, save, refused):
+    headings = ["net row", "member", "time [d]", "date and time", "tension [kN]"]
+    lines = [
+        ["R1", "post", 3.0, None, 10.0],
+        ["R1", "post", None, "2003-02-18 06:00", 11.0],
+    ]
+    (finding,) = refused(save(with_lines(sheets, *lines, headings=headings)))
+    assert finding.cell == "D3"
+    assert "of another kind" in str(finding.rule)

@@ -5,6 +5,7 @@ from datetime import date, datetime
 import pytest
 
 from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import TextFormat
 from netdesign.site.reader import read_site
 from netdesign.site.winter_sheet import read_height_file
 
@@ -130,3 +131,23 @@ def test_file_without_heights_is_refused(tmp_path):
     path.write_text("date;air temperature [°C]\n2003-02-01;0\n2003-02-02;-4\n")
     with pytest.raises(SiteDataError, match="without a snow height"):
         read_height_file(path)
+
+
+def test_many_days_that_are_odd_alike_are_one_remark(sheets, save):
+    """So are many faults: whoever has metres under centimetres reads one line."""
+    site = read_site(save(with_lines(sheets, *days(*(0, 80) * 9))))
+    (told,) = [str(one) for one in site.notes if "0.6 m" in str(one)]
+    assert "2003-02-02" in told
+    assert "and 1 more" in told
+
+
+def test_faults_of_a_long_file_are_folded_and_its_marks_may_be_declared(tmp_path):
+    path = tmp_path / "davos.csv"
+    lines = [f"2003-02-{day:02};{100 + 3 * day},125" for day in range(1, 29)]
+    path.write_text("\n".join(["date;HS [m]", *lines]))
+    with pytest.raises(SiteDataError) as caught:
+        read_height_file(path)
+    assert len(str(caught.value).splitlines()) < 4
+    path.write_text("\n".join(["date;HS [cm]", *lines]))
+    winter, _ = read_height_file(path, TextFormat(decimal_mark=","))
+    assert winter.series.heights[1] == pytest.approx(1.06125)

@@ -3,11 +3,13 @@ import math
 import pytest
 
 from netdesign.errors import ModelError
+from netdesign.snow.creep_law import BOUTILLIER_2004
 from netdesign.snow.fluidity import (
     COLDEST,
     PAPER_FLUIDITY,
     WARMEST,
     compute_fluidity,
+    compute_settling_fluidity,
 )
 from netdesign.units import fluidity_from_mpa_year
 
@@ -45,3 +47,27 @@ def test_bounds_are_accepted(temperature):
 def test_beyond_is_refused(temperature):
     with pytest.raises(ModelError, match="snow temperature"):
         compute_fluidity(temperature)
+
+
+@pytest.mark.parametrize(
+    ("density", "printed"), [(100.0, 0.63), (250.0, 0.95), (400.0, 4.0)]
+)
+def test_settling_fluidities_are_those_of_the_page(density, printed):
+    """Middle of 2 m; the formula is written again in test_evidence.py."""
+    found = compute_settling_fluidity(BOUTILLIER_2004, density, density * 9.81)
+    assert found == pytest.approx(fluidity_from_mpa_year(printed, 3.0), rel=0.01)
+
+
+def test_snow_under_more_stress_has_the_slower_clock():
+    """The law is cubic, settling linear: B goes with the stress to the power 1 - n."""
+    once, thrice = (
+        compute_settling_fluidity(BOUTILLIER_2004, 310.0, stress)
+        for stress in (2.7e3, 8.1e3)
+    )
+    assert once / thrice == pytest.approx(9.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(("density", "stress"), [(0.0, 1e3), (300.0, 0.0)])
+def test_no_settling_without_snow_or_load(density, stress):
+    with pytest.raises(ModelError):
+        compute_settling_fluidity(BOUTILLIER_2004, density, stress)

@@ -37,7 +37,7 @@ def settled_by_hand(heights, densities):
 
 
 def test_first_snow_is_one_new_layer_and_bare_ground_has_none():
-    packs = follow_heights([0.0, 0.37, 0.0, 0.11])
+    packs = follow_heights([0.0, 0.37, 0.0, 0.11], DELTA_SNOW)
     assert [pack.heights.size for pack in packs] == [0, 1, 0, 1]
     assert packs[1].mass == pytest.approx(0.37 * RHO_0, rel=1e-14)
     assert packs[2].runoff == packs[1].mass
@@ -45,7 +45,7 @@ def test_first_snow_is_one_new_layer_and_bare_ground_has_none():
 
 
 def test_given_density_of_the_first_day():
-    (pack,) = follow_heights([0.83], first_density=317.0)
+    (pack,) = follow_heights([0.83], DELTA_SNOW, first_density=317.0)
     assert pack.density == pytest.approx(317.0, rel=1e-14)
 
 
@@ -125,7 +125,7 @@ def test_ageing_limit_at_its_middle_and_far_from_it():
 
 def test_constant_height_comes_to_rest():
     """New snow fills what settles, until a day settles less than tau: then (D3)."""
-    packs = follow_heights([1.7] * 200)
+    packs = follow_heights([1.7] * 200, DELTA_SNOW)
     means = [pack.density for pack in packs]
     assert all(after >= before - 1e-12 for before, after in pairwise(means))
     assert means[-1] == pytest.approx(means[-50], rel=1e-12)
@@ -136,4 +136,5 @@ def test_constant_height_comes_to_rest():
 def test_a_set_with_another_viscosity_settles_otherwise():
     soft = replace(DELTA_SNOW, viscosity=ETA / 3)
     heights = [0.8, 1.6, 1.5, 1.4, 1.5]
-    assert follow_heights(heights, soft)[-1].mass > follow_heights(heights)[-1].mass
+    usual = follow_heights(heights, DELTA_SNOW)
+    assert follow_heights(heights, soft)[-1].mass > usual[-1].mass

@@ -58,7 +58,7 @@ def test_fluidity_leaves_the_force(a_scene):
     wall = Wall(height_normal=4.0)
     scene = replace(a_scene(ground="no-slip"), net=wall)
     slow = solve_rigid(scene, SETTINGS)
-    fast = solve_rigid(replace(scene, fluidity=9.0 * scene.fluidity), SETTINGS)
+    fast = solve_rigid(replace(scene, fluidity=9.0 * scene.creep_fluidity), SETTINGS)
     assert fast.force.x == slow.force.x
     assert fast.largest_velocity == pytest.approx(
         9.0 * slow.largest_velocity, rel=1e-12

@@ -4,11 +4,13 @@ Spoilt formulas that made this file fail are named in its commit.
 """
 
 import csv
+from datetime import date, timedelta
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
+from netdesign.commands.winter import MODELS as COMMAND_MODELS
 from netdesign.evidence.verification.snow_heights import (
     list_snow_heights,
     measure_imbalance,
@@ -16,6 +18,9 @@ from netdesign.evidence.verification.snow_heights import (
 )
 from netdesign.snowpack.follow import MODELS, follow_heights
 from netdesign.snowpack.hs2swe import HS2SWE
+from netdesign.snowpack.series import name_winter
+
+FIRST = date(2016, 9, 1)  # day of the Weissfluhjoch's series
 
 
 def read_made_up_winter():
@@ -48,10 +53,34 @@ def test_densities_against_103_pits_are_as_the_page_says(name, bias, spread):
     assert got[f"{name}-density-rmse"] == pytest.approx(spread, abs=0.05)
 
 
+def test_default_model_errs_least_to_the_unsafe_side():
+    """Pulls go with rho^1.2 HS^1.9: pits on the days that may govern their winter."""
+    series = read_weissfluhjoch()
+    pits = np.flatnonzero(~np.isnan(series.measured) & (series.heights > 0.2))
+    heights = series.heights[pits]
+    ranks = (series.measured[pits] / heights) ** 1.2 * heights**1.9
+    winters = np.array([name_winter(FIRST + timedelta(days=int(k))) for k in pits])
+    largest = {name: ranks[winters == name].max() for name in set(winters)}
+    near = pits[ranks >= 0.7 * np.array([largest[name] for name in winters])]
+    mean = {}
+    for name, model in MODELS.items():
+        packs = follow_heights(list(map(float, series.heights)), model)
+        masses = np.array([packs[k].mass for k in near])
+        mean[name] = float(np.mean((masses / series.measured[near]) ** 1.2))
+    default, *others = mean
+    assert near.size == 35
+    assert default == COMMAND_MODELS[0]
+    assert tuple(mean) == COMMAND_MODELS
+    assert mean == pytest.approx(
+        {"delta-snow-ageing": 0.984, "hs2swe": 0.966, "delta-snow": 0.885}, abs=1e-3
+    )
+    assert all(abs(mean[default] - 1.0) < abs(mean[one] - 1.0) for one in others)
+
+
 def test_largest_mass_of_the_made_up_winter():
     """An independent code has 885 kg/m2; the truth is a tenth less."""
     heights, true = read_made_up_winter()
-    masses = [pack.mass for pack in follow_heights(heights)]
+    masses = [pack.mass for pack in follow_heights(heights, MODELS["delta-snow"])]
     assert max(masses) == pytest.approx(885.0, abs=0.5)
     assert 1.05 < max(masses) / max(true) < 1.12
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.winter.day import RowDay
 from netdesign.winter.maxima import (
@@ -19,7 +20,7 @@ QUICK = {"accuracy": 0.03}
 
 
 def follow(heights):
-    return dict(enumerate(follow_heights(heights)))
+    return dict(enumerate(follow_heights(heights, DELTA_SNOW)))
 
 
 def test_days_far_below_the_best_rank_are_not_solved():
@@ -108,7 +109,7 @@ def test_maxima_through_the_table_are_those_of_solves():
         "2003/2004": follow([0.05 * h for h in heights]),
     }
     solver = a_solver(accuracy=0.02)
-    found = find_many_maxima(winters, solver)
+    found = find_many_maxima({"delta-snow": winters}, solver)["delta-snow"]
     assert [one.ending for one in found] == [
         "solved",
         "solved",

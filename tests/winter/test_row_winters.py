@@ -8,6 +8,7 @@ from netdesign.snowpack.follow import MODELS
 from netdesign.snowpack.hs2swe import HS2SWE
 from netdesign.snowpack.series import HeightSeries
 from netdesign.winter.row_winters import (
+    follow_station,
     follow_winters,
     list_complete,
     split_packs,
@@ -45,7 +46,8 @@ def test_snow_goes_on_settling_through_september():
 
 def test_few_winters_have_curves_and_no_return_values():
     models = [HS2SWE, MODELS["delta-snow"]]
-    found = follow_winters(a_series([1.2, 1.5]), models, a_formula_solver(), step=40)
+    station = follow_station(a_series([1.2, 1.5]), models)
+    found = follow_winters(station, a_formula_solver(), step=40)
     assert [season.name for season in found.seasons] == ["1990/1991", "1991/1992"]
     assert found.maxima == tuple(season.maximum for season in found.seasons)
     assert found.statistics is None
@@ -60,10 +62,14 @@ def test_few_winters_have_curves_and_no_return_values():
 
 def test_many_winters_have_return_values_and_curves_of_the_largest():
     tops = [1.0 + 0.07 * ((7 * k) % 16) for k in range(16)]
-    found = follow_winters(a_series(tops), [HS2SWE], a_formula_solver(), step=60)
+    station = follow_station(a_series(tops), [HS2SWE, MODELS["delta-snow"]])
+    found = follow_winters(station, a_formula_solver(), step=60)
     assert len(found.maxima) == found.statistics.count == 16
     largest = sorted(found.maxima, key=lambda one: -one.foot)[:3]
     assert {s.name for s in found.seasons} == {one.winter for one in largest}
+    assert [one.winter for one in found.others["delta-snow"]] == [
+        one.winter for one in found.maxima
+    ]
     mean = sum(one.foot for one in found.maxima) / 16
     assert found.statistics.mean == pytest.approx(mean, rel=1e-12)
     for season in found.seasons:
@@ -74,6 +80,7 @@ def test_many_winters_have_return_values_and_curves_of_the_largest():
 def test_one_winter_above_the_net_and_there_are_no_return_values():
     tops = [1.0 + 0.07 * k for k in range(16)]
     tops[5] = 4.3
-    found = follow_winters(a_series(tops), [HS2SWE], a_formula_solver(), step=0)
+    station = follow_station(a_series(tops), [HS2SWE])
+    found = follow_winters(station, a_formula_solver(), step=0)
     assert [one.winter for one in found.maxima if not one.is_proven] == ["1995/1996"]
     assert found.statistics is None

@@ -11,6 +11,7 @@ from netdesign.coupling.history.net_start import Start
 from netdesign.coupling.history.transient import TRANSIENT_LEVELS
 from netdesign.coupling.scene import Scene
 from netdesign.snow.creep_law import ICE_DENSITY
+from netdesign.snow.fluidity import PAPER_FLUIDITY
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.mesh import MeshSize
 from netdesign.snow.snowpack import GravityMode, Snowpack
@@ -67,6 +68,7 @@ class PaperCase:
                 slack=0.0,
                 friction_angle=radian_from_degree(self.friction_deg),
             ),
+            fluidity=PAPER_FLUIDITY,
         )
 
 

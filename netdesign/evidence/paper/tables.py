@@ -31,6 +31,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
+from netdesign.report.words import ENGLISH
 from netdesign.units import day_from_second
 
 _FORCE = "foot_size_kN_per_m"
@@ -83,7 +84,11 @@ def _tabulate_plateaus(study: PaperStudy) -> Listed:
         reference = study[find_steady(straight)]
         for way, case in ways.items():
             rows.append(
-                (given_cell(net), text_cell(way), *_row(study[case], reference))
+                (
+                    given_cell(ENGLISH, net),
+                    text_cell(way),
+                    *_row(study[case], reference),
+                )
             )
     return Listed(
         name="plateau",
@@ -131,12 +136,16 @@ def _row(run: PaperRun, reference: PaperRun) -> tuple[Cell, ...]:
     begin = _plateau_begin(run)
     largest = None if run.track is None else float(run.track.foot.max())
     return (
-        number_cell(_FORCE, _kilo(run.foot)),
-        number_cell("error_kN_per_m", _kilo(run.foot_error) if has_error else None),
-        number_cell(_FORCE, _kilo(run.head)),
-        number_cell("error_kN_per_m", _kilo(run.head_error) if has_error else None),
-        number_cell("change_percent", against),
-        number_cell(_FORCE, _kilo(largest)),
+        number_cell(ENGLISH, _FORCE, _kilo(run.foot)),
+        number_cell(
+            ENGLISH, "error_kN_per_m", _kilo(run.foot_error) if has_error else None
+        ),
+        number_cell(ENGLISH, _FORCE, _kilo(run.head)),
+        number_cell(
+            ENGLISH, "error_kN_per_m", _kilo(run.head_error) if has_error else None
+        ),
+        number_cell(ENGLISH, "change_percent", against),
+        number_cell(ENGLISH, _FORCE, _kilo(largest)),
         _seconds(begin),
     )
 
@@ -145,10 +154,11 @@ def _tabulate_growth(study: PaperStudy) -> Listed:
     rows = tuple(
         (
             text_cell(growth.method),
-            given_cell(growth.inclination_deg),
+            given_cell(ENGLISH, growth.inclination_deg),
             text_cell(growth.quantity),
-            *(number_cell(_FORCE, _kilo(value)) for value in growth.values),
+            *(number_cell(ENGLISH, _FORCE, _kilo(value)) for value in growth.values),
             number_cell(
+                ENGLISH,
                 "change_percent",
                 None if growth.change is None else 100.0 * growth.change,
             ),
@@ -190,10 +200,10 @@ def _tabulate_parameters(study: PaperStudy) -> Listed:
         history, steady = study[case], study[find_steady(case)]
         rows.append(
             (
-                given_cell(case.inclination_deg),
+                given_cell(ENGLISH, case.inclination_deg),
                 text_cell(case.gravity),
                 *(
-                    number_cell(_FORCE, _kilo(value))
+                    number_cell(ENGLISH, _FORCE, _kilo(value))
                     for value in (history.foot, history.head, steady.foot, steady.head)
                 ),
             )
@@ -234,10 +244,10 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
             off = 100.0 * (got / expected - 1.0)
         rows.append(
             (
-                given_cell(run.case.drag),
+                given_cell(ENGLISH, run.case.drag),
                 _seconds(None if track is None else float(track.times[0])),
-                number_cell(_FORCE, _kilo(got)),
-                number_cell("change_percent", off),
+                number_cell(ENGLISH, _FORCE, _kilo(got)),
+                number_cell(ENGLISH, "change_percent", off),
                 _seconds(last_swing(run)),
             )
         )
@@ -250,7 +260,7 @@ def _tabulate_trend(study: PaperStudy) -> Listed:
         table=Table(
             caption=f"Staggered exchange as drag and step vanish, at {end:.0f} s; the "
             "implicit history on the same mesh gives "
-            f"{number_cell(_FORCE, _kilo(expected)).text} kN/m",
+            f"{number_cell(ENGLISH, _FORCE, _kilo(expected)).text} kN/m",
             columns=(
                 Column(heading="Base drag", is_number=True),
                 Column(heading="Step [s]", is_number=True),
@@ -307,14 +317,14 @@ def _row_of_drift(study: PaperStudy, case: PaperCase) -> tuple[Cell, ...]:
     if run.foot is not None and last is not None and begin and end and end > begin:
         drift = 100.0 * (last / run.foot - 1.0) / math.log(end / begin)
     return (
-        given_cell(case.inclination_deg),
+        given_cell(ENGLISH, case.inclination_deg),
         text_cell(case.start),
         text_cell("on" if case.densifies else "off"),
-        number_cell(_FORCE, _kilo(run.foot)),
+        number_cell(ENGLISH, _FORCE, _kilo(run.foot)),
         _seconds(begin),
-        number_cell(_FORCE, _kilo(last)),
+        number_cell(ENGLISH, _FORCE, _kilo(last)),
         _rounded(None if end is None else day_from_second(end), 3),
-        number_cell("change_percent", drift),
+        number_cell(ENGLISH, "change_percent", drift),
     )
 
 
@@ -328,12 +338,12 @@ def _tabulate_runs(study: PaperStudy) -> Listed:
         rows.append(
             (
                 text_cell(case.method + (", coarse" if case.is_coarse else "")),
-                given_cell(case.inclination_deg),
-                given_cell(case.friction_deg),
+                given_cell(ENGLISH, case.inclination_deg),
+                given_cell(ENGLISH, case.friction_deg),
                 text_cell(case.gravity),
                 text_cell("-" if case.method == "steady" else case.start),
                 text_cell("on" if case.densifies else "off"),
-                given_cell(float(moments)),
+                given_cell(ENGLISH, float(moments)),
                 text_cell(result),
             )
         )

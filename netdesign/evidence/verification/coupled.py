@@ -120,7 +120,7 @@ def list_invariants() -> list[VerificationCase]:
         _balance_along_slope(friction) for friction in (0.0, 10.0, 20.0, 45.0)
     )
     scaled = _solve(build_scene(size=2.0, stiffness=8e7, density=366.8))
-    warm = _solve(replace(base, fluidity=7.0 * base.fluidity))
+    warm = _solve(replace(base, fluidity=7.0 * base.creep_fluidity))
     return [
         _zero(
             "balance-along-slope", "sum of end pulls less weight, phi 0 to 45", balance

@@ -12,6 +12,7 @@ from netdesign.coupling.scene import Scene, SolverSettings
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.snow.ground import GroundLaw
 from netdesign.snow.snowpack import Layer, Snowpack
+from netdesign.snowpack.delta_snow import DELTA_SNOW
 from netdesign.snowpack.follow import follow_heights
 from netdesign.snowpack.pack import DayPack
 from netdesign.units import newton_from_kilonewton
@@ -49,11 +50,11 @@ def build_row_scene(ground: GroundLaw) -> Scene:
 
 
 def read_made_up_winter() -> dict[int, DayPack]:
-    """Packs of the made-up winter at 2000 m, by their place from 1 November."""
+    """Packs of the made-up winter by delta-snow, by their place from 1 November."""
     text = files("netdesign.examples").joinpath("winter_2000.csv").read_text("utf-8")
     lines = csv.DictReader(text.splitlines())
     heights = [float(line["HS [cm]"]) / 100.0 for line in lines]
-    return dict(enumerate(follow_heights(heights)))
+    return dict(enumerate(follow_heights(heights, DELTA_SNOW)))
 
 
 def solve_winter(ground: GroundLaw) -> Season:
@@ -103,7 +104,7 @@ def _list_invariants() -> list[VerificationCase]:
     scene = build_row_scene(ground)
     one = _solve(scene, ())
     split = _solve(scene, (Layer(thickness=0.9, density=320.0),) * 2)
-    fluid = _solve(replace(scene, fluidity=10.0 * scene.fluidity), ())
+    fluid = _solve(replace(scene, fluidity=10.0 * scene.creep_fluidity), ())
     pairs = (
         ("winter-equal-layers", "two equal layers are one, on sliding ground", split),
         ("winter-fluidity", "snow ten times as fluid pulls the same", fluid),

@@ -27,6 +27,9 @@ def write_verdict(to: Writer, view: ReportView) -> None:
     t = to.words
     to.text(t("heading.anchor_check"), styles.SMALL)
     to.text(view.identification[0][1], styles.TITLE)
+    if view.mark:
+        to.paragraph((Piece(view.mark, is_bold=True),), styles.VERDICT)
+        to.table(view.what_if)
     to.paragraph((badge(view.verdict),), styles.VERDICT)
     to.text(view.verdict.meaning)
     row = view.governing_row

@@ -17,6 +17,7 @@ from netdesign.report.drawing.figures import (
     use_style,
     write_svg,
 )
+from netdesign.words.numerals import Language
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -86,6 +87,7 @@ def draw_panels(
     panel_in: float = 1.75,
     is_log: bool = True,
     time_label: str,
+    language: Language = "en",
 ) -> str:
     """SVG of charts against time in days, side by side or one below the other.
 
@@ -103,6 +105,8 @@ def draw_panels(
         Time on a logarithmic scale, ticks in seconds to days.
     time_label : str
         Below the last row.
+    language : Language
+        Of the numbers beside the axes.
     """
     from matplotlib.figure import Figure
 
@@ -119,7 +123,7 @@ def draw_panels(
         for axes in grid[-1]:
             axes.set_xlabel(time_label, labelpad=3)
         _arrange(figure, height, across)
-        return write_svg(figure, name, title)
+        return write_svg(figure, name, title, language=language)
 
 
 def dress(axes: Axes, title: str) -> None:
@@ -218,7 +222,7 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
         ha="right",
         va="top",
         color="#596069",
-        fontsize=TEXT_PT - 0.6,
+        fontsize=TEXT_PT,
     )
 
 

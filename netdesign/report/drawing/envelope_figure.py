@@ -6,10 +6,16 @@ from collections.abc import Iterable, Sequence
 
 from netdesign.outcome import Outcome
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame, list_ticks
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.tables import list_loaded
-from netdesign.report.words import ENGLISH, Words, name_heading, show_given, show_number
+from netdesign.report.words import (
+    ENGLISH,
+    Words,
+    name_heading,
+    show_member,
+)
 from netdesign.study.case_records import CaseRecord, ExtremeRecord
 from netdesign.study.records import RowStudy
 
@@ -42,7 +48,7 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
         [case.friction_deg for case in governing],
         _MOST_LINES,
     )
-    sketch = Sketch()
+    sketch = Sketch(language=words.language)
     _draw_legend(sketch, frictions, words, has_failed=_has_failed(row.cases))
     for place, member in enumerate(members):
         top = _LEGEND + place * (_HEAD + _PANEL) + _HEAD
@@ -51,12 +57,22 @@ def draw_envelope(row: RowStudy, words: Words = ENGLISH) -> str:
             panel = _Panel(sketch, frame, row, member, words)
             panel.draw(inclination, frictions, is_first=column == 0)
             if place == 0:
-                text = f"θ = {show_given(inclination)}°"
+                text = f"θ = {words.show_with_unit('inclination_deg', inclination)}"
                 sketch.words((frame.left + frame.width, top - 5), text, anchor="end")
             if place == len(members) - 1:
                 panel.label_densities()
     height = _LEGEND + len(members) * (_HEAD + _PANEL) + _FOOT
-    return sketch.write(height, words("drawing.envelope"))
+    values = [
+        words(
+            "show.force_of",
+            member=show_member(words, extreme.quantity),
+            force=words.show_with_unit("max_kN", extreme.max_kN),
+        )
+        for extreme in row.extremes
+    ]
+    what = words("drawing.envelope")
+    title = words("drawing.with_values", what=what, values=tuple(values))
+    return sketch.write(height, title)
 
 
 def _thin(values: Iterable[float], keep: Sequence[float], most: int) -> list[float]:
@@ -137,7 +153,7 @@ class _Panel:
             self._sketch.line([(frame.left, y), (right, y)], stroke=PALE, width=0.4)
             if is_first:
                 at = (frame.left - 3.0, y + TEXT_PT / 3)
-                self._sketch.words(at, f"{value:g}", anchor="end")
+                self._sketch.words(at, self._sketch.write_tick(value), anchor="end")
         bottom = frame.top + frame.height
         self._sketch.line(
             [(frame.left, bottom), (right, bottom)], stroke=GREY, width=0.5
@@ -151,7 +167,7 @@ class _Panel:
         frame, base = self._frame, self._frame.top + self._frame.height
         for value in list_ticks(frame.x_low, frame.x_high, 5):
             at = (frame.x(value), base + 2.0 + TEXT_PT)
-            self._sketch.words(at, f"{value:g}", anchor="middle")
+            self._sketch.words(at, self._sketch.write_tick(value), anchor="middle")
         text = name_heading(self._words, "density_kg_m3")
         middle = (frame.left + frame.width / 2, base + 5.0 + 2.2 * TEXT_PT)
         self._sketch.words(middle, text, anchor="middle")
@@ -191,7 +207,7 @@ class _Panel:
         is_left = x < frame.left + frame.width / 2
         at = (x + 6.0 if is_left else x - 6.0, y - 3.5)
         anchor = "start" if is_left else "end"
-        text = show_number("max_kN", extreme.max_kN)
+        text = self._words.show_number("max_kN", extreme.max_kN)
         self._sketch.words(at, text, anchor=anchor, fill=ACCENT)
 
 
@@ -215,14 +231,20 @@ def draw_marker(sketch: Sketch, at: Point, marker: str, stroke: str) -> None:
 def _draw_legend(
     sketch: Sketch, frictions: Sequence[float], words: Words, *, has_failed: bool
 ) -> None:
-    left, y = _LEFT, 7.0
+    left, y = 6.0, 7.0
     for friction, (shade, dash, marker) in zip(frictions, _LINES, strict=False):
         sketch.line([(left, y), (left + 20.0, y)], stroke=shade, dash=dash)
         draw_marker(sketch, (left + 10.0, y), marker, shade)
-        sketch.words((left + 24.0, y + 2.6), f"φ = {show_given(friction)}°")
-        left += 66.0
+        text = f"φ = {words.show_with_unit('friction_deg', friction)}"
+        left = _write_key(sketch, left + 24.0, y, text)
     sketch.ring(left + 4.0, y, ACCENT)
-    sketch.words((left + 12.0, y + 2.6), words("drawing.governing_case"))
+    left = _write_key(sketch, left + 12.0, y, words("drawing.governing_case"))
     if has_failed:
-        sketch.words((left + 84.0, y + 2.6), "×", fill=ACCENT, bold=True)
-        sketch.words((left + 94.0, y + 2.6), words("drawing.no_result"))
+        sketch.words((left, y + 2.6), "×", fill=ACCENT, bold=True)
+        _write_key(sketch, left + 9.0, y, words("drawing.no_result"))
+
+
+def _write_key(sketch: Sketch, left: float, y: float, text: str) -> float:
+    """Words of the legend; where the next may begin."""
+    sketch.words((left, y + 2.6), text)
+    return left + measure_words(text, TEXT_PT) + 7.0

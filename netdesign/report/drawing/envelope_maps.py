@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from netdesign.quantities import QUANTITIES
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.label_board import LINE_PT
+from netdesign.report.drawing.letters import measure_words, wrap_words
 from netdesign.report.drawing.plain_svg import (
     SHADES,
     WIDTH,
@@ -17,9 +20,14 @@ from netdesign.report.drawing.plain_svg import (
     list_ticks,
     shade,
 )
-from netdesign.report.words import ENGLISH, Words, name_heading, show_given
+from netdesign.report.words import (
+    ENGLISH,
+    Words,
+    name_heading,
+)
 from netdesign.study.envelope_records import (
     BoundRecord,
+    DriverRecord,
     EnvelopeRecord,
     LineRecord,
     MapRecord,
@@ -27,7 +35,8 @@ from netdesign.study.envelope_records import (
 from netdesign.words.names import name
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
-_HEAD, _PANEL, _FOOT = 22.0, 60.0, 22.0  # heights of a row of panels [pt]
+_HEAD, _PANEL, _FOOT = 26.0, 60.0, 24.0  # heights of a row of panels [pt]
+_ACROSS = 4  # lines side by side; more go below
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]
 
@@ -46,7 +55,7 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.maps]
     if not bounds:
         return ""
-    chart = Chart()
+    chart = Chart(language=words.language)
     for place, bound in enumerate(bounds):
         top = place * (_HEAD + _PANEL + _FOOT)
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
@@ -64,12 +73,18 @@ def draw_maps(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
         pairs = list(zip(frames, bound.maps, strict=True))
         chart.tiles(cell for pair in pairs for cell in _list_cells(*pair, low, high))
         for frame, one in pairs:
-            _name_map(chart, frame, one)
+            _name_map(chart, frame, one, words)
         at = (bound.case["density_kg_m3"], bound.case["friction_deg"])
         chart.ring(frames[nearest].x(at[0]), frames[nearest].y(at[1]), ACCENT)
         _paint_legend(chart, top + _HEAD, low, high)
     height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    return chart.write(height, _title("drawing.maps", record, words))
+    values = [
+        _show_forces(
+            [row for one in bound.maps for row in one.force_kN], bound, record, words
+        )
+        for bound in bounds
+    ]
+    return chart.write(height, _title("drawing.maps", record, values, words))
 
 
 def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
@@ -77,25 +92,41 @@ def draw_lines(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.lines]
     if not bounds:
         return ""
-    chart = Chart()
-    for place, bound in enumerate(bounds):
-        top = place * (_HEAD + _PANEL + _FOOT)
+    chart, top = Chart(language=words.language), 0.0
+    for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
-        low, high = bounds_of([*(one.force_kN for one in bound.lines)])
-        high = max(high, bound.upper_bound_kN)
-        margin = 0.06 * (high - low) or 0.01 * high
-        for column, one in enumerate(bound.lines):
-            frame = Frame(
-                **_panel(column, len(bound.lines), top),
-                x_low=one.values[0],
-                x_high=one.values[-1],
-                y_low=low - margin,
-                y_high=high + margin,
-            )
-            _paint_line(chart, frame, one, bound, words)
-    height = len(bounds) * (_HEAD + _PANEL + _FOOT)
-    title = _title("drawing.lines", record, words)
-    return chart.write(height, title)
+        for start in range(0, len(bound.lines), _ACROSS):
+            some = bound.lines[start : start + _ACROSS]
+            top += _paint_lines(chart, some, bound, top, words)
+    values = [
+        _show_forces([one.force_kN for one in bound.lines], bound, record, words)
+        for bound in bounds
+    ]
+    return chart.write(top, _title("drawing.lines", record, values, words))
+
+
+def _paint_lines(
+    chart: Chart,
+    lines: Sequence[LineRecord],
+    bound: BoundRecord,
+    top: float,
+    words: Words,
+) -> float:
+    """Paint lines side by side, all to the scale of their member; their height [pt]."""
+    low, high = bounds_of([*(one.force_kN for one in bound.lines)])
+    high = max(high, bound.upper_bound_kN)
+    margin = 0.06 * (high - low) or 0.01 * high
+    names = 1
+    for column, one in enumerate(lines):
+        frame = Frame(
+            **_panel(column, min(len(bound.lines), _ACROSS), top),
+            x_low=one.values[0],
+            x_high=one.values[-1],
+            y_low=low - margin,
+            y_high=high + margin,
+        )
+        names = max(names, _paint_line(chart, frame, one, bound, words))
+    return _HEAD + _PANEL + _FOOT + (names - 1) * LINE_PT
 
 
 def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
@@ -103,12 +134,13 @@ def draw_drivers(record: EnvelopeRecord, words: Words = ENGLISH) -> str:
     bounds = [bound for bound in _list_loaded(record) if bound.drivers]
     if not bounds:
         return ""
-    chart, top = Chart(), 0.0
+    chart, top = Chart(language=words.language), 0.0
     for bound in bounds:
         chart.text(2.0, top + TEXT_PT + 1.0, _name(bound, record, words), bold=True)
         top += 14.0
         top += _paint_tornado(chart, bound, top, words)
-    return chart.write(top, _title("drawing.drivers", record, words))
+    values = [_show_driver(one, words) for bound in bounds for one in bound.drivers]
+    return chart.write(top, _title("drawing.drivers", record, values, words))
 
 
 def _list_cells(
@@ -133,15 +165,15 @@ def _list_cells(
     return cells
 
 
-def _name_map(chart: Chart, frame: Frame, one: MapRecord) -> None:
+def _name_map(chart: Chart, frame: Frame, one: MapRecord, words: Words) -> None:
     """Axes of a map and their symbols, too short to meet."""
     chart.text(
         frame.left + frame.width,
         frame.top - 5.5,
-        f"θ = {show_given(round(one.inclination_deg, 3))}°",
+        f"θ = {words.show_with_unit('inclination_deg', one.inclination_deg)}",
         anchor="end",
     )
-    chart.text(frame.left - 14.0, frame.top - 5.5, "φ [°]")
+    chart.text(frame.left, frame.top - 5.5, "φ [°]")
     chart.axes(frame)
     _name_axis(chart, frame, "ρ [kg/m³]")
 
@@ -160,13 +192,15 @@ def _paint_legend(chart: Chart, top: float, low: float, high: float) -> None:
             1.0 - ((value - low) / (high - low) if high > low else 0.5)
         )
         places.append((left + wide, y))
-        chart.text(left + wide + 4.0, y + TEXT_PT / 3, f"{value:g}")
+        chart.text(left + wide + 4.0, y + TEXT_PT / 3, chart.write_tick(value))
     chart.ticks(places)
 
 
 def _paint_line(
     chart: Chart, frame: Frame, one: LineRecord, bound: BoundRecord, words: Words
-) -> None:
+) -> int:
+    """Force and bound along a quantity; how many lines its name takes."""
+
     def trace(forces: Sequence[float]) -> list[tuple[float, float]]:
         return drop_straight(
             [
@@ -186,7 +220,7 @@ def _paint_line(
     )
     chart.axes(frame)
     chart.ring(frame.x(bound.case[one.key]), frame.y(bound.max_kN), ACCENT)
-    _name_axis(chart, frame, name_heading(words, one.key))
+    return _name_axis(chart, frame, name_heading(words, one.key))
 
 
 def _paint_tornado(chart: Chart, bound: BoundRecord, top: float, words: Words) -> float:
@@ -195,22 +229,24 @@ def _paint_tornado(chart: Chart, bound: BoundRecord, top: float, words: Words) -
     low = min(one.least_kN for one in drivers)
     high = max(one.most_kN for one in drivers)
     bar = 13.0
+    names = [name_heading(words, one.key) for one in drivers]
+    left = 12.0 + max(measure_words(one, TEXT_PT) for one in names)
     frame = Frame(
-        left=120.0,
+        left=left,
         top=top,
-        width=WIDTH - 250.0,
+        width=WIDTH - 130.0 - left,
         height=bar * len(drivers),
         x_low=low,
         x_high=high,
         y_low=0.0,
         y_high=1.0,
     )
-    for place, one in enumerate(drivers):
+    for place, (one, name_of) in enumerate(zip(drivers, names, strict=True)):
         y = top + place * bar
-        left, right = frame.x(one.least_kN), frame.x(one.most_kN)
-        chart.rectangle(left, y + 2.0, right - left, bar - 4.0, PALE)
+        start, end = frame.x(one.least_kN), frame.x(one.most_kN)
+        chart.rectangle(start, y + 2.0, end - start, bar - 4.0, PALE)
         base = y + bar / 2 + TEXT_PT / 3
-        chart.text(frame.left - 6.0, base, name_heading(words, one.key), anchor="end")
+        chart.text(frame.left - 6.0, base, name_of, anchor="end")
         chart.text(
             frame.left + frame.width + 8.0,
             base,
@@ -242,9 +278,14 @@ def _panel(column: int, columns: int, top: float) -> dict[str, float]:
     }
 
 
-def _name_axis(chart: Chart, frame: Frame, label: str) -> None:
+def _name_axis(chart: Chart, frame: Frame, label: str) -> int:
+    """Write what an axis shows below it; the number of lines."""
     base = frame.top + frame.height + 2.3 * TEXT_PT + 4.5
-    chart.text(frame.left + frame.width / 2, base, label, anchor="middle")
+    lines = wrap_words(label, TEXT_PT, frame.width + _GAP - 6.0)
+    for place, line in enumerate(lines):
+        at = base + place * LINE_PT
+        chart.text(frame.left + frame.width / 2, at, line, anchor="middle")
+    return len(lines)
 
 
 def _edges(values: Sequence[float]) -> list[float]:
@@ -265,9 +306,38 @@ def _name(bound: BoundRecord, record: EnvelopeRecord, words: Words) -> str:
     return name_heading(words, f"{bound.quantity}_kN")
 
 
-def _title(what: str, record: EnvelopeRecord, words: Words) -> str:
-    """Name of a drawing for those who cannot see it, with its member if it is one."""
-    if len(record.bounds) > 1:
-        return words(what)
-    member = _name(record.bounds[0], record, words)
-    return words("drawing.of_member", member=member, what=words(what))
+def _title(
+    what: str, record: EnvelopeRecord, values: Sequence[str], words: Words
+) -> str:
+    """Name and numbers of a drawing for those who cannot see it."""
+    named = words(what)
+    if len(record.bounds) == 1:
+        member = _name(record.bounds[0], record, words)
+        named = words("drawing.of_member", member=member, what=named)
+    return words("drawing.with_values", what=named, values=tuple(values))
+
+
+def _show_forces(
+    forces: Sequence[Sequence[float]],
+    bound: BoundRecord,
+    record: EnvelopeRecord,
+    words: Words,
+) -> str:
+    """Least and largest of the drawn forces, and where the largest of all is."""
+    low, high = bounds_of(forces)
+    at = ", ".join(
+        f"{QUANTITIES[key].symbol} {words.show_with_unit(key, value)}"
+        for key, value in bound.case.items()
+    )
+    return words(
+        "drawing.forces_in_words",
+        member=_name(bound, record, words),
+        forces=words.show_band("max_kN", low, high),
+        largest=words.show_number("max_kN", bound.max_kN),
+        case=at,
+    )
+
+
+def _show_driver(one: DriverRecord, words: Words) -> str:
+    forces = words.show_band("max_kN", one.least_kN, one.most_kN)
+    return words("show.label", label=name_heading(words, one.key), text=forces)

@@ -1,4 +1,4 @@
-"""Measured tension and air temperature beside the model's history of the row."""
+"""Measured tension and air temperature of a row."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from netdesign.report.drawing.charts import Line, Panel, draw_panels
 from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.records import MonitoringRecord
-from netdesign.words.message import Message
-from netdesign.words.names import name
 
 
 def draw_monitoring(
@@ -21,41 +19,44 @@ def draw_monitoring(
     return draw_panels(
         panels,
         place,
-        words("drawing.monitoring"),
+        _describe(panels, words),
         is_log=False,
         panel_in=1.5,
         time_label=words("drawing.days"),
+        language=words.language,
     )
+
+
+def _describe(panels: Sequence[Panel], words: Words) -> str:
+    """Words for what the drawing says, with the range of each line."""
+    values = [
+        words(
+            "show.label",
+            label=words("drawing.of_member", member=panel.title, what=line.label),
+            text=words(
+                "show.band",
+                low=words.show_share(min(line.y)),
+                high=words.show_share(max(line.y)),
+            ),
+        )
+        for panel in panels
+        for line in panel.lines
+    ]
+    what = words("drawing.monitoring")
+    return words("drawing.with_values", what=what, values=tuple(values))
 
 
 def describe_monitoring(
     records: Sequence[MonitoringRecord], words: Words = ENGLISH
 ) -> str:
-    """Note below the drawing, with the reasons for missing histories."""
-    starts = sorted({record.model_start for record in records})
-    named = tuple(name("start", start) for start in starts)
-    note = words("drawing.monitoring_note", starts=named)
-    reasons: dict[Message, None] = {}
-    for record in records:
-        if record.model_reason is not None:
-            reasons.setdefault(record.model_reason)
-    if not reasons:
-        return note
-    return words("drawing.without_history", note=note, reasons=tuple(reasons))
+    """Note below the drawing: where the model's forces stand, or what they need."""
+    told = dict.fromkeys(words.show(record.model) for record in records)
+    return words("drawing.monitoring_note", model=tuple(told))
 
 
 def _list_panels(record: MonitoringRecord, words: Words) -> list[Panel]:
     member = show_member(words, record.member)
     lines = []
-    if record.model_times_d:
-        lines.append(
-            Line(
-                label=words("drawing.model"),
-                x=record.model_times_d,
-                y=record.model_kN,
-                is_accent=True,
-            )
-        )
     measured = _pick(record.times_d, record.tensions_kN)
     if measured[0]:
         lines.append(

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from netdesign.coupling.face import Face
 from netdesign.coupling.solution import Solution, WallSolution
-from netdesign.numerics.arrays import Floats, Ints, Mask
+from netdesign.numerics.arrays import Floats, Ints
 from netdesign.report.drawing.charts import dress
 from netdesign.report.drawing.figures import (
     ACCENT,
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
 _DARK = "#4d5761"  # of the densest snow; text stays readable beside it
 _LONGEST_ARROW = 0.42  # heights of the net
-_SIMPSON = (1.0 / 6.0, 4.0 / 6.0)  # corner, midpoint of a quadratic edge
 _STACKED = 0.84  # width of meshes below each other, so that five fit on a page
 _STEPS = 24  # of the density scale
 _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
@@ -38,91 +37,6 @@ _ONE_DENSITY = 0.5  # [kg/m3] below which snow counts as uniform
 # is all but empty at the overhanging surface would flatten all others.
 _OUTLIERS = 0.005
 _NO_FORCE = 1e-9  # of the largest pressure: below it a ratio means nothing
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Face:
-    """Snow's face on the net or wall, and what the snow does to it.
-
-    Attributes
-    ----------
-    points, forces : ndarray, shape (2, n)
-        Foot to head [m], [N/m].
-    slides : ndarray of bool, shape (n,)
-        Where the snow slips.
-    friction : float or None
-        Tangent of the friction angle; None if the snow adheres.
-    is_quadratic : bool
-        Every second point is the midpoint of an edge.
-    """
-
-    points: Floats
-    forces: Floats
-    slides: Mask
-    friction: float | None
-    is_quadratic: bool
-
-    @property
-    def inner(self) -> slice:
-        """Nodes between the ends: at those the pressure is singular."""
-        return slice(2, -2) if self.is_quadratic else slice(1, -1)
-
-    @property
-    def tractions(self) -> tuple[Floats, Floats]:
-        """Pressure and shear of the nodes, foot to head positive [Pa]."""
-        along = _bisect(self.points)
-        normal = np.array([along[1], -along[0]])
-        shares = self._lengths()
-        return (
-            (self.forces * normal).sum(axis=0) / shares,
-            (self.forces * along).sum(axis=0) / shares,
-        )
-
-    def _lengths(self) -> Floats:
-        """Length of the face that each node's force stands for [m]."""
-        if not self.is_quadratic:
-            halves = np.hypot(*np.diff(self.points, axis=1)) / 2.0
-            return np.asarray(np.append(halves, 0.0) + np.append(0.0, halves))
-        edges = np.hypot(*np.diff(self.points[:, ::2], axis=1))
-        shares = np.zeros(self.points.shape[1])
-        corner, middle = _SIMPSON
-        shares[:-1:2] += corner * edges
-        shares[2::2] += corner * edges
-        shares[1::2] = middle * edges
-        return shares
-
-
-def _bisect(points: Floats) -> Floats:
-    """Unit directions along a polygon, halfway between those of its segments."""
-    segments = np.diff(points, axis=1)
-    segments /= np.hypot(*segments)
-    both = np.column_stack(
-        [segments[:, 0], segments[:, :-1] + segments[:, 1:], segments[:, -1]]
-    )
-    return np.asarray(both / np.hypot(*both))
-
-
-def find_face(solution: Solution | WallSolution) -> Face:
-    """Face of a solution's net or wall, without a free end above the snow."""
-    scene = solution.scene
-    friction = scene.net.friction
-    adheres = math.isinf(friction)
-    if isinstance(solution, WallSolution):
-        return Face(
-            points=solution.wall_nodes,
-            forces=solution.wall_forces,
-            slides=solution.wall_slides,
-            friction=None if adheres else friction,
-            is_quadratic=True,
-        )
-    count = solution.net_slides.size
-    return Face(
-        points=solution.net_curve[:, :count],
-        forces=solution.net_forces[:, :count],
-        slides=solution.net_slides,
-        friction=friction,
-        is_quadratic=solution.method == "steady",
-    )
 
 
 def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
@@ -135,7 +49,14 @@ def draw_node_forces(face: Face, name: str, words: Words = ENGLISH) -> str:
         right = figure.add_axes((0.55, 0.14, 0.44, 0.76))
         _draw_arrows(left, face, words)
         _draw_tractions(right, face, words)
-        return write_svg(figure, name, words("net_drawing.forces"))
+        pressure, _ = face.tractions
+        values = (
+            words("net_drawing.longest", force=_find_largest(face) / 1e3),
+            _show_range("drawing.pressure", pressure[face.inner] / 1e3, words),
+        )
+        what = words("net_drawing.forces")
+        title = words("drawing.with_values", what=what, values=values)
+        return write_svg(figure, name, title, language=words.language)
 
 
 def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
@@ -180,7 +101,10 @@ def draw_stick_slip(face: Face, name: str, words: Words = ENGLISH) -> str:
         figure.legend(
             loc="center left", bbox_to_anchor=(0.7, 0.55), frameon=False, numpoints=1
         )
-        return write_svg(figure, name, words("net_drawing.stick_slip"))
+        what = words("net_drawing.stick_slip")
+        values = (_show_range("net_drawing.over_limit", used, words),)
+        title = words("drawing.with_values", what=what, values=values)
+        return write_svg(figure, name, title, language=words.language)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -223,7 +147,25 @@ def draw_meshes(
             axes.set_xlim(edge, edge + WIDTH_IN / scale)
             axes.set_ylim(-0.05 * tall, 1.02 * tall)
         _draw_scale(figure, (low, high), height, words)
-        return write_svg(figure, name, words("net_drawing.mesh"))
+        what = words("net_drawing.mesh")
+        values = (_show_range("net_drawing.density", np.array([low, high]), words),)
+        title = words("drawing.with_values", what=what, values=values)
+        return write_svg(figure, name, title, language=words.language)
+
+
+def _show_range(key: str, values: Floats, words: Words) -> str:
+    """Least and largest of some values under their name."""
+    low, high = (
+        words.show_share(float(values.min())),
+        words.show_share(float(values.max())),
+    )
+    text = words("show.band", low=low, high=high)
+    return words("show.label", label=words(key), text=text)
+
+
+def _find_largest(face: Face) -> float:
+    """Largest force on a node [N/m]."""
+    return float(np.hypot(*face.forces).max())
 
 
 def _find_ends(picture: MeshPicture) -> tuple[float, float]:
@@ -256,7 +198,7 @@ def _draw_arrows(axes: Axes, face: Face, words: Words) -> None:
     dress(axes, words("net_drawing.on_nodes"))
     x, y = face.points
     unit = float(y[-1])
-    largest = float(np.hypot(*face.forces).max()) or 1.0
+    largest = _find_largest(face) or 1.0
     axes.plot([x[0], x[-1]], [y[0], y[-1]], color=GREY, linewidth=0.5)
     axes.plot(x, y, color=INK, linewidth=1.4, zorder=3)
     tips = face.points + face.forces * (_LONGEST_ARROW * unit / largest)

@@ -1,7 +1,7 @@
 """The last panel of a row: elevation, plan, and the tension along its two ropes.
 
-All three share the axis along the row: the row's end is at the left, an inner post at
-the right. Forces are to one scale.
+They stand side by side. In each the row's end is at the left, an inner post at the
+right. Forces are to one scale.
 """
 
 from __future__ import annotations
@@ -11,21 +11,33 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, TEXT_PT
+from netdesign.report.drawing.label_board import (
+    LINE_PT,
+    Box,
+    LabelBoard,
+    write_label,
+)
+from netdesign.report.drawing.letters import wrap_words
 from netdesign.report.drawing.plain_svg import WIDTH, Frame
 from netdesign.report.drawing.sketch import Point, Sketch
 from netdesign.report.view.panel_tables import name_rope
-from netdesign.report.words import ENGLISH, Words, show_with_unit
+from netdesign.report.words import ENGLISH, Words
 from netdesign.study.support_records import PanelDrawing, PanelRecord
 
-_LEFT, _SPAN = 150.0, 160.0  # of the panel on paper [pt]
-_LONGEST = 46.0  # arrow [pt]
-_CHART, _GAP, _EDGE = 56.0, 26.0, 22.0
+SPAN, LEFT = 84.0, 46.0  # of a panel on paper, room at its left [pt]
+LONGEST = 34.0  # arrow [pt]
+_PLACE = 172.0  # from one picture to the next
+_TOP = 3 * LINE_PT  # below titles of two lines
+_AROUND = LONGEST + 4.0  # room for arrows above and below a view
+_CHART = 84.0
+_TITLES = ("panel_view.elevation", "panel_view.plan", "panel_view.tensions")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _View:
     """One of the two views: its place, and which part of the section it shows."""
 
+    left: float
     top: float
     part: int  # 0: downslope, 1: out of the ground
     origin: float  # value at its top [m]
@@ -35,7 +47,7 @@ class _View:
     def at(self, along: float, value: float) -> Point:
         """Point on paper."""
         y = self.top + self.sign * (value - self.origin) * self.scale
-        return _LEFT + along * self.scale, y
+        return self.left + along * self.scale, y
 
 
 def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
@@ -43,18 +55,55 @@ def draw_panel(panel: PanelRecord, words: Words = ENGLISH) -> str:
     drawn = panel.drawing
     if drawn is None or not _is_whole(drawn):
         return ""
-    spacing = 2.0 * drawn.places_m[-1]
-    scale = _SPAN / spacing
-    sketch = Sketch()
-    per_kn = _LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
-    bottom = _EDGE
-    for part, title in ((1, "panel_view.elevation"), (0, "panel_view.plan")):
-        view, end = _place_view(drawn, part, bottom, scale)
-        sketch.words((6.0, bottom - 10.0), words(title), bold=True)
-        _draw_view(sketch, view, drawn, per_kn, words)
-        bottom = end + _GAP
-    height = _draw_tensions(sketch, panel, drawn, bottom, words)
-    return sketch.write(height, words("panel_view.drawing"))
+    sketch = Sketch(language=words.language)
+    views = [_place_view(drawn, part, place) for place, part in enumerate((1, 0))]
+    bottoms = [bottom for _, bottom in views]
+    height = max(*bottoms, _TOP + _CHART + 5 * LINE_PT)
+    board = LabelBoard(width=WIDTH, height=height)
+    for place, title in enumerate(_TITLES):
+        _write_title(sketch, board, words(title), place * _PLACE)
+    for (view, bottom), is_named in zip(views, (True, False), strict=True):
+        if is_named:
+            _name_supports(sketch, board, bottom, words)
+        _draw_view(sketch, view, drawn)
+        _draw_forces(sketch, board, view, drawn, words)
+    _draw_tensions(sketch, panel, drawn, words)
+    return sketch.write(height, _describe(panel, drawn, words))
+
+
+def _write_title(sketch: Sketch, board: LabelBoard, text: str, left: float) -> None:
+    width = _PLACE - 10.0
+    for line, part in enumerate(wrap_words(text, 1.08 * TEXT_PT, width)):
+        base = (line + 1) * LINE_PT
+        sketch.words((left + 2.0, base), part, bold=True)
+    board.reserve(Box(left, 0.0, left + width, 2.3 * LINE_PT))
+
+
+def _name_supports(
+    sketch: Sketch, board: LabelBoard, bottom: float, words: Words
+) -> None:
+    """Row's end at the left, inner post at the right, each on its line."""
+    sketch.words((2.0, bottom - 1.6 * LINE_PT), words("panel_view.row_end"))
+    right = LEFT + SPAN + 28.0
+    at = (right, bottom - 0.4 * LINE_PT)
+    sketch.words(at, words("panel_view.inner_post"), anchor="end")
+    board.reserve(Box(0.0, bottom - 2.5 * LINE_PT, right, bottom))
+
+
+def _describe(panel: PanelRecord, drawn: PanelDrawing, words: Words) -> str:
+    """Words for what the drawing says, with the largest tension of each rope."""
+    tensions = {"lower": drawn.lower_tensions_kN, "upper": drawn.upper_tensions_kN}
+    values = [
+        words(
+            "show.force_of",
+            member=name_rope(rope, words),
+            force=words.show_with_unit("size_kN", max(tensions[rope.rope])),
+        )
+        for rope in panel.ropes
+        if rope.rope in tensions
+    ]
+    what = words("panel_view.drawing")
+    return words("drawing.with_values", what=what, values=tuple(values))
 
 
 def _is_whole(drawn: PanelDrawing) -> bool:
@@ -70,16 +119,23 @@ def _is_whole(drawn: PanelDrawing) -> bool:
     )
 
 
-def _place_view(
-    drawn: PanelDrawing, part: int, top: float, scale: float
-) -> tuple[_View, float]:
-    """View below a line of the page, and where it ends [pt]."""
+def _place_view(drawn: PanelDrawing, part: int, place: int) -> tuple[_View, float]:
+    """View at a place along the page, and where it ends [pt]."""
     points = (*drawn.lower_m, *drawn.upper_m, drawn.post_head_m, (0.0, 0.0))
     values = [one[part] for one in points]
     low, high = min(values), max(values)
     sign, origin = (-1.0, high) if part == 1 else (1.0, low)
-    view = _View(top=top + 24.0, part=part, origin=origin, sign=sign, scale=scale)
-    return view, view.top + (high - low) * scale + 30.0
+    scale = SPAN / (2.0 * drawn.places_m[-1])
+    view = _View(
+        left=place * _PLACE + LEFT,
+        top=_TOP + _AROUND,
+        part=part,
+        origin=origin,
+        sign=sign,
+        scale=scale,
+    )
+    names = 2.5 * LINE_PT if part == 1 else 0.0
+    return view, view.top + (high - low) * scale + _AROUND + names
 
 
 def _mirror(
@@ -91,9 +147,7 @@ def _mirror(
     return [*half, *((width - place, value) for place, value in half[-2::-1])]
 
 
-def _draw_view(
-    sketch: Sketch, view: _View, drawn: PanelDrawing, per_kn: float, words: Words
-) -> None:
+def _draw_view(sketch: Sketch, view: _View, drawn: PanelDrawing) -> None:
     """Net and ropes of the panel, its supports, and the forces on the last of them."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
     head = drawn.post_head_m[part]
@@ -108,71 +162,68 @@ def _draw_view(
         sketch.line([view.at(*p) for p in straight], stroke=GREY, width=0.5, dash="2 2")
         whole = [straight[0], *rope, straight[1]]
         sketch.line([view.at(*p) for p in whole], stroke=INK, width=1.3)
-    _draw_forces(sketch, view, drawn, per_kn, words)
 
 
 def _draw_forces(
-    sketch: Sketch, view: _View, drawn: PanelDrawing, per_kn: float, words: Words
+    sketch: Sketch, board: LabelBoard, view: _View, drawn: PanelDrawing, words: Words
 ) -> None:
     """Half a bay and the ropes' pull on the last support, a bay on the inner one."""
     part, spacing = view.part, 2.0 * drawn.places_m[-1]
+    per_kn = LONGEST / max(drawn.lower_along_kN, drawn.upper_along_kN, 1e-9)
     head = drawn.post_head_m[part]
+    labels = []
     for place, share, along in ((0.0, 0.5, 1.0), (spacing, 1.0, 0.0)):
         for at, force, rope in (
             (0.0, drawn.foot_kN, drawn.lower_along_kN),
             (head, drawn.head_kN, drawn.upper_along_kN),
         ):
             start = view.at(place, at)
-            across = view.sign * share * force[part]
-            tip = (start[0] + along * rope * per_kn, start[1] + across * per_kn)
+            across = view.sign * share * force[part] * per_kn
+            reach = math.copysign(min(abs(across), LONGEST), across)
+            tip = (start[0] + along * rope * per_kn, start[1] + reach)
             sketch.arrow(start, tip)
+            board.avoid([start, tip])
             size = math.hypot(along * rope, share * math.hypot(*force))
-            name = show_with_unit("size_kN", size)
-            side = "end" if place == 0.0 else "start"
-            label = (start[0] + (-6.0 if place == 0.0 else 6.0), start[1] - 3.0)
-            sketch.words(label, name, anchor=side, fill=ACCENT)
-    below = view.at(0.0, min(0.0, head))[1] + 26.0
-    if part == 1:
-        names = (words("panel_view.row_end"), words("panel_view.inner_post"))
-        for place, name in zip((0.0, spacing), names, strict=True):
-            sketch.words((view.at(place, 0.0)[0], below), name, anchor="middle")
+            name = words.show_with_unit("size_kN", size)
+            side = (-1.0 if place == 0.0 else 1.0, 0.0)
+            labels.append(write_label(name, start, side, ACCENT))
+    for label in labels:
+        board.draw(sketch, label)
 
 
 def _draw_tensions(
-    sketch: Sketch, panel: PanelRecord, drawn: PanelDrawing, top: float, words: Words
-) -> float:
-    """Tension of both ropes over the panel; height of the whole drawing [pt]."""
-    sketch.words((6.0, top - 10.0), words("panel_view.tensions"), bold=True)
-    spacing = 2.0 * drawn.places_m[-1]
+    sketch: Sketch, panel: PanelRecord, drawn: PanelDrawing, words: Words
+) -> None:
+    """Tension of both ropes over the panel, their names below."""
+    left, spacing = 2 * _PLACE + 30.0, 2.0 * drawn.places_m[-1]
     series = (
         ("lower", drawn.lower_tensions_kN, ""),
         ("upper", drawn.upper_tensions_kN, "4 2"),
     )
-    most = max(max(values) for _, values, _ in series)
     frame = Frame(
-        left=_LEFT,
-        top=top + 4.0,
-        width=_SPAN,
+        left=left,
+        top=_TOP,
+        width=WIDTH - 8.0 - left,
         height=_CHART,
         x_low=0.0,
         x_high=spacing,
         y_low=0.0,
-        y_high=1.1 * most,
+        y_high=1.1 * max(max(values) for _, values, _ in series),
     )
     sketch.axes(frame)
+    sketch.words((left - 24.0, _TOP - 0.6 * LINE_PT), "kN")
+    base = _TOP + _CHART + 2.6 * LINE_PT
+    middle = (left + frame.width / 2.0, base)
+    sketch.words(middle, words("panel_view.axis_along"), anchor="middle")
     for name, values, dash in series:
         half = list(zip(drawn.rope_places_m, values, strict=True))
         whole = [*half, *((spacing - z, value) for z, value in half[::-1])]
         points = [(frame.x(z), frame.y(value)) for z, value in whole]
         sketch.line(points, stroke=INK, width=1.1, dash=dash)
-        at = (points[-1][0] + 6.0, points[-1][1] + TEXT_PT / 3)
         for rope in panel.ropes:
             if rope.rope == name:
-                sketch.words(at, f"{name_rope(rope, words)} {rope.type}".strip())
-    sketch.words(
-        (_LEFT + _SPAN / 2.0, top + _CHART + 26.0),
-        words("panel_view.axis_along"),
-        anchor="middle",
-    )
-    sketch.words((_LEFT - 24.0, top + 2.0), "kN", anchor="end")
-    return min(top + _CHART + 34.0, 10.0 * WIDTH)
+                base += LINE_PT
+                key = [(left - 24.0, base - 2.6), (left - 4.0, base - 2.6)]
+                sketch.line(key, stroke=INK, width=1.1, dash=dash)
+                text = f"{name_rope(rope, words)} {rope.type}".strip()
+                sketch.words((left, base), text)

@@ -9,12 +9,16 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
+from itertools import pairwise
 
 from netdesign.report.drawing.figures import GREY, INK, TEXT_PT, WIDTH_IN
+from netdesign.report.drawing.letters import measure_words
+from netdesign.words.numerals import Language, set_marks
 
 WIDTH = 72.0 * WIDTH_IN  # of every chart [pt]
 _STRAIGHT = 0.15  # least bend that shows [pt]: a twentieth of a millimetre
 _TICK = 2.5  # length of a tick [pt]
+_APART = 3.0  # least space between the numbers of two ticks [pt]
 SHADES = 16  # greys from white to the darkest: as many as a print tells apart
 
 
@@ -54,6 +58,7 @@ class Chart:
 
     shapes: list[str] = field(default_factory=list)
     labels: dict[str, list[str]] = field(default_factory=dict)  # by their attributes
+    language: Language = "en"  # of its numbers
 
     def rectangle(
         self, left: float, top: float, width: float, height: float, fill: str
@@ -133,18 +138,33 @@ class Chart:
             f'<text x="{show_place(x)}" y="{show_place(y)}">{escape(words)}</text>'
         )
 
+    def write_tick(self, value: float) -> str:
+        """Round number beside an axis or a dimension, with the language's mark."""
+        return set_marks(f"{value:g}", self.language)
+
     def axes(self, frame: Frame, *, y_ticks: bool = True, x_ticks: bool = True) -> None:
         """Lines at the left and below, with few round ticks."""
         left, bottom = frame.left, frame.top + frame.height
         path = f"M{left:.1f} {frame.top:.1f}V{bottom:.1f}H{left + frame.width:.1f}"
-        for value in list_ticks(frame.x_low, frame.x_high) if x_ticks else ():
+        for value in list_loose_ticks(frame) if x_ticks else ():
             x = frame.x(value)
             path += f"M{show_place(x)} {show_place(bottom)}v{_TICK}"
-            self.text(x, bottom + _TICK + TEXT_PT + 1.5, f"{value:g}", anchor="middle")
-        for value in list_ticks(frame.y_low, frame.y_high) if y_ticks else ():
+            self.text(
+                x,
+                bottom + _TICK + TEXT_PT + 1.5,
+                self.write_tick(value),
+                anchor="middle",
+            )
+        most = max(2, min(5, int(frame.height / (1.4 * TEXT_PT))))
+        for value in list_ticks(frame.y_low, frame.y_high, most) if y_ticks else ():
             y = frame.y(value)
             path += f"M{show_place(left)} {show_place(y)}h-{_TICK}"
-            self.text(left - _TICK - 3.5, y + TEXT_PT / 3, f"{value:g}", anchor="end")
+            self.text(
+                left - _TICK - 3.5,
+                y + TEXT_PT / 3,
+                self.write_tick(value),
+                anchor="end",
+            )
         self.shapes.append(
             f'<path d="{path}" fill="none" stroke="{GREY}" stroke-width="0.5"/>'
         )
@@ -221,6 +241,17 @@ def list_ticks(low: float, high: float, most: int = 5) -> list[float]:
     first = math.ceil(low / step - 1e-9)
     last = math.floor(high / step + 1e-9)
     return [round(k * step, 12) for k in range(first, last + 1)]
+
+
+def list_loose_ticks(frame: Frame) -> list[float]:
+    """Round numbers along the page, as many as stand apart; the first at least."""
+    for most in (5, 4, 3, 2):
+        ticks = list_ticks(frame.x_low, frame.x_high, most)
+        wide = max((measure_words(f"{one:g}", TEXT_PT) for one in ticks), default=0.0)
+        gaps = [frame.x(b) - frame.x(a) for a, b in pairwise(ticks)]
+        if not gaps or min(gaps) > wide + _APART:
+            return ticks
+    return ticks[:1]
 
 
 def shade(value: float, low: float, high: float) -> str:

@@ -6,8 +6,9 @@ import math
 from itertools import pairwise
 
 from netdesign.numerics.curve import trace_curve
-from netdesign.report.drawing.figures import GREY, INK, PALE, SNOW
-from netdesign.report.drawing.plain_svg import drop_straight
+from netdesign.report.drawing.figures import ACCENT, GREY, INK, PALE, SNOW
+from netdesign.report.drawing.label_board import Label, LabelBoard
+from netdesign.report.drawing.plain_svg import WIDTH, drop_straight
 from netdesign.report.drawing.section_frame import (
     LONGEST_ARROW,
     ROD,
@@ -18,37 +19,86 @@ from netdesign.report.drawing.section_frame import (
     move,
 )
 from netdesign.report.drawing.section_labels import (
+    LEGEND_BOTTOM,
     SLIP_DASH,
-    Label,
-    draw_dimensions,
     draw_legend,
     draw_scale_bar,
-    place_labels,
+)
+from netdesign.report.drawing.section_measures import describe_measures, draw_measures
+from netdesign.report.drawing.section_pressure import (
+    CHART_BOTTOM,
+    describe_pressure,
+    draw_pressure,
+    list_pressures,
 )
 from netdesign.report.drawing.sketch import Sketch
-from netdesign.report.words import ENGLISH, Words, show_member, show_with_unit
+from netdesign.report.words import ENGLISH, Words, show_member
 from netdesign.study.support_records import Arrow, Drawing
 
 _SHORTEST_ARROW = 0.14  # heights of the head
 _SLACK = 1e-3  # of the largest force; below it there is no arrow
+_ASIDE = (-1.0, 0.4)  # where the label of a force stands best
 _CHORDS = 6  # straight pieces that are drawn between two nodes of the net
+
+
+Named = tuple[tuple[str, str], ...]  # lines of a label with their colours
 
 
 def draw_section(drawing: Drawing, name: str, words: Words = ENGLISH) -> str:
     """SVG of the section in the case of ``drawing``; ``name`` keeps its ids apart."""
-    paper = fit_paper(Frame(slope=math.radians(drawing.slope_deg), drawing=drawing))
-    sketch = Sketch()
+    frame = Frame(slope=math.radians(drawing.slope_deg), drawing=drawing)
+    has_pressure = len(list_pressures(drawing)) > 1
+    paper = fit_paper(frame, CHART_BOTTOM if has_pressure else LEGEND_BOTTOM)
+    board = LabelBoard(width=WIDTH, height=paper.height)
+    sketch = Sketch(language=words.language)
     _draw_snow(sketch, paper, f"{name}-snow")
     _draw_ground(sketch, paper)
+    draw_legend(sketch, words, board)
+    draw_pressure(sketch, drawing, words, board)
+    draw_scale_bar(sketch, paper, board)
+    measures = draw_measures(sketch, paper, words, board)
     _draw_support(sketch, paper)
     _draw_net(sketch, paper)
-    labels = [_draw_arrow(sketch, paper, arrow, words) for arrow in drawing.arrows]
+    forces = [_draw_arrow(sketch, paper, arrow, words) for arrow in drawing.arrows]
     sketch.dot(paper.at(drawing.head_m), 1.9, fill="#fff")
-    draw_dimensions(sketch, paper)
-    place_labels(sketch, labels)
-    draw_scale_bar(sketch, paper)
-    draw_legend(sketch, words)
-    return sketch.write(paper.height, words("drawing.section"))
+    _avoid_members(board, paper)
+    for label in (*measures, *forces):
+        board.draw(sketch, label)
+    return sketch.write(paper.height, _describe(paper, words))
+
+
+def _describe(paper: Paper, words: Words) -> str:
+    """Words for what the drawing says, with its numbers."""
+    drawing = paper.frame.drawing
+    values = describe_measures(paper, words)
+    for arrow in drawing.arrows:
+        size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
+        member = show_member(words, arrow.member)
+        force = words.show_with_unit("max_kN", size)
+        values.append(words("show.force_of", member=member, force=force))
+    values += describe_pressure(drawing, words)
+    what = words("drawing.section")
+    return words("drawing.with_values", what=what, values=tuple(values))
+
+
+def _avoid_members(board: LabelBoard, paper: Paper) -> None:
+    """Keep labels off the lines that matter."""
+    drawing, frame = paper.frame.drawing, paper.frame
+    head = drawing.head_m
+    for start in (
+        drawing.uphill_anchor_m,
+        drawing.downhill_anchor_m,
+        drawing.post_base_m,
+    ):
+        board.avoid(paper.all_at([start, head]))
+    board.avoid(paper.all_at(drawing.net_m))
+    board.avoid(paper.all_at([(frame.top_end, 0.0), (frame.low_end, 0.0)]))
+    for arrow in drawing.arrows:
+        at = (arrow.x_m, arrow.y_m)
+        size = math.hypot(arrow.force_x_kN, arrow.force_y_kN) or 1.0
+        along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
+        reach = LONGEST_ARROW if along[1] < 0 else -ROD
+        board.avoid(paper.all_at([at, move(at, along, reach * frame.unit)]))
 
 
 def _draw_snow(sketch: Sketch, paper: Paper, name: str) -> None:
@@ -110,14 +160,17 @@ def _draw_arrow(sketch: Sketch, paper: Paper, arrow: Arrow, words: Words) -> Lab
     size = math.hypot(arrow.force_x_kN, arrow.force_y_kN)
     largest = max(math.hypot(a.force_x_kN, a.force_y_kN) for a in frame.drawing.arrows)
     start = (arrow.x_m, arrow.y_m)
-    named = show_member(words, arrow.member), show_with_unit("max_kN", size)
+    named = (
+        (show_member(words, arrow.member), INK),
+        (words.show_with_unit("max_kN", size), ACCENT),
+    )
     if size <= _SLACK * largest:
         return _draw_anchor(sketch, paper, start, _aim(frame, start), named)
     along = (arrow.force_x_kN / size, arrow.force_y_kN / size)
     length = frame.unit * max(LONGEST_ARROW * size / largest, _SHORTEST_ARROW)
     tip = move(start, along, length)
     into_ground = along[1] < 0
-    label = Label(*named, paper.at(tip))
+    label = Label(lines=named, at=paper.at(tip), toward=_ASIDE)
     if not into_ground:
         label = _draw_anchor(sketch, paper, start, along, named)
     sketch.arrow(paper.at(start), paper.at(tip))
@@ -132,10 +185,10 @@ def _aim(frame: Frame, start: Point) -> Point:
 
 
 def _draw_anchor(
-    sketch: Sketch, paper: Paper, start: Point, along: Point, named: tuple[str, str]
+    sketch: Sketch, paper: Paper, start: Point, along: Point, named: Named
 ) -> Label:
     """Rod in the ground, against the pull; its label hangs at its end."""
     rod = move(start, along, -ROD * paper.frame.unit)
     sketch.line(paper.all_at([start, rod]), stroke=INK, width=1.8)
     sketch.dot(paper.at(start), 1.8)
-    return Label(*named, paper.at(rod))
+    return Label(lines=named, at=paper.at(rod), toward=_ASIDE)

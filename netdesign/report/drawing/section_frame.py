@@ -12,10 +12,11 @@ from netdesign.study.support_records import Drawing
 Point = tuple[float, float]
 
 # Symbols are measured in heights of the net's head, room for labels in points.
+MEASURES = 0.2  # room that heights take beside the snow
 LONGEST_ARROW, ROD = 0.46, 0.16
-LABEL = 24.5  # height of a label of two lines
-_LEFT, _RIGHT, _EDGE = 92.0, 108.0, 9.0
-_TALLEST = 160.0
+_LEFT, _RIGHT = 74.0, 198.0  # room for labels, and right for the pressure, too
+_TOP, _BOTTOM = 9.0, 30.0
+_TALLEST = 214.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,14 +34,14 @@ class Frame:
     @property
     def top_end(self) -> float:
         """Place at which the snow is cut off uphill [m along the slope]."""
-        return min(self.drawing.uphill_anchor_m[0], 0.0) - 0.45 * self.unit
+        return min(self.drawing.uphill_anchor_m[0], 0.0) - 0.3 * self.unit
 
     @property
     def low_end(self) -> float:
         """Place at which the ground ends downhill [m along the slope]."""
         drawing = self.drawing
         lowest = max(drawing.downhill_anchor_m[0], drawing.head_m[0], 0.0)
-        return lowest + 0.45 * self.unit
+        return lowest + 0.36 * self.unit
 
     def turn(self, point: Point) -> Point:
         """Point of the slope's axes in upright axes [m]."""
@@ -74,12 +75,13 @@ def move(start: Point, along: Point, length: float) -> Point:
     return start[0] + along[0] * length, start[1] + along[1] * length
 
 
-def fit_paper(frame: Frame) -> Paper:
-    """Fit paper and drawing to each other."""
+def fit_paper(frame: Frame, least: float) -> Paper:
+    """Fit paper and drawing to each other; the paper is ``least`` high [pt]."""
     drawing, unit = frame.drawing, frame.unit
     corners = [
         (frame.top_end, 0.0),
         (frame.top_end, drawing.snow_thickness_m),
+        (frame.top_end - MEASURES * unit, drawing.head_m[1]),
         (frame.low_end, 0.0),
         (drawing.head_m[0], drawing.head_m[1] + 0.1 * unit),
         (drawing.post_base_m[0], -(LONGEST_ARROW + 0.1) * unit),
@@ -89,12 +91,12 @@ def fit_paper(frame: Frame) -> Paper:
     xs, ys = [x for x, _ in turned], [y for _, y in turned]
     wide, tall = max(xs) - min(xs), max(ys) - min(ys)
     room_x = WIDTH - _LEFT - _RIGHT
-    room_y = _TALLEST - 2 * _EDGE - LABEL
+    room_y = _TALLEST - _TOP - _BOTTOM
     scale = min(room_x / wide, room_y / tall)
     return Paper(
         frame=frame,
         scale=scale,
-        height=tall * scale + 2 * _EDGE + LABEL,
+        height=max(least, tall * scale + _TOP + _BOTTOM),
         left=min(xs) - (_LEFT + (room_x - wide * scale) / 2) / scale,
-        top=max(ys) + _EDGE / scale,
+        top=max(ys) + _TOP / scale,
     )

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from datetime import date, timedelta
 from typing import Any
 
 from netdesign.report.drawing.figures import ACCENT, GREY, INK, TEXT_PT
+from netdesign.report.drawing.label_board import LINE_PT
+from netdesign.report.drawing.letters import measure_words
 from netdesign.report.drawing.plain_svg import WIDTH, Chart, Frame, shade
 from netdesign.report.words import Words, show_member
+from netdesign.words.numerals import set_marks
 
-_LEFT, _RIGHT = 36.0, 116.0  # beside the panels [pt]
-_HEAD, _GAP = 16.0, 24.0  # above the first panel, between two [pt]
+_LEFT, _RIGHT = 36.0, 158.0  # beside the panels [pt]
+# Above the first panel, whose days are named on two lines over its title; between two.
+_HEAD, _GAP = 16.0 + 2 * LINE_PT, 24.0  # [pt]
 _FORCES, _MEMBERS, _SNOW, _AIR = 118.0, 96.0, 104.0, 52.0  # heights of the panels [pt]
 _LOOSE, _DENSE = 80.0, 600.0  # ends of the greys [kg/m3]
 _LABEL_GAP = TEXT_PT + 1.0
@@ -45,7 +50,7 @@ def draw_winter(
     if not days:
         return ""
     first, last = _find_span(days)
-    chart, top = Chart(), _HEAD
+    chart, top = Chart(language=words.language), _HEAD
     pulls = [
         (words("winter_column.foot"), _pick(days, first, "foot_kN_per_m")),
         (words("winter_column.head"), _pick(days, first, "head_kN_per_m")),
@@ -73,7 +78,24 @@ def draw_winter(
         )
         top += _AIR + _GAP
     panel.label_months(top - _GAP)
-    return chart.write(top, words("winter_page.figure", winter=winter["name"]))
+    return chart.write(top, _describe(winter["name"], [*pulls, *members], words))
+
+
+def _describe(
+    winter: str, lines: Sequence[tuple[str, list[tuple[int, float]]]], words: Words
+) -> str:
+    """Words for the drawing, with the largest value of each line."""
+    values = [
+        words(
+            "show.force_of",
+            member=name,
+            force=words.show_number("max_kN", max(value for _, value in points)),
+        )
+        for name, points in lines
+        if points
+    ]
+    what = words("winter_page.figure", winter=winter)
+    return words("drawing.with_values", what=what, values=tuple(values))
 
 
 class _Panel:
@@ -134,14 +156,18 @@ class _Panel:
         self._draw_scale(frame)
 
     def label_months(self, bottom: float) -> None:
-        """First day of each month, below the last panel."""
+        """First day of each month, below the last panel; names that stand apart."""
         frame = self._place(0.0, bottom, 0.0, 1.0)
+        free = -math.inf
         for count in range(self._count + 1):
             day = self._first + timedelta(days=count)
-            if day.day == 1:
-                x = frame.x(count)
-                self._chart.line(((x, bottom), (x, bottom + 3.0)), stroke=GREY)
-                self._chart.text(x + 2.0, bottom + TEXT_PT + 4.0, f"{day:%m/%Y}")
+            if day.day != 1:
+                continue
+            x, text = frame.x(count), f"{day:%m/%Y}"
+            self._chart.line(((x, bottom), (x, bottom + 3.0)), stroke=GREY)
+            if x > free:
+                self._chart.text(x + 2.0, bottom + TEXT_PT + 4.0, text)
+                free = x + 4.0 + measure_words(text, TEXT_PT)
 
     def _place(self, top: float, height: float, low: float, high: float) -> Frame:
         return Frame(
@@ -165,10 +191,11 @@ class _Panel:
             y = max(frame.y(value), low + _LABEL_GAP)
             low = y
             x = frame.left + frame.width + 4.0
+            shown = set_marks(f"{value:.1f}", self._chart.language)
             self._chart.line(
                 ((x, y - 2.5), (x + 9.0, y - 2.5)), stroke=stroke, width=1.4
             )
-            self._chart.text(x + 12.0, y, f"{value:.1f} {name}")
+            self._chart.text(x + 12.0, y, f"{shown} {name}")
 
     def _draw_scale(self, frame: Frame) -> None:
         """Greys of some densities at the right."""
@@ -193,9 +220,10 @@ def _mark_governing(
         x = frame.x((date.fromisoformat(day) - first).days)
         bottom = frame.top + frame.height
         chart.line(((x, frame.top), (x, bottom)), stroke=stroke, width=0.6, dash="2 2")
-        is_left = place == 0 and len(places) > 1
+        high = frame.top - 5.0 - (2 - place) * LINE_PT  # each on a line of its own
+        is_left = x + measure_words(label, TEXT_PT) > WIDTH
         anchor, shift = ("end", 2.0) if is_left else ("start", -2.0)
-        chart.text(x + shift, frame.top - 5.0, label, anchor=anchor)
+        chart.text(x + shift, high, label, anchor=anchor)
 
 
 def _find_span(days: Sequence[Day]) -> tuple[date, date]:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from netdesign.coupling.face import find_face
 from netdesign.coupling.moments import (
     LEAST_STRAIN,
     NODE_DRIFT,
@@ -23,7 +24,6 @@ from netdesign.report.drawing.net_figures import (
     draw_meshes,
     draw_node_forces,
     draw_stick_slip,
-    find_face,
     picture_mesh,
 )
 from netdesign.report.drawing.panel_figure import draw_panel
@@ -41,10 +41,7 @@ from netdesign.report.view.table import (
 )
 from netdesign.report.words import (
     Words,
-    show_given,
-    show_number,
     show_text,
-    show_with_unit,
 )
 from netdesign.study.support_records import PanelRecord
 from netdesign.words.catalogue import Language
@@ -252,7 +249,7 @@ def _list_headlines(document: dict[str, Any], words: Words) -> list[Headline]:
     shown = [_show_pull(document, end, words) for end in ("foot", "head")]
     sag = Headline(
         label=words("solved.sag"),
-        value=show_number("sag_m", document["sag_m"]),
+        value=words.show_number("sag_m", document["sag_m"]),
         unit="m",
         note=words(
             "solved.normal_to_chord_end" if plateau else "solved.normal_to_chord"
@@ -262,32 +259,34 @@ def _list_headlines(document: dict[str, Any], words: Words) -> list[Headline]:
 
 
 def _list_wall_headlines(wall: dict[str, Any], words: Words) -> list[Headline]:
-    error = show_number("error_kN_per_m", wall["error_kN_per_m"])
+    error = words.show_number("error_kN_per_m", wall["error_kN_per_m"])
     note = words("solved.error", error=error)
     moment = wall["moment_about_foot_kN"]
     return [
-        _headline(words("solved.force_along"), wall["force_x_kN_per_m"], note),
-        _headline(words("solved.force_normal"), wall["force_y_kN_per_m"], note),
-        _headline(words("solved.moment"), moment, "", unit="kN"),
+        _headline(words, words("solved.force_along"), wall["force_x_kN_per_m"], note),
+        _headline(words, words("solved.force_normal"), wall["force_y_kN_per_m"], note),
+        _headline(words, words("solved.moment"), moment, "", unit="kN"),
     ]
 
 
 def _show_pull(document: dict[str, Any], end: str, words: Words) -> Headline:
     """Pull on one end: its largest, and on the plateau of a history."""
     pull, plateau = document["anchor_forces"][end], document.get("plateau")
-    error = show_number("error_kN_per_m", pull["error_kN_per_m"])
+    error = words.show_number("error_kN_per_m", pull["error_kN_per_m"])
     note = words("solved.error", error=error)
     label = words("solved.pull_on_foot" if end == "foot" else "solved.pull_on_head")
     if plateau:
         label = words("solved.largest_of_scene", pull=label)
     if plateau and plateau["reached"]:
-        size = show_number("foot_size_kN_per_m", plateau[f"{end}_kN_per_m"])
+        size = words.show_number("foot_size_kN_per_m", plateau[f"{end}_kN_per_m"])
         note = words("solved.on_plateau", note=note, size=size)
-    return _headline(label, pull["size_kN_per_m"], note)
+    return _headline(words, label, pull["size_kN_per_m"], note)
 
 
-def _headline(label: str, value: float, note: str, unit: str = "kN/m") -> Headline:
-    shown = show_number("foot_size_kN_per_m", value)
+def _headline(
+    words: Words, label: str, value: float, note: str, unit: str = "kN/m"
+) -> Headline:
+    shown = words.show_number("foot_size_kN_per_m", value)
     return Headline(label=label, value=shown, unit=unit, note=note)
 
 
@@ -303,10 +302,10 @@ def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
     rows = tuple(
         (
             text_cell(str(place)),
-            number_cell("sag_m", node["x_m"]),
-            number_cell("sag_m", node["y_m"]),
-            number_cell("force_x_kN_per_m", node["force_x_kN_per_m"]),
-            number_cell("force_y_kN_per_m", node["force_y_kN_per_m"]),
+            number_cell(words, "sag_m", node["x_m"]),
+            number_cell(words, "sag_m", node["y_m"]),
+            number_cell(words, "force_x_kN_per_m", node["force_x_kN_per_m"]),
+            number_cell(words, "force_y_kN_per_m", node["force_y_kN_per_m"]),
             text_cell(words("solved.slips" if node["sliding"] else "solved.sticks")),
         )
         for place, node in enumerate(document["nodes"])
@@ -321,16 +320,18 @@ def _tabulate_nodes(document: dict[str, Any], words: Words) -> Table:
 def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
     balance, cost = document["balance"], document["cost"]
     pairs = {
-        "solved.weight": show_with_unit(
+        "solved.weight": words.show_with_unit(
             "foot_size_kN_per_m", balance["weight_along_slope_kN_per_m"]
         ),
-        "solved.missing": show_number("balance_residual", balance["relative_residual"]),
-        "solved.ground_tension": show_number(
+        "solved.missing": words.show_number(
+            "balance_residual", balance["relative_residual"]
+        ),
+        "solved.ground_tension": words.show_number(
             "utilisation", balance["ground_tension_share"]
         ),
-        "solved.suction": show_number("utilisation", balance["suction_share"]),
-        "solved.triangles": show_given(cost["elements"]),
-        "solved.linear_solves": show_given(cost["linear_solves"]),
+        "solved.suction": words.show_number("utilisation", balance["suction_share"]),
+        "solved.triangles": words.show_given(cost["elements"]),
+        "solved.linear_solves": words.show_given(cost["linear_solves"]),
         "solved.creep_law": document["provenance"]["creep_law"],
         "solved.settings": ", ".join(
             f"{key.replace('_', ' ')} {value}"

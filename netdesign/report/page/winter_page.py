@@ -10,9 +10,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from netdesign.edge.given_files import make_printable
+from netdesign.report.drawing.measured_figure import draw_measured, find_detail
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import build_environment, load_style, mark_safe
-from netdesign.report.view.table import Cell, Table, name_columns, text_cell
+from netdesign.report.view.table import (
+    Cell,
+    Table,
+    fixed_cell,
+    name_columns,
+    text_cell,
+)
 from netdesign.report.words import MISSING, Words, show_member, show_text
 from netdesign.words.catalogue import Language
 
@@ -100,6 +107,10 @@ def _view_row(
         "statistics": _tabulate_statistics(row["statistics"], words),
         "without_statistics": words("winter_page.no_statistics"),
         "range": _describe_range(row, document, words),
+        "measured": [
+            view for one in row["measured"] for view in _view_measured(one, air, words)
+        ],
+        "not_compared": [show_text(text) for text in row["not_compared"]],
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
@@ -109,6 +120,46 @@ def _view_row(
             for winter in shown
         ],
     }
+
+
+def _view_measured(
+    one: Mapping[str, Any], air: Mapping[str, float], words: Words
+) -> list[dict[str, Any]]:
+    """Figure of a member's readings, and a detail where they are dense."""
+    whole = {
+        "svg": mark_safe(draw_measured(one, air, words)),
+        "caption": _describe_measured(one, words),
+    }
+    detail = find_detail(one)
+    if detail is None:
+        return [whole]
+    first, last = detail.first.date().isoformat(), detail.last.date().isoformat()
+    caption = words("winter_measured.detail", first=first, last=last)
+    svg = mark_safe(draw_measured(one, air, words, detail))
+    return [whole, {"svg": svg, "caption": caption}]
+
+
+def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
+    """Distance of measured and computed forces, and what the band is."""
+    found = [
+        words(
+            "winter_measured.caption",
+            member=show_member(words, one["member"]),
+            winter=one["winter"],
+            source=show_text(one["source"]),
+        )
+    ]
+    if one["computed_over_measured"] is not None:
+        apart = {
+            "count": one["days_compared"],
+            "ratio": one["computed_over_measured"],
+            "inside": one["readings_in_band"] or 0.0,
+        }
+        found.append(words("winter_measured.apart", **apart))
+    found.append(words("winter_measured.swing"))
+    if one["amplitude_assumed"]:
+        found.append(words("winter_measured.assumed"))
+    return " ".join(found)
 
 
 def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
@@ -121,16 +172,16 @@ def _tabulate_winters(row: Mapping[str, Any], words: Words) -> Table:
     rows = tuple(
         (
             _unbroken(one["name"]),
-            _number(one["height_max_m"], 2),
+            fixed_cell(words, one["height_max_m"], 2),
             _unbroken(one["height_max_date"]),
-            _number(one["swe_max_kg_m2"], 0),
-            _number(one["foot_peak_kN_per_m"], 1),
-            _number(one["head_peak_kN_per_m"], 1),
+            fixed_cell(words, one["swe_max_kg_m2"], 0),
+            fixed_cell(words, one["foot_peak_kN_per_m"], 1),
+            fixed_cell(words, one["head_peak_kN_per_m"], 1),
             _unbroken(one["governing_date"] or MISSING),
-            _number(one["foot_at_height_max_kN_per_m"], 1),
-            _number(one["uniform_peak_kN_per_m"], 1),
-            _number(one["equivalent_density_kg_m3"], 0),
-            _number(one["days_above_90_percent"], 0),
+            fixed_cell(words, one["foot_at_height_max_kN_per_m"], 1),
+            fixed_cell(words, one["uniform_peak_kN_per_m"], 1),
+            fixed_cell(words, one["equivalent_density_kg_m3"], 0),
+            fixed_cell(words, one["days_above_90_percent"], 0),
             text_cell(words(f"winter_outcome.{one['outcome']}")),
         )
         for one in row["winters"]
@@ -153,7 +204,7 @@ def _tabulate_members(shown: list[Mapping[str, Any]], words: Words) -> Table:
         rows=tuple(
             (
                 _unbroken(one["name"]),
-                *(_number(one["members_peak_kN"].get(m), 1) for m in members),
+                *(fixed_cell(words, one["members_peak_kN"].get(m), 1) for m in members),
             )
             for one in shown
             if members
@@ -174,9 +225,12 @@ def _tabulate_models(row: Mapping[str, Any], model: str, words: Words) -> Table:
         rows.append(
             (
                 _unbroken(one["name"]),
-                *(_number(part.get("uniform_peak_kN_per_m"), 1) for part in every),
                 *(
-                    _number(part.get("uniform_equivalent_density_kg_m3"), 0)
+                    fixed_cell(words, part.get("uniform_peak_kN_per_m"), 1)
+                    for part in every
+                ),
+                *(
+                    fixed_cell(words, part.get("uniform_equivalent_density_kg_m3"), 0)
                     for part in every
                 ),
             )
@@ -206,9 +260,9 @@ def _tabulate_statistics(
         columns=name_columns(headings, numbers=headings),
         rows=tuple(
             (
-                _number(one["period_a"], 0),
-                _number(one["foot_kN_per_m"], 1),
-                _number(one["standard_error_kN_per_m"], 1),
+                fixed_cell(words, one["period_a"], 0),
+                fixed_cell(words, one["foot_kN_per_m"], 1),
+                fixed_cell(words, one["standard_error_kN_per_m"], 1),
             )
             for one in statistics["return_values"]
         ),
@@ -243,9 +297,3 @@ def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
 def _unbroken(text: str) -> Cell:
     """Date, or name of a winter, that stays on one line."""
     return text_cell(text.replace("-", "\u2011").replace("/", "\u2060/\u2060"))
-
-
-def _number(value: float | None, decimals: int) -> Cell:
-    return Cell(
-        text=MISSING if value is None else f"{value:.{decimals}f}", number=value
-    )

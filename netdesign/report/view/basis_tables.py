@@ -10,8 +10,6 @@ from netdesign.report.view.tables import ASSUMED, DEFAULT, list_settings
 from netdesign.report.words import (
     MISSING,
     Words,
-    show_number,
-    show_quantity,
     show_text,
     understand,
 )
@@ -93,7 +91,7 @@ def _group_defaults(
             is_kind = isinstance(echo.value, float) or not of_numbers
             label = words.show(echo.label)
             if echo.cell == DEFAULT and echo.value != "" and is_kind:
-                shown = show_quantity(understand(echo, words), echo.unit)
+                shown = words.show_quantity(understand(echo, words), echo.unit)
                 found.setdefault((label, shown), []).append(place)
             elif echo.label == _ALTITUDE and echo.value == "":
                 shown = words("show.largest_altitude_factor")
@@ -119,7 +117,7 @@ def build_checklist(study: Study, words: Words) -> Table:
         columns=name_columns(headings, numbers=headings[:1]),
         rows=tuple(
             (
-                given_cell(float(number)),
+                given_cell(words, float(number)),
                 text_cell(words(question)),
                 text_cell(answer(study, words)),
                 text_cell(words(section)),
@@ -163,8 +161,8 @@ def _describe_quality(study: Study, words: Words) -> str:
     cases = [case for row in study.rows for case in row.cases]
     residuals = [c.balance_residual for c in cases if c.balance_residual is not None]
     errors = [c.error_percent for c in cases if c.error_percent is not None]
-    residual = show_number("balance_residual", max(residuals, default=None))
-    error = show_number("error_percent", max(errors, default=None))
+    residual = words.show_number("balance_residual", max(residuals, default=None))
+    error = words.show_number("error_percent", max(errors, default=None))
     return words("show.quality", residual=residual, error=error)
 
 

@@ -15,14 +15,9 @@ from netdesign.report.words import (
     MISSING,
     VerdictWords,
     Words,
-    name_case,
-    name_case_short,
-    show_band,
     show_check,
-    show_number,
     show_text,
     show_verdict,
-    show_with_unit,
 )
 from netdesign.structure.members import BROUGHT_BY, REPORTED_MEMBERS
 from netdesign.study.case_records import CasePoint
@@ -144,17 +139,17 @@ def view_check(check: CheckRecord, words: Words) -> CheckView:
         if check.resistance_basis
         else "",
         resistance_cell=check.resistance_cell,
-        demand=show_number("demand_kN", check.demand_kN),
-        resistance=show_number("resistance_kN", check.resistance_kN),
-        utilisation=show_number("utilisation", check.utilisation),
-        band=show_band(words, "utilisation", low, high),
+        demand=words.show_number("demand_kN", check.demand_kN),
+        resistance=words.show_number("resistance_kN", check.resistance_kN),
+        utilisation=words.show_number("utilisation", check.utilisation),
+        band=words.show_band("utilisation", low, high),
         bar=_build_bar(low, check.utilisation, high),
         verdict=show_verdict(check.verdict, words),
         case=_name_case(check, words),
         case_short=_name_case(check, words, is_short=True),
         reason=words.show(check.reason),
         load=describe_load(check, words),
-        loads=show_loads(check),
+        loads=show_loads(check, words),
     )
 
 
@@ -168,9 +163,9 @@ def _name_case(check: CheckRecord, words: Words, *, is_short: bool = False) -> s
     """Case that brings the demand: of the ranges, or the guideline's load case."""
     action, case = check.action, find_case(check)
     if action is None or action.governs != "guideline":
-        return name_case_short(case) if is_short else name_case(case)
+        return words.name_case_short(case) if is_short else words.name_case(case)
     named = show_text(words.show(name("load_case", action.floor_case)))
-    inclination = show_with_unit("inclination_deg", action.floor_inclination_deg)
+    inclination = words.show_with_unit("inclination_deg", action.floor_inclination_deg)
     return f"{named}, θ {inclination}"
 
 
@@ -192,7 +187,7 @@ def _measure_bar(ratio: float) -> float:
 
 def work_out(check: CheckRecord, words: Words) -> Worked:
     """Worked calculation of a check that has a demand and a resistance."""
-    needed = show_with_unit("resistance_kN", check.demand_high_kN)
+    needed = words.show_with_unit("resistance_kN", check.demand_high_kN)
     return Worked(
         title=words(
             "show.row_at_case",
@@ -200,10 +195,10 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
             case=_name_case(check, words),
         ),
         steps=(
-            *_derive_action(check),
+            *_derive_action(check, words),
             *_derive_resistance(check, words),
-            _factor_action(check),
-            _reduce_resistance(check),
+            _factor_action(check, words),
+            _reduce_resistance(check, words),
             _compare_both(check, words),
         ),
         needed=words(
@@ -212,11 +207,11 @@ def work_out(check: CheckRecord, words: Words) -> Worked:
     )
 
 
-def _derive_action(check: CheckRecord) -> tuple[Step, ...]:
+def _derive_action(check: CheckRecord, words: Words) -> tuple[Step, ...]:
     """Characteristic action from the solved force and the widths that a support has."""
     return tuple(
         Step(symbols=symbols, numbers=numbers, result=result)
-        for symbols, numbers, result in describe_widths(check)
+        for symbols, numbers, result in describe_widths(check, words)
     )
 
 
@@ -229,29 +224,29 @@ def _derive_resistance(check: CheckRecord, words: Words) -> tuple[Step, ...]:
         Step(
             symbols="R_k",
             numbers=words.show(check.resistance_derivation),
-            result=show_with_unit("resistance_characteristic_kN", given),
+            result=words.show_with_unit("resistance_characteristic_kN", given),
         ),
     )
 
 
-def _factor_action(check: CheckRecord) -> Step:
-    factor = show_number("action_factor", check.action_factor)
+def _factor_action(check: CheckRecord, words: Words) -> Step:
+    factor = words.show_number("action_factor", check.action_factor)
     return Step(
         symbols="E_d = γ_E · E_k",
-        numbers=f"{factor} · {show_with_unit('action_kN', check.action_kN)}",
-        result=show_with_unit("demand_kN", check.demand_kN),
+        numbers=f"{factor} · {words.show_with_unit('action_kN', check.action_kN)}",
+        result=words.show_with_unit("demand_kN", check.demand_kN),
     )
 
 
-def _reduce_resistance(check: CheckRecord) -> Step:
+def _reduce_resistance(check: CheckRecord, words: Words) -> Step:
     given = check.resistance_characteristic_kN
     return Step(
         symbols="R_d = R_k / γ_R",
         numbers=_divide(
-            show_with_unit("resistance_characteristic_kN", given),
-            show_number("resistance_factor", check.resistance_factor),
+            words.show_with_unit("resistance_characteristic_kN", given),
+            words.show_number("resistance_factor", check.resistance_factor),
         ),
-        result=show_with_unit("resistance_kN", check.resistance_kN),
+        result=words.show_with_unit("resistance_kN", check.resistance_kN),
     )
 
 
@@ -260,13 +255,13 @@ def _compare_both(check: CheckRecord, words: Words) -> Step:
     return Step(
         symbols="μ = E_d / R_d",
         numbers=_divide(
-            show_with_unit("demand_kN", check.demand_kN),
-            show_with_unit("resistance_kN", check.resistance_kN),
+            words.show_with_unit("demand_kN", check.demand_kN),
+            words.show_with_unit("resistance_kN", check.resistance_kN),
         ),
         result=words(
             "show.with_band",
-            value=show_number("utilisation", check.utilisation),
-            band=show_band(words, "utilisation", low, high),
+            value=words.show_number("utilisation", check.utilisation),
+            band=words.show_band("utilisation", low, high),
         ),
     )
 

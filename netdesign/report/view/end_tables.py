@@ -45,8 +45,8 @@ def build_end_effects(row: RowStudy, words: Words) -> Table:
 def _list_effect(effect: EndEffectRecord, words: Words) -> tuple[Cell, ...]:
     gap = effect.gap_m
     return (
-        text_cell(words("end_view.no_gap")) if gap is None else given_cell(gap),
-        given_cell(effect.glide_factor),
-        *(number_cell(_DECIMALS, getattr(effect, key)) for key, _ in _VALUES),
+        text_cell(words("end_view.no_gap")) if gap is None else given_cell(words, gap),
+        given_cell(words, effect.glide_factor),
+        *(number_cell(words, _DECIMALS, getattr(effect, key)) for key, _ in _VALUES),
         text_cell(words("end_view.own") if effect.is_own else ""),
     )

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from netdesign.report.view.table import (
     Cell,
     Table,
+    fixed_cell,
     name_columns,
     number_cell,
     number_column,
@@ -21,7 +22,6 @@ from netdesign.report.words import (
     name_heading,
     show_check,
     show_member,
-    show_number,
 )
 from netdesign.study.envelope_records import BoundRecord, EnvelopeRecord
 from netdesign.study.records import RowStudy
@@ -90,16 +90,16 @@ def _bound_row(bound: BoundRecord, words: Words) -> tuple[Cell, ...]:
     difference = again.difference_percent if again else None
     return (
         text_cell(show_member(words, bound.quantity)),
-        number_cell("max_kN", bound.max_kN),
-        number_cell("max_kN", bound.upper_bound_kN),
-        Cell(text=f"{100.0 * gap:.2f}", number=100.0 * gap),
-        number_cell("max_kN", again.confirmed_kN if again else None),
+        number_cell(words, "max_kN", bound.max_kN),
+        number_cell(words, "max_kN", bound.upper_bound_kN),
+        fixed_cell(words, 100.0 * gap, 2),
+        number_cell(words, "max_kN", again.confirmed_kN if again else None),
         Cell(
-            text=MISSING if difference is None else f"{difference:+.2f}",
+            text=MISSING if difference is None else words.write(f"{difference:+.2f}"),
             number=difference,
         ),
         text_cell(by),
-        text_cell(_name_case(bound.case)),
+        text_cell(_name_case(bound.case, words)),
     )
 
 
@@ -123,12 +123,12 @@ def build_drivers(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, bound.quantity)),
                 text_cell(name_heading(words, one.key)),
-                number_cell("max_kN", one.at_low_kN),
-                number_cell("max_kN", one.at_high_kN),
-                Cell(text=f"{one.first_order:.3f}", number=one.first_order),
-                Cell(text=f"{one.total:.3f}", number=one.total),
-                Cell(text=f"{bound.unexplained or 0.0:.3f}", number=bound.unexplained),
-                text_cell(words.join(_list_flips(bound, one.key, names))),
+                number_cell(words, "max_kN", one.at_low_kN),
+                number_cell(words, "max_kN", one.at_high_kN),
+                fixed_cell(words, one.first_order, 3),
+                fixed_cell(words, one.total, 3),
+                fixed_cell(words, bound.unexplained or 0.0, 3),
+                text_cell(words.join(_list_flips(bound, one.key, names, words))),
             )
             for bound in _list_bounds(row.envelope)
             if bound.max_kN > 0.0
@@ -142,15 +142,17 @@ def _list_bounds(record: EnvelopeRecord | None) -> list[BoundRecord]:
     return [] if record is None else record.bounds
 
 
-def _name_case(case: dict[str, float]) -> str:
-    return ", ".join(f"{value:.5g}" for value in case.values())
+def _name_case(case: dict[str, float], words: Words) -> str:
+    return words.join(words.show_number(*one) for one in case.items())
 
 
-def _list_flips(bound: BoundRecord, key: str, names: Mapping[str, str]) -> list[str]:
+def _list_flips(
+    bound: BoundRecord, key: str, names: Mapping[str, str], words: Words
+) -> list[str]:
     """Critical values of a quantity: ``312.4 (Foot anchor, tendon)``."""
     told = [
         (
-            show_number(key, float(f"{flip.value:.4g}")),
+            words.show_number(key, flip.value),
             names.get(flip.check, flip.check),
         )
         for flip in bound.flips

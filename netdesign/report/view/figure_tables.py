@@ -1,4 +1,4 @@
-"""Figures of a row's checks, to five or six digits: what a reader redoes them from.
+"""Figures of a row's checks, to five digits: what a reader redoes them from.
 
 Headings are symbols; the page's table of formulas says what they mean.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 from netdesign.report.view.table import (
     Cell,
     Table,
-    digits_cell,
     name_columns,
     short_cell,
     symbol_columns,
@@ -77,7 +76,7 @@ def build_widths(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(named),
-                *(digits_cell(getattr(action, key)) for key, _ in _WIDTHS),
+                *(short_cell(words, getattr(action, key)) for key, _ in _WIDTHS),
             )
             for named, action in found.items()
         ),
@@ -127,9 +126,9 @@ def build_panel_actions(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(_name_acted(check, words)),
                 text_cell(show_position(words, action.position)),
-                *(short_cell(getattr(action, key)) for key, _ in _BY_PANEL),
-                short_cell(action.panel_force),
-                short_cell(action.panel_support_kN),
+                *(short_cell(words, getattr(action, key)) for key, _ in _BY_PANEL),
+                short_cell(words, action.panel_force),
+                short_cell(words, action.panel_support_kN),
             )
             for check, action in _list_actions(row)
             if action.panel_kN is not None
@@ -154,12 +153,12 @@ def _list_action(
     return (
         text_cell(_name_acted(check, words)),
         text_cell(show_position(words, action.position)),
-        *(short_cell(getattr(action, key)) for key, _ in _ACTIONS),
-        short_cell(action.section_force),
-        short_cell(action.coupled_kN),
-        short_cell(action.floor_kN),
-        short_cell(action.guideline_kN),
-        short_cell(check.action_kN),
+        *(short_cell(words, getattr(action, key)) for key, _ in _ACTIONS),
+        short_cell(words, action.section_force),
+        short_cell(words, action.coupled_kN),
+        short_cell(words, action.floor_kN),
+        short_cell(words, action.guideline_kN),
+        short_cell(words, check.action_kN),
     )
 
 
@@ -189,10 +188,10 @@ def build_check_figures(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_check(words, check)),
-                *(short_cell(getattr(check, key)) for key, _ in _CHECKS[:5]),
+                *(short_cell(words, getattr(check, key)) for key, _ in _CHECKS[:5]),
                 text_cell(f"{numbers.get(_name_given(check), MISSING)}"),
-                *(short_cell(getattr(check, key)) for key, _ in _CHECKS[5:]),
-                *(short_cell(one) for one in _list_ratios(check)),
+                *(short_cell(words, getattr(check, key)) for key, _ in _CHECKS[5:]),
+                *(short_cell(words, one) for one in _list_ratios(check)),
                 text_cell(words(f"verdict.{check.verdict}")),
             )
             for check in row.checks
@@ -249,7 +248,7 @@ def build_resistances(row: RowStudy, words: Words) -> Table:
                 text_cell(words.show(name("basis", check.resistance_basis))),
                 text_cell(check.resistance_cell),
                 text_cell(_tell_derivation(check, words)),
-                digits_cell(check.resistance_characteristic_kN),
+                short_cell(words, check.resistance_characteristic_kN),
             )
             for number, (_, check) in enumerate(_list_given(row), 1)
         ),
@@ -282,8 +281,8 @@ def build_tests(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(str(number)),
                 text_cell(check.resistance_type),
-                *(digits_cell(_read_number(told.get(key))) for key, _ in _TESTS),
-                digits_cell(check.resistance_characteristic_kN),
+                *(short_cell(words, _read_number(told.get(key))) for key, _ in _TESTS),
+                short_cell(words, check.resistance_characteristic_kN),
             )
             for number, check, told in tested
         ),

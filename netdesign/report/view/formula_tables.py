@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from netdesign.report.view.table import Table, text_cell, text_column
-from netdesign.report.words import Words, show_text
+from netdesign.report.words import Words
 
 # Names of the formulas, each with its symbols; what it gives is in the words.
 FORMULAS = (
@@ -100,7 +100,10 @@ def build_formulas(words: Words) -> Table:
         caption=words("caption.formulas"),
         columns=tuple(text_column(words(f"heading.{key}")) for key in keys),
         rows=tuple(
-            (text_cell(words(f"formula.{key}")), text_cell(show_text(formula)))
+            (
+                text_cell(words(f"formula.{key}")),
+                text_cell(words.write_formula(formula)),
+            )
             for key, formula in FORMULAS
         ),
     )

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from netdesign.outcome import Verdict
-from netdesign.report.view.table import Table, given_cell, name_columns, text_cell
-from netdesign.report.words import Words, name_heading, show_check, show_given
+from netdesign.report.view.table import (
+    Cell,
+    Table,
+    given_cell,
+    name_columns,
+    text_cell,
+)
+from netdesign.report.words import MISSING, Words, name_heading, show_check
 from netdesign.study.records import CheckRecord, HoldRecord, RowStudy
 
 
@@ -29,12 +37,49 @@ def build_holds(row: RowStudy, words: Words) -> Table:
                 text_cell(words.join([show_check(words, one) for one in checks])),
                 text_cell(limits),
                 text_cell(spans),
-                given_cell(sum(hold.solves for one in checks for hold in one.holds)),
+                given_cell(
+                    words, sum(hold.solves for one in checks for hold in one.holds)
+                ),
             )
             for (limits, spans), checks in told.items()
         ),
         empty=words("heading.no_single_value"),
     )
+
+
+def build_hold_numbers(row: RowStudy, words: Words) -> Table:
+    """The same with a line for each quantity, all limits as numbers; for the workbook.
+
+    A check holds, or would pass, between least and most; an empty end is none up to
+    the end of the search.
+    """
+    told: dict[HoldRecord, list[CheckRecord]] = {}
+    for check in row.checks:
+        for hold in check.holds:
+            told.setdefault(replace(hold, solves=0), []).append(check)
+    keys = ("check", "quantity", "now", "turns", "searched", "remark")
+    headings = [words(f"heading.{key}") for key in keys]
+    return Table(
+        caption=words("caption.hold_numbers"),
+        columns=name_columns(headings, numbers=headings[2:5]),
+        rows=tuple(
+            (
+                text_cell(words.join([show_check(words, one) for one in checks])),
+                text_cell(name_heading(words, hold.quantity)),
+                given_cell(words, hold.now),
+                Cell(text=_show_ends(hold, words), ends=(hold.least, hold.most)),
+                Cell(text="", ends=(hold.low, hold.high)),
+                text_cell(words.show(hold.note)),
+            )
+            for hold, checks in told.items()
+        ),
+        empty=words("heading.no_single_value"),
+    )
+
+
+def _show_ends(hold: HoldRecord, words: Words) -> str:
+    ends = (hold.least, hold.most)
+    return " ".join(MISSING if one is None else words.show_given(one) for one in ends)
 
 
 def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
@@ -47,7 +92,7 @@ def list_limits(check: CheckRecord | None, words: Words) -> tuple[str, ...]:
             key,
             quantity=name_heading(words, hold.quantity),
             limit=_show_limit(check, hold, words),
-            now=show_given(hold.now),
+            now=words.show_given(hold.now),
         )
         for hold in check.holds
         if hold.least is not None or hold.most is not None
@@ -73,7 +118,7 @@ def _carries(check: CheckRecord) -> bool:
 
 def _show_limit(check: CheckRecord, hold: HoldRecord, words: Words) -> str:
     limits = [
-        f"{sign} {show_given(value)}"
+        f"{sign} {words.show_given(value)}"
         for sign, value in (("≥", hold.least), ("≤", hold.most))
         if value is not None
     ]
@@ -93,7 +138,7 @@ def _list_spans(check: CheckRecord, words: Words) -> list[str]:
 
 
 def _name_span(hold: HoldRecord, words: Words) -> str:
-    low, high = show_given(hold.low), show_given(hold.high)
+    low, high = words.show_given(hold.low), words.show_given(hold.high)
     text = words("show.band", low=low, high=high)
     if hold.note is not None:
         text = words("show.with_note", text=text, note=words.show(hold.note))

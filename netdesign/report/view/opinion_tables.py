@@ -13,10 +13,8 @@ from netdesign.report.view.table import (
 )
 from netdesign.report.words import (
     Words,
-    name_case,
     show_member,
     show_text,
-    show_with_unit,
 )
 from netdesign.study.opinion_records import ModelFormRecord, SlabCase, VariantRecord
 from netdesign.study.records import RowStudy
@@ -54,14 +52,14 @@ def build_slab(row: RowStudy, words: Words) -> Table:
         "foot_anchor_kN": record.solved_foot_anchor_kN,
     }
     solved = (
-        text_cell(words("show.coupled_solve", case=name_case(record.case))),
-        *(number_cell(key, known.get(key)) for key in (_SLIP, *_SLAB)),
+        text_cell(words("show.coupled_solve", case=words.name_case(record.case))),
+        *(number_cell(words, key, known.get(key)) for key in (_SLIP, *_SLAB)),
     )
     cases = tuple(
         (
             text_cell(_name_ground(case, words)),
-            number_cell(_SLIP, case.slip_length_m),
-            *(number_cell(key, getattr(case, key)) for key in _SLAB),
+            number_cell(words, _SLIP, case.slip_length_m),
+            *(number_cell(words, key, getattr(case, key)) for key in _SLAB),
         )
         for case in record.cases
     )
@@ -76,15 +74,15 @@ def tell_slab(row: RowStudy, words: Words) -> str:
         words(
             "opinion.slab_case",
             ground=_name_ground(case, words),
-            load=show_with_unit("load_kN_per_m", case.load_kN_per_m),
-            foot=show_with_unit("foot_anchor_kN", case.foot_anchor_kN),
+            load=words.show_with_unit("load_kN_per_m", case.load_kN_per_m),
+            foot=words.show_with_unit("foot_anchor_kN", case.foot_anchor_kN),
         )
         for case in row.slab.cases
     ]
     return words(
         "opinion.slab_line",
-        load=show_with_unit("load_kN_per_m", row.slab.solved_load_kN_per_m),
-        foot=show_with_unit("foot_anchor_kN", row.slab.solved_foot_anchor_kN),
+        load=words.show_with_unit("load_kN_per_m", row.slab.solved_load_kN_per_m),
+        foot=words.show_with_unit("foot_anchor_kN", row.slab.solved_foot_anchor_kN),
         cases=words.join(parts),
     )
 
@@ -123,12 +121,12 @@ def _list_variant(one: VariantRecord, words: Words) -> tuple[Cell, ...]:
     return (
         text_cell(words.show(name("variant", one.kind))),
         text_cell(show_text(one.creep_law)),
-        given_cell(one.exponent),
-        number_cell(_SLIP, one.slip_length_m),
+        given_cell(words, one.exponent),
+        number_cell(words, _SLIP, one.slip_length_m),
         text_cell(_tell(one.stated, words)),
         text_cell(words("show.yes" if one.is_calibrated else "show.no")),
-        *(number_cell(key, getattr(one, key)) for key in _FORCES),
-        number_cell("change_percent", change),
+        *(number_cell(words, key, getattr(one, key)) for key in _FORCES),
+        number_cell(words, "change_percent", change),
         text_cell(words.show(one.reason)),
     )
 
@@ -144,10 +142,10 @@ def tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
         return ""
     given: dict[str, str | int] = {
         "member": show_member(words, record.member),
-        "force": show_with_unit("solved_kN", record.force_kN),
+        "force": words.show_with_unit("solved_kN", record.force_kN),
         "count": sum(one.ratio is not None for one in record.variants),
-        "low": show_with_unit("solved_kN", record.force_kN * record.low_ratio),
-        "high": show_with_unit("solved_kN", record.force_kN * record.high_ratio),
+        "low": words.show_with_unit("solved_kN", record.force_kN * record.low_ratio),
+        "high": words.show_with_unit("solved_kN", record.force_kN * record.high_ratio),
     }
     ends = {
         "use_low": record.utilisation_low,
@@ -157,5 +155,7 @@ def tell_model_form(record: ModelFormRecord | None, words: Words) -> str:
     }
     if None in ends.values():
         return words("model.sentence", **given)
-    shown = {key: show_with_unit("utilisation", value) for key, value in ends.items()}
+    shown = {
+        key: words.show_with_unit("utilisation", value) for key, value in ends.items()
+    }
     return words("model.sentence_use", **given, **shown)

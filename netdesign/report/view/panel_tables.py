@@ -14,7 +14,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
-from netdesign.report.words import Words, show_member, show_with_unit
+from netdesign.report.words import Words, show_member
 from netdesign.structure.members import REPORTED_MEMBERS, name_in_panel
 from netdesign.study.case_records import ExtremeRecord
 from netdesign.study.records import CheckRecord, RowStudy
@@ -85,9 +85,9 @@ def _list_forces(
     ratio = second / first if first and second is not None else None
     return (
         text_cell(show_member(words, member)),
-        number_cell("max_kN", first),
-        number_cell("max_kN", second),
-        share_cell(ratio),
+        number_cell(words, "max_kN", first),
+        number_cell(words, "max_kN", second),
+        share_cell(words, ratio),
     )
 
 
@@ -117,12 +117,12 @@ def _list_rope(rope: RopeRecord, words: Words) -> tuple[Cell, ...]:
     return (
         text_cell(name_rope(rope, words)),
         text_cell(rope.type),
-        given_cell(rope.stiffness_kN),
-        given_cell(rope.sag),
-        number_cell("along_kN", rope.along_kN),
-        number_cell("tension_kN", rope.tension_kN),
-        number_cell("breaking_kN", rope.breaking_kN),
-        share_cell(share),
+        given_cell(words, rope.stiffness_kN),
+        given_cell(words, rope.sag),
+        number_cell(words, "along_kN", rope.along_kN),
+        number_cell(words, "tension_kN", rope.tension_kN),
+        number_cell(words, "breaking_kN", rope.breaking_kN),
+        share_cell(words, share),
     )
 
 
@@ -142,10 +142,10 @@ def _tell_guy(panel: PanelRecord, words: Words) -> list[str]:
     return [
         words(
             "panel_view.why",
-            foot=show_with_unit("force_x_kN", foot + drawn.mid_foot_kN[0]),
-            section_foot=show_with_unit("force_x_kN", before),
-            head=show_with_unit("force_x_kN", head),
-            section_head=show_with_unit("force_x_kN", beside),
+            foot=words.show_with_unit("force_x_kN", foot + drawn.mid_foot_kN[0]),
+            section_foot=words.show_with_unit("force_x_kN", before),
+            head=words.show_with_unit("force_x_kN", head),
+            section_head=words.show_with_unit("force_x_kN", beside),
         )
     ]
 
@@ -156,8 +156,8 @@ def _tell_heights(panel: PanelRecord, words: Words) -> list[str]:
     return [
         words(
             "panel_view.heights",
-            height=show_with_unit("snow_thickness_m", panel.effective_height_m),
-            lift=show_with_unit("snow_thickness_m", panel.lift_m),
+            height=words.show_with_unit("snow_thickness_m", panel.effective_height_m),
+            lift=words.show_with_unit("snow_thickness_m", panel.lift_m),
         )
     ]
 
@@ -172,10 +172,10 @@ def _tell_end(row: RowStudy, panel: PanelRecord, words: Words) -> list[str]:
     return [
         words(
             "panel_view.end",
-            lower=show_with_unit("along_kN", pulls.get("lower")),
-            upper=show_with_unit("along_kN", pulls.get("upper")),
-            factor=f"{find_end_factor(end):.2f}",
-            half=show_with_unit(
+            lower=words.show_with_unit("along_kN", pulls.get("lower")),
+            upper=words.show_with_unit("along_kN", pulls.get("upper")),
+            factor=words.show_fixed(find_end_factor(end), 2),
+            half=words.show_with_unit(
                 "size_kN", _halve(drawn.foot_kN) if drawn is not None else None
             ),
         )

@@ -19,12 +19,9 @@ from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
-    name_case,
     name_choice,
-    show_band,
     show_check,
     show_member,
-    show_quantity,
     show_text,
 )
 from netdesign.study.flips import CLOSE
@@ -62,7 +59,7 @@ def build_anchors(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, anchor.anchor)),
                 text_cell(_name_bringer(anchor, words)),
-                *(number_cell(key, getattr(anchor, key)) for key in _FORCES),
+                *(number_cell(words, key, getattr(anchor, key)) for key in _FORCES),
             )
             for anchor in row.anchors
         ),
@@ -90,7 +87,7 @@ def build_pulls(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, pull.anchor)),
                 text_cell(_name_kind(pull, words)),
-                *(number_cell(key, getattr(pull, key)) for key in _PULLS),
+                *(number_cell(words, key, getattr(pull, key)) for key in _PULLS),
                 text_cell(
                     words("show.axis_given" if pull.is_axis_given else "show.axis_mean")
                 ),
@@ -120,8 +117,8 @@ def build_head(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_member(words, force.member)),
-                number_cell("force_x_kN", force.x_kN),
-                number_cell("force_y_kN", force.y_kN),
+                number_cell(words, "force_x_kN", force.x_kN),
+                number_cell(words, "force_y_kN", force.y_kN),
             )
             for force in row.head
         ),
@@ -142,10 +139,11 @@ def build_guideline(row: RowStudy, words: Words) -> Table:
     if record is None:
         return Table(caption=caption, columns=columns, rows=(), empty=empty)
     solved = (
-        text_cell(words("show.coupled_solve", case=name_case(record.case))),
-        given_cell(record.case.density_kg_m3),
+        text_cell(words("show.coupled_solve", case=words.name_case(record.case))),
+        number_cell(words, "density_kg_m3", record.case.density_kg_m3),
         *(
             number_cell(
+                words,
                 key,
                 {
                     "load_kN_per_m": record.solved_load_kN_per_m,
@@ -158,8 +156,8 @@ def build_guideline(row: RowStudy, words: Words) -> Table:
     cases = tuple(
         (
             text_cell(_name_load_case(case, words)),
-            number_cell("density_kg_m3", case.density_kg_m3),
-            *(number_cell(key, getattr(case, key)) for key in _GUIDELINE),
+            number_cell(words, "density_kg_m3", case.density_kg_m3),
+            *(number_cell(words, key, getattr(case, key)) for key in _GUIDELINE),
         )
         for case in record.cases
     )
@@ -210,9 +208,9 @@ def _spread_row(
     changes = [_compare(end, used) for end in ends]
     return (
         text_cell(words.show(spread.source)),
-        text_cell(show_band(words, "utilisation", *ends)),
-        *(number_cell("demand_kN", demand) for demand in demands),
-        *(number_cell("change_percent", change) for change in changes),
+        text_cell(words.show_band("utilisation", *ends)),
+        *(number_cell(words, "demand_kN", demand) for demand in demands),
+        *(number_cell(words, "change_percent", change) for change in changes),
         text_cell(words("show.yes" if spread.in_verdict else "show.for_comparison")),
         text_cell(words.show(spread.note)),
     )
@@ -235,8 +233,8 @@ def build_independent(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(words.show(name("law", one.name))),
-                share_cell(one.value),
-                share_cell(one.limit),
+                share_cell(words, one.value),
+                share_cell(words, one.limit),
                 text_cell(words("show.yes" if one.is_met else "show.no")),
             )
             for one in row.independent
@@ -257,8 +255,8 @@ def build_changes(row: RowStudy, words: Words) -> Table:
                 text_cell(show_check(words, check)),
                 text_cell(words(f"verdict.{check.verdict}")),
                 text_cell(describe_change(change, words)),
-                Cell(text=_show(change.now, change.unit), number=None),
-                given_cell(change.solves),
+                Cell(text=_show(change.now, change.unit, words), number=None),
+                given_cell(words, change.solves),
                 text_cell(words.show(change.note)),
             )
             for check in row.checks
@@ -289,7 +287,9 @@ def describe_flip(change: ChangeRecord, words: Words) -> str:
     text = describe_change(change, words)
     if change.now is None:
         return text
-    return words("show.change_now", change=text, now=_show(change.now, change.unit))
+    return words(
+        "show.change_now", change=text, now=_show(change.now, change.unit, words)
+    )
 
 
 _SENSES = {
@@ -304,13 +304,13 @@ def describe_change(change: ChangeRecord, words: Words) -> str:
     quantity = words.show(change.quantity)
     if change.bound is None:
         return words("show.change_none", quantity=quantity)
-    bound = _show(change.bound, change.unit)
+    bound = _show(change.bound, change.unit, words)
     return words(_SENSES[change.sense], quantity=quantity, bound=bound)
 
 
-def _show(value: float | None, unit: str) -> str:
+def _show(value: float | None, unit: str, words: Words) -> str:
     """Value with its unit; the search has rounded bounds to the side that passes."""
-    return MISSING if value is None else show_quantity(value, unit)
+    return MISSING if value is None else words.show_quantity(value, unit)
 
 
 _FLOOR = (
@@ -347,7 +347,7 @@ def build_floor(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, force.member)),
                 text_cell(words.show(name("load_case", force.load_case))),
-                *(number_cell(key, getattr(force, key)) for key in _FLOOR),
+                *(number_cell(words, key, getattr(force, key)) for key in _FLOOR),
             )
             for force in (floor.forces if floor else ())
         ),

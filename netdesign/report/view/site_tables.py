@@ -11,9 +11,7 @@ from netdesign.report.words import (
     MISSING,
     VERDICTS,
     Words,
-    show_given,
     show_member,
-    show_number,
     show_text,
     show_unit,
     understand,
@@ -38,8 +36,8 @@ def build_matrix(study: Study, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(row.id),
-                *(_sum_up(_list_of(row, one)) for one in members),
-                _sum_up([one for one in row.checks if not _is_force(one)]),
+                *(_sum_up(_list_of(row, one), words) for one in members),
+                _sum_up([one for one in row.checks if not _is_force(one)], words),
             )
             for row in study.rows
         ),
@@ -55,7 +53,7 @@ def _list_of(row: RowStudy, member: str) -> list[CheckRecord]:
     return [one for one in row.checks if one.member == member and _is_force(one)]
 
 
-def _sum_up(checks: Sequence[CheckRecord]) -> Cell:
+def _sum_up(checks: Sequence[CheckRecord], words: Words) -> Cell:
     """Symbol of the worst verdict, and the largest utilisation that is known."""
     if not checks:
         return text_cell(MISSING)
@@ -64,7 +62,7 @@ def _sum_up(checks: Sequence[CheckRecord]) -> Cell:
     symbol = VERDICTS[worst].symbol
     if not known:
         return text_cell(symbol)
-    most = show_number("utilisation", max(known))
+    most = words.show_number("utilisation", max(known))
     return text_cell(f"{symbol} {most}")
 
 
@@ -111,7 +109,7 @@ def _show_input(echo: InputEcho | None, words: Words) -> Cell:
     if echo is None or echo.value == "":
         return text_cell(MISSING)
     value = understand(echo, words)
-    text = value if isinstance(value, str) else show_given(value)
+    text = value if isinstance(value, str) else words.show_given(value)
     mark = _BY_DEFAULT if echo.cell == DEFAULT else ""
     return text_cell(text + mark + (_DERIVED if echo.derivation else ""))
 

@@ -18,7 +18,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
-from netdesign.report.words import Words, show_member, show_with_unit
+from netdesign.report.words import Words, show_member
 from netdesign.structure.members import REPORTED_MEMBERS, Member
 
 _KEYS: Mapping[str, str] = {
@@ -99,11 +99,11 @@ def _list_forces(
     ratio = panel / section if section and panel is not None else None
     return (
         text_cell(show_member(words, member)),
-        number_cell("max_kN", section),
-        number_cell("max_kN", errors[0]),
-        number_cell("max_kN", panel),
-        number_cell("max_kN", errors[1]),
-        share_cell(ratio),
+        number_cell(words, "max_kN", section),
+        number_cell(words, "max_kN", errors[0]),
+        number_cell(words, "max_kN", panel),
+        number_cell(words, "max_kN", errors[1]),
+        share_cell(words, ratio),
     )
 
 
@@ -123,7 +123,7 @@ def _build_vectors(support: Mapping[str, Any], words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(words(key)),
-                *(number_cell("max_kN", force.get(part)) for part in _PARTS),
+                *(number_cell(words, "max_kN", force.get(part)) for part in _PARTS),
             )
             for key, force in named
         ),
@@ -142,8 +142,8 @@ def _build_ropes(panel: Mapping[str, Any], words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(words(f"panel_view.{name}")),
-                number_cell("along_kN", panel[f"{name}_rope"]["H_kN"]),
-                number_cell("tension_kN", panel[f"{name}_rope"]["T_kN"]),
+                number_cell(words, "along_kN", panel[f"{name}_rope"]["H_kN"]),
+                number_cell(words, "tension_kN", panel[f"{name}_rope"]["T_kN"]),
             )
             for name in ("lower", "upper")
         ),
@@ -166,15 +166,15 @@ def _tell_panel(support: Mapping[str, Any], words: Words) -> list[str]:
     return [
         words(
             "panel_view.why",
-            foot=show_with_unit("force_x_kN", foot),
-            section_foot=show_with_unit("force_x_kN", plain["foot_kN"]["x"]),
-            head=show_with_unit("force_x_kN", panel["head_kN"]["x"]),
-            section_head=show_with_unit("force_x_kN", plain["head_kN"]["x"]),
+            foot=words.show_with_unit("force_x_kN", foot),
+            section_foot=words.show_with_unit("force_x_kN", plain["foot_kN"]["x"]),
+            head=words.show_with_unit("force_x_kN", panel["head_kN"]["x"]),
+            section_head=words.show_with_unit("force_x_kN", plain["head_kN"]["x"]),
         ),
         words(
             "support_view.heights",
-            drop=show_with_unit("sag_m", panel["mid_head_drop_m"]),
-            lift=show_with_unit("sag_m", panel["foot_lift_m"]),
+            drop=words.show_with_unit("sag_m", panel["mid_head_drop_m"]),
+            lift=words.show_with_unit("sag_m", panel["foot_lift_m"]),
         ),
         words("panel_view.ropes_worth"),
         words("panel_view.not_treated"),
@@ -186,15 +186,15 @@ def _tell_end(end: Mapping[str, Any] | None, words: Words) -> list[str]:
         return []
     told = words(
         "support_view.end",
-        foot=show_with_unit("size_kN", end["foot_kN"]["size"]),
-        along=show_with_unit("along_kN", end["foot_kN"]["z"]),
-        head=show_with_unit("along_kN", end["head_along_kN"]),
+        foot=words.show_with_unit("size_kN", end["foot_kN"]["size"]),
+        along=words.show_with_unit("along_kN", end["foot_kN"]["z"]),
+        head=words.show_with_unit("along_kN", end["head_along_kN"]),
     )
     if end["end_guy_kN"] is None:
         return [told, words("support_view.no_guy")]
     guy = words(
         "support_view.guy",
-        guy=show_with_unit("size_kN", end["end_guy_kN"]),
-        post=show_with_unit("size_kN", end["post_kN"]),
+        guy=words.show_with_unit("size_kN", end["end_guy_kN"]),
+        post=words.show_with_unit("size_kN", end["post_kN"]),
     )
     return [told, guy]

@@ -1,4 +1,4 @@
-"""Figures of the statics: pulls and points that forces follow from, to six digits.
+"""Figures of the statics: pulls and points that forces follow from, to five digits.
 
 Headings are symbols; the page's table of formulas says what they mean.
 """
@@ -10,13 +10,13 @@ from collections.abc import Sequence
 
 from netdesign.report.view.table import (
     Table,
-    digits_cell,
     name_columns,
+    short_cell,
     symbol_columns,
     text_cell,
     text_column,
 )
-from netdesign.report.words import Words, name_case_short, show_member, show_position
+from netdesign.report.words import Words, show_member, show_position
 from netdesign.study.records import RowStudy
 from netdesign.study.support_records import PullRecord, StaticsRecord
 from netdesign.words.names import name
@@ -125,7 +125,7 @@ def _list_states(
                     words.join(_name_brought(key, words) for key in state.brings)
                 ),
                 text_cell(_name_state(state, words)),
-                *(digits_cell(_read_state(state, key)) for key, _ in fields),
+                *(short_cell(words, _read_state(state, key)) for key, _ in fields),
             )
             for state in states
         ),
@@ -140,7 +140,7 @@ def _name_brought(key: str, words: Words) -> str:
 
 def _name_state(state: StaticsRecord, words: Words) -> str:
     if state.load is None:
-        return name_case_short(state.case)
+        return words.name_case_short(state.case)
     return words.show(name("load_case", state.load.load_case))
 
 
@@ -153,7 +153,9 @@ def _read_state(state: StaticsRecord, key: str) -> float | None:
 def build_sideways(row: RowStudy, words: Words) -> Table:
     """Numbers that the load along the row follows from."""
     held = row.held_sideways
-    cells = [digits_cell(getattr(held, key)) for key, _ in _SIDEWAYS] if held else []
+    cells = (
+        [short_cell(words, getattr(held, key)) for key, _ in _SIDEWAYS] if held else []
+    )
     return Table(
         caption=words("caption.held_sideways"),
         columns=symbol_columns(_SIDEWAYS),
@@ -163,7 +165,7 @@ def build_sideways(row: RowStudy, words: Words) -> Table:
 
 
 def build_turns(row: RowStudy, words: Words) -> Table:
-    """Directions of the pulls and their angles to the axes, to six digits."""
+    """Directions of the pulls and their angles to the axes, to five digits."""
     further = ("δ [°]", "δ' [°]")
     return Table(
         caption=words("caption.turns"),
@@ -177,9 +179,9 @@ def build_turns(row: RowStudy, words: Words) -> Table:
             (
                 text_cell(show_member(words, pull.anchor)),
                 text_cell(show_position(words, pull.position)),
-                *(digits_cell(getattr(pull, key)) for key, _ in _PULL_RANGE),
-                digits_cell(_measure_turn(pull)),
-                digits_cell(pull.angle_deg),
+                *(short_cell(words, getattr(pull, key)) for key, _ in _PULL_RANGE),
+                short_cell(words, _measure_turn(pull)),
+                short_cell(words, pull.angle_deg),
             )
             for pull in row.pulls
         ),

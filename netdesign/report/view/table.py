@@ -5,24 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from netdesign.report.words import (
-    MISSING,
-    Words,
-    name_heading,
-    show_digits,
-    show_given,
-    show_number,
-    show_share,
-    show_text,
-)
+from netdesign.report.words import MISSING, Words, name_heading, show_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """Text that a reader sees, and the number behind it if it is one."""
+    """Text that a reader sees, and the number behind it if it is one.
+
+    ``ends`` are the numbers of an interval; the workbook gives each a cell.
+    """
 
     text: str
     number: float | None = None
+    ends: tuple[float | None, float | None] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,28 +72,33 @@ def text_cell(text: str) -> Cell:
     return Cell(text=show_text(text))
 
 
-def number_cell(key: str, value: float | None) -> Cell:
+def number_cell(words: Words, key: str, value: float | None) -> Cell:
     """Number of the quantity ``key``, with its decimals."""
-    return Cell(text=show_number(key, value), number=value)
+    return Cell(text=words.show_number(key, value), number=value)
 
 
-def share_cell(value: float | None) -> Cell:
+def band_cell(words: Words, key: str, low: float | None, high: float | None) -> Cell:
+    """Interval of the quantity ``key``."""
+    return Cell(text=words.show_band(key, low, high), ends=(low, high))
+
+
+def fixed_cell(words: Words, value: float | None, decimals: int) -> Cell:
+    """Number with so many decimals; "-" for none."""
+    return Cell(text=words.show_fixed(value, decimals), number=value)
+
+
+def share_cell(words: Words, value: float | None) -> Cell:
     """Pure number of any size, three significant digits."""
-    return Cell(text=show_share(value), number=value)
+    return Cell(text=words.show_share(value), number=value)
 
 
-def given_cell(value: float | str) -> Cell:
+def given_cell(words: Words, value: float | str) -> Cell:
     """Number that somebody chose or counted: no decimals are added."""
     if isinstance(value, str):
         return text_cell(value)
-    return Cell(text=show_given(value), number=value)
+    return Cell(text=words.show_given(value), number=value)
 
 
-def digits_cell(value: float | None) -> Cell:
-    """Number to six digits; "-" for none."""
-    return text_cell(MISSING) if value is None else given_cell(value)
-
-
-def short_cell(value: float | None) -> Cell:
-    """Number to five digits, in tables of many columns."""
-    return Cell(text=show_digits(value), number=value)
+def short_cell(words: Words, value: float | None) -> Cell:
+    """Number to five digits, enough to redo what follows from it; "-" for none."""
+    return Cell(text=words.show_digits(value), number=value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -14,6 +15,7 @@ from netdesign.report.view.table import (
     Cell,
     Column,
     Table,
+    band_cell,
     given_cell,
     name_columns,
     number_cell,
@@ -27,11 +29,8 @@ from netdesign.report.words import (
     VERDICTS,
     Words,
     add_unit,
-    name_case,
-    show_band,
     show_member,
     show_own,
-    show_quantity,
     show_text,
     show_unit,
     show_verdict,
@@ -45,6 +44,7 @@ from netdesign.words.names import name
 
 # Fields of a CaseRecord; the keys of its member forces without their unit.
 DEFAULT = "default"  # cell of an input that nobody typed
+_NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?(e[+-]?[0-9]+)?")
 ASSUMED = "assumed"  # status of a profile value that nobody has confirmed
 CASE_QUANTITIES = ("density_kg_m3", "friction_deg", "inclination_deg")
 
@@ -55,8 +55,8 @@ def list_case_columns(words: Words, row: RowStudy) -> tuple[Column, ...]:
     return tuple(quantity_column(words, key) for key in keys)
 
 
-def _case(case: CasePoint) -> tuple[Cell, ...]:
-    return tuple(map(given_cell, case.values.values()))
+def _case(case: CasePoint, words: Words) -> tuple[Cell, ...]:
+    return tuple(number_cell(words, *one) for one in case.values.items())
 
 
 def build_extremes(row: RowStudy, words: Words) -> Table:
@@ -73,13 +73,15 @@ def build_extremes(row: RowStudy, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(show_member(words, extreme.quantity)),
-                number_cell("max_kN", extreme.max_kN),
-                text_cell(show_band(words, "max_kN", extreme.low_kN, extreme.high_kN)),
-                *_case(extreme.case),
+                number_cell(words, "max_kN", extreme.max_kN),
+                band_cell(words, "max_kN", extreme.low_kN, extreme.high_kN),
+                *_case(extreme.case, words),
                 *(
-                    number_cell(f"{member}_kN", extreme.coincident_kN.get(member))
+                    number_cell(
+                        words, f"{member}_kN", extreme.coincident_kN.get(member)
+                    )
                     if member != extreme.quantity
-                    else number_cell("max_kN", extreme.max_kN)
+                    else number_cell(words, "max_kN", extreme.max_kN)
                     for member in REPORTED_MEMBERS
                 ),
             )
@@ -113,7 +115,7 @@ def build_failed(row: RowStudy, words: Words) -> Table:
         ),
         rows=tuple(
             (
-                Cell(text=name_case(case.case)),
+                Cell(text=words.name_case(case.case)),
                 text_cell(words(f"ended.{case.outcome}")),
                 _explain(case, words),
             )
@@ -151,8 +153,8 @@ def build_cases(row: RowStudy, words: Words) -> Table:
         ),
         rows=tuple(
             (
-                *_case(case.case),
-                *(number_cell(key, getattr(case, key)) for key in keys),
+                *_case(case.case, words),
+                *(number_cell(words, key, getattr(case, key)) for key in keys),
                 text_cell(words(f"ended.{case.outcome}")),
                 _explain(case, words),
             )
@@ -175,7 +177,7 @@ def build_inputs(inputs: Sequence[InputEcho], caption: str, words: Words) -> Tab
                 text_cell(
                     words.show(echo.derivation) if echo.derivation else echo.text
                 ),
-                given_cell(understand(echo, words)),
+                given_cell(words, understand(echo, words)),
                 text_cell(show_unit(echo.unit)),
                 text_cell(
                     words("status.default") if echo.cell == DEFAULT else echo.cell
@@ -202,7 +204,7 @@ def build_profile(study: Study, words: Words, status: str = "") -> Table:
             (
                 text_cell(_name_place(value)),
                 text_cell(show_own(words, value.text)),
-                given_cell(value.value),
+                given_cell(words, value.value),
                 text_cell(show_unit(value.unit)),
                 text_cell(words.show(name("status", value.status))),
                 text_cell(show_own(words, value.source)),
@@ -239,7 +241,7 @@ def list_below_one(profile: ProfileRecord, words: Words) -> tuple[str, ...]:
     return tuple(
         words(
             "show.label",
-            label=f"{value.id} = {show_quantity(value.value, value.unit)}",
+            label=f"{value.id} = {words.show_quantity(value.value, value.unit)}",
             text=words("note.below_one", reason=show_text(value.reason_below_one)),
         )
         for value in profile.values
@@ -261,22 +263,22 @@ def build_quality(study: Study, words: Words) -> Table:
             number_column("error_percent", error),
             text_column(words("heading.in_case")),
         ),
-        rows=tuple(_quality_row(row) for row in study.rows),
+        rows=tuple(_quality_row(row, words) for row in study.rows),
         empty=words("show.none"),
     )
 
 
-def _quality_row(row: RowStudy) -> tuple[Cell, ...]:
+def _quality_row(row: RowStudy, words: Words) -> tuple[Cell, ...]:
     residual, residual_case = _worst(row, lambda case: case.balance_residual)
     error, error_case = _worst(row, lambda case: case.error_percent)
     return (
         text_cell(row.id),
-        given_cell(len(row.cases)),
-        given_cell(len(list_failed(row))),
-        number_cell("balance_residual", residual),
-        Cell(text=name_case(residual_case)),
-        number_cell("error_percent", error),
-        Cell(text=name_case(error_case)),
+        given_cell(words, len(row.cases)),
+        given_cell(words, len(list_failed(row))),
+        number_cell(words, "balance_residual", residual),
+        Cell(text=words.name_case(residual_case)),
+        number_cell(words, "error_percent", error),
+        Cell(text=words.name_case(error_case)),
     )
 
 
@@ -301,7 +303,7 @@ def build_outcomes(study: Study, words: Words) -> Table:
         rows=tuple(
             (
                 text_cell(words(f"ended.{outcome}")),
-                given_cell(counts[outcome]),
+                given_cell(words, counts[outcome]),
                 text_cell(words.show(outcome.message)),
             )
             for outcome in Outcome
@@ -362,10 +364,15 @@ def list_settings(study: Study, words: Words) -> list[tuple[str, str]]:
             words.show(name("setting", key)),
             words.show(name("method_used", text))
             if key == "method"
-            else show_own(words, text),
+            else _show_setting(text, words),
         )
         for key, text in study.provenance.settings.items()
     ]
+
+
+def _show_setting(text: str, words: Words) -> str:
+    """Setting as stored; a number, and only that, with the language's mark."""
+    return words.write(text) if _NUMBER.fullmatch(text) else show_own(words, text)
 
 
 def hash_results(study: Study) -> str:

@@ -27,6 +27,7 @@ from netdesign.report.view import (
     site_tables,
     statics_tables,
     tables,
+    what_if,
 )
 from netdesign.report.view.check_lines import (
     CheckLine,
@@ -50,11 +51,9 @@ from netdesign.report.view.table import Table
 from netdesign.report.words import (
     VerdictWords,
     Words,
-    name_case,
     name_heading,
     show_check,
     show_member,
-    show_quantity,
     show_text,
     show_verdict,
 )
@@ -146,6 +145,8 @@ class ReportView:
     date: str
     running_title: str
     verdict: VerdictWords
+    mark: str  # of a what-if; "" of a site as built
+    what_if: Table
     verification: tuple[tuple[str, str], ...]  # how a reader can verify the report
     governing_row: RowView | None
     counts: tuple[tuple[str, str], ...]
@@ -198,8 +199,10 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         checked=_name_person(project.checker),
         revision=show_text(project.revision),
         date=show_text(study.provenance.started[:10]),
-        running_title=_title_pages(project),
-        verdict=show_verdict(study.verdict, words),
+        running_title=what_if.mark_title(study, _title_pages(project), words),
+        verdict=what_if.mark_verdict(study, words),
+        mark=words("what_if.mark") if study.what_if else "",
+        what_if=what_if.build_what_if(study, words),
         verification=_tell_verification(study, words),
         governing_row=_find_governing_row(study, rows),
         counts=_count_all(study, words),
@@ -289,7 +292,7 @@ def _view_row(
         main_lines=choose_lines(lines),
         requirements=list_requirements(row.checks, words),
         worked=work_out(shown, words) if shown else None,
-        drawn_case=name_case(row.drawing.case if row.drawing else None),
+        drawn_case=words.name_case(row.drawing.case if row.drawing else None),
         unloaded=_name_unloaded(row, words),
         extremes=tables.build_extremes(row, words),
         searched=envelope_tables.describe_search(row, words),
@@ -494,7 +497,7 @@ def _fold_keys(values: Sequence[tuple[str, str]]) -> list[str]:
 def _list_assumed(study: Study, words: Words) -> str:
     """Values of the profile and axes of anchors that nobody has confirmed."""
     assumed = [v for v in study.profile.values if v.status == tables.ASSUMED]
-    names = _fold_keys([(v.id, show_quantity(v.value, v.unit)) for v in assumed])
+    names = _fold_keys([(v.id, words.show_quantity(v.value, v.unit)) for v in assumed])
     axes = [row.id for row in study.rows if not all(p.is_axis_given for p in row.pulls)]
     kinds = [row.id for row in study.rows if not all(p.kind for p in row.pulls)]
     for key, rows in (("show.assumed_axes", axes), ("show.assumed_kinds", kinds)):

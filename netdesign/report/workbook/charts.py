@@ -51,7 +51,7 @@ def add_utilisation_chart(
     )
     chart.combine(limit)
     _finish(chart, (book.words("heading.largest_of_rows"), "", ""))
-    chart.set_size({"width": 620, "height": 260})
+    chart.set_size({"width": 500, "height": 260})
     sheet.insert_chart(*place, chart, {"object_position": 1})
 
 

@@ -23,24 +23,27 @@ from netdesign.report.view.check_formulas import (
     write_verdict,
 )
 from netdesign.report.view.check_view import CheckView, find_case
-from netdesign.report.view.table import Cell, Column
+from netdesign.report.view.table import Cell, Column, number_cell
 from netdesign.report.view.tables import CASE_QUANTITIES
 from netdesign.report.view.whole import ReportView
 from netdesign.report.words import (
     MISSING,
     Words,
     add_unit,
-    name_further,
     name_heading,
     number_format,
-    show_number,
     show_text,
 )
-from netdesign.report.workbook.writer import A3, Book, count_lines
+from netdesign.report.workbook.profile_links import Factors, ProfileCell
+from netdesign.report.workbook.writer import Book, count_lines
 from netdesign.study.records import CheckRecord, Study
 
+_PAGES = 2  # of paper side by side; on one its figures were too small to be read
 HEAD_ROW = 3  # zero-based; the first check is one below
-_NOTES = ("caption.check_formulas", "caption.check_verdicts")
+_NOTES = (
+    ("caption.check_formulas", "caption.profile_links"),
+    ("caption.check_verdicts",),
+)
 # Text in the place of a sentence of the study that no longer holds.
 CHANGED = "caption.changed"
 _WANTED = {True: "caption.above_zero", False: "caption.at_least_zero"}
@@ -92,12 +95,12 @@ class _Field:
 
 
 def _field(letter: str, quantity: str, end: str = "") -> _Field:
-    return _Field(letter, quantity, "", 8.3, end)
+    return _Field(letter, quantity, "", 7, end)
 
 
 _LEAD = (
     _Field("A", "", "heading.no", 4),
-    _Field("B", "", "heading.net_row", 15),
+    _Field("B", "", "heading.net_row", 9),
     _Field("C", "", "heading.check", 20),
     _Field("D", "", "heading.clause", 9),
 )
@@ -124,12 +127,12 @@ _SET = _Field("R", "", "heading.set_by_study", 10)
 _VERDICT = _Field("S", "", "heading.verdict", 13)
 _TAIL = (
     _Field("W", "", "heading.resistance_from", 18),
-    _Field("X", "", "heading.reason", 36),
+    _Field("X", "", "heading.reason", 50),
 )
 _LOADS = (
     _field("Y", "coupled_kN", "high"),
     _field("Z", "guideline_kN"),
-    _Field("AA", "", "heading.governing_load", 20),
+    _Field("AA", "", "heading.governing_load", 16),
 )
 _CASES = tuple(
     _Field(letter, quantity, "", 8.5)
@@ -166,32 +169,39 @@ _SHOWN = (
     *_LOADS,
 )
 _HIDDEN = (_RANK, _UNCHANGED, *_STUDY_TEXTS, _STUDY_VERDICT, *_STUDY_NUMBERS)
+_FOLDED = (_ACTIONS[0], _ACTIONS[2])  # E_d has the same ends; a click unfolds them
 _FIELDS = (*_SHOWN, *_HIDDEN, _FURTHER)
 
 
 def has_further(study: Study) -> bool:
     """True if more than the usual three quantities range."""
     checks = (check for row in study.rows for check in row.checks)
-    return any(name_further(check.case) for check in checks)
+    return any(len(check.case.values) > 3 for check in checks if check.case)
 
 
 def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Checks" and the defined names that the summary counts by."""
-    sheet = book.add_sheet("checks", book.words("heading.checks"), paper=A3)
+    sheet = book.add_sheet("checks", book.words("heading.checks"))
+    sheet.fit_to_pages(_PAGES, 0)
+    sheet.repeat_columns(_LEAD[0].index, _LEAD[2].index)
     book.link_back(sheet, (0, 3))
-    for line, note in enumerate(_NOTES, 1):
-        sheet.write_string(line, 0, book.words(note), book.text(italic=True))
+    widths = [field.width for field in _SHOWN]
+    for line, notes in enumerate(_NOTES, 1):
+        text = " ".join(book.words(note) for note in notes)
+        book.write_wide(sheet, (line, 0), text, widths, italic=True)
+    factors = Factors(book, study)
     columns = [field.name(book.words) for field in _FIELDS]
     book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
     for field in _FIELDS:
         is_idle = field is _FURTHER and not has_further(study)
-        options = {"hidden": field in _HIDDEN or is_idle}
+        is_hidden = field in (*_HIDDEN, *_FOLDED) or is_idle
+        options = {"hidden": is_hidden, "level": int(field in _FOLDED)}
         area = f"{field.letter}:{field.letter}"
         sheet.set_column(area, field.width, None, options)
     line = HEAD_ROW + 1
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
         for check, words in zip(row.checks, shown.checks, strict=True):
-            _CheckLine(book, sheet, line).write((number, row.id), check, words)
+            _CheckLine(book, sheet, line, factors).write((number, row.id), check, words)
             line += 1
     if line == HEAD_ROW + 1:
         text = book.words("heading.no_check")
@@ -246,8 +256,9 @@ def _validate(book: Book, sheet: Any, lines: tuple[int, int]) -> None:
 class _CheckLine:
     """One line of the sheet; ``line`` counts from zero."""
 
-    def __init__(self, book: Book, sheet: Any, line: int) -> None:
+    def __init__(self, book: Book, sheet: Any, line: int, factors: Factors) -> None:
         self._book, self._sheet, self._line = book, sheet, line
+        self._factors = factors
 
     def write(self, row: tuple[int, str], check: CheckRecord, view: CheckView) -> None:
         """Write texts and inputs as values, everything derived as formulas.
@@ -261,7 +272,7 @@ class _CheckLine:
         case = find_case(check)
         for field in _CASES:
             self._put_number(field, getattr(case, field.quantity) if case else None)
-        self._put(_FURTHER, Cell(text=name_further(case)))
+        self._put(_FURTHER, Cell(text=self._book.words.name_further(case)))
         self._write_loads(check, view)
         texts = (show_text(name), view.title, view.clause)
         for field, text in zip(_LEAD[1:], texts, strict=True):
@@ -284,7 +295,7 @@ class _CheckLine:
     def _write_numbers(self, check: CheckRecord) -> None:
         actions, demands = _list_actions(check), _list_demands(check)
         factor, at = self._at(_ACTION_FACTOR), self._at
-        self._put_number(_ACTION_FACTOR, check.action_factor)
+        self._put_factor(_ACTION_FACTOR, check.action_factor, self._factors.on_action())
         for source, target, action, demand in zip(
             _ACTIONS, _DEMANDS, actions, demands, strict=True
         ):
@@ -292,7 +303,8 @@ class _CheckLine:
             self._put_number(target, demand, write_product(at(source), factor))
         parts = (at(_RESISTANCE_K), at(_RESISTANCE_FACTOR))
         self._put_number(_RESISTANCE_K, check.resistance_characteristic_kN)
-        self._put_number(_RESISTANCE_FACTOR, check.resistance_factor)
+        on_resistance = self._factors.on_resistance(check)
+        self._put_factor(_RESISTANCE_FACTOR, check.resistance_factor, on_resistance)
         self._put_number(_RESISTANCE, check.resistance_kN, write_quotient(*parts))
         low, high = check.utilisation_band
         for field, demand_field, ratio in zip(
@@ -352,14 +364,24 @@ class _CheckLine:
         column = Column(heading="", quantity=field.quantity, is_number=field.is_number)
         self._book.write_cell(self._sheet, place, column, cell)
 
+    def _put_factor(
+        self, field: _Field, value: float | None, link: ProfileCell | None
+    ) -> None:
+        """Write a factor as a link to the profile's value, where it is that one."""
+        if value is None or link is None or link.value != value:
+            self._put_number(field, value)
+            return
+        form = self._book.format(
+            align="right", num_format=number_format(field.quantity)
+        )
+        self._sheet.write_formula(self._at(field), f"={link.place}", form, value)
+
     def _put_number(
         self, field: _Field, value: float | None, formula: str = ""
     ) -> None:
         """Write a number; with ``formula`` it is live, and "-" without its parts."""
         if not formula:
-            self._put(
-                field, Cell(text=show_number(field.quantity, value), number=value)
-            )
+            self._put(field, number_cell(self._book.words, field.quantity, value))
             return
         form = self._book.format(
             align="right", num_format=number_format(field.quantity)

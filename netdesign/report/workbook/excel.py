@@ -8,19 +8,19 @@ from datetime import UTC, datetime
 
 from netdesign.errors import NetDesignError
 from netdesign.report.view import tables
+from netdesign.report.view.hold_tables import build_hold_numbers
 from netdesign.report.view.table import Cell, Column, Table
 from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
-from netdesign.report.workbook.writer import A3, A4, Book
+from netdesign.report.workbook.writer import Book
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
 _FIRST_LINE = 4  # of a table below its caption and headings, zero-based
 _NO_TIME = datetime(1980, 1, 1)
-_WIDE = ("statics", "floor_statics")
 SHEETS = (
     "summary",
     "inputs",
@@ -120,7 +120,9 @@ def _add_inputs(book: Book, view: ReportView) -> None:
     inputs += [(row.id, row.inputs) for row in view.rows]
     caption = book.words("heading.typed_and_understood")
     title = book.words("heading.inputs")
-    book.add_table_sheet("inputs", title, [_stack(book, caption, inputs)])
+    replaced = [view.what_if] if view.mark else []
+    shown = [*replaced, _stack(book, caption, inputs)]
+    book.add_table_sheet("inputs", title, shown)
 
 
 def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
@@ -133,7 +135,7 @@ def _add_row_tables(book: Book, study: Study, view: ReportView) -> None:
         ("envelope", "heading.largest_of_members", _list_parts(view, "extremes")),
         ("cases", "heading.all_cases", cases),
         ("changes", "heading.what_would_flip", _list_parts(view, "changes")),
-        ("holds", "heading.single_values", _list_parts(view, "holds")),
+        ("holds", "heading.single_values", _list_holds(book, study, view)),
         ("support", "heading.forces_on_ground", _list_parts(view, "anchors")),
         ("directions", "heading.directions_of_pulls", _list_parts(view, "pulls")),
         ("guideline", "heading.check_by_guideline", _list_parts(view, "guideline")),
@@ -176,9 +178,7 @@ def _add_figures(book: Book, view: ReportView) -> None:
             parts = [(row.id, getattr(row.figures, table)) for row in view.rows]
             caption = parts[0][1].caption if parts else ""
             shown.append(_stack(book, caption, parts))
-        paper = A3 if name in _WIDE else A4
-        title = book.words(f"heading.{name}")
-        book.add_table_sheet(name, title, shown, paper=paper)
+        book.add_table_sheet(name, book.words(f"heading.{name}"), shown)
 
 
 def _list_panels(book: Book, view: ReportView) -> list[Table]:
@@ -189,6 +189,14 @@ def _list_panels(book: Book, view: ReportView) -> list[Table]:
     forces = [(name, panel.forces) for name, panel in panels]
     ropes = [(name, panel.ropes) for name, panel in panels]
     return [_stack(book, parts[0][1].caption, parts) for parts in (forces, ropes)]
+
+
+def _list_holds(book: Book, study: Study, view: ReportView) -> list[tuple[str, Table]]:
+    """Limits of single values of each net row, their ends as numbers."""
+    return [
+        (shown.id, build_hold_numbers(row, book.words))
+        for row, shown in zip(study.rows, view.rows, strict=True)
+    ]
 
 
 def _list_parts(view: ReportView, table: str) -> list[tuple[str, Table]]:

@@ -10,7 +10,7 @@ from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
 from netdesign.report.view.whole import ReportView, RowView
-from netdesign.report.words import MISSING, name_further, number_format
+from netdesign.report.words import MISSING, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
 from netdesign.report.workbook.check_sheet import CHANGED, show_load
 from netdesign.report.workbook.check_sheet import HEAD_ROW as FIRST_CHECK
@@ -19,13 +19,15 @@ from netdesign.study.case_records import CasePoint
 from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 14, 18, 10, 12, 10, 9, 13, 11, 8, 21, 23, 12, 32)
+_WIDTHS = (4, 9, 13, 7, 9, 9, 7, 9, 9, 7, 18, 18, 9, 29)
+_LABELLED = 3  # columns of a label below the rows
 # Columns D, E, F, G.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
 _RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
 _HELD, _REASONS = 12, 13
 _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
-_CASE_DECIMALS = 2
+_CASE_DECIMALS = 1
+_ABOVE = 5  # links that stand one line higher, at the end of it
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -58,11 +60,16 @@ def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
 
 
 def link_sheets(book: Book, names: Sequence[str]) -> None:
-    """Lead from the summary to every other sheet, in the line above its table."""
+    """Lead from the summary to every other sheet, above its table.
+
+    None stands beside the table: that would make all of it small in print.
+    """
     sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
-    for column, name in enumerate(names, 1):
-        target = book.refer(name, "A1")
-        book.link(sheet, (_HEAD_ROW - 1, column), target, book.name(name))
+    room = len(_WIDTHS) - 1
+    places = [(_HEAD_ROW - 1, column) for column in range(1, room + 1)]
+    places += [(1, column) for column in range(len(_WIDTHS) - _ABOVE, len(_WIDTHS))]
+    for place, name in zip(places, names, strict=False):
+        book.link(sheet, place, book.refer(name, "A1"), book.name(name))
 
 
 def _list_columns(book: Book) -> tuple[Column, ...]:
@@ -150,9 +157,10 @@ def _write_governing(
     line = f"MATCH(_xlfn.MAXIFS(check_rank,{mine}),check_rank,0)"
     none = book.words("heading.no_check")
     first, second, third = (
-        f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})" for n in (1, 2, 3)
+        _write_mark(f"ROUND(INDEX(check_case_{n},{line}),{_CASE_DECIMALS})", book)
+        for n in (1, 2, 3)
     )
-    has_further = any(name_further(check.case) for check in row.checks)
+    has_further = any(book.words.name_further(check.case) for check in row.checks)
     further = f"&INDEX(check_case_further,{line})" if has_further else ""
     case = f'{first}&" kg/m³, φ "&{second}&"°, θ "&{third}&"°"{further}'
     load = f'IFERROR(INDEX(check_load,{line}),"{MISSING}")'
@@ -181,14 +189,26 @@ def _tell_case(book: Book, row: RowStudy, shown: RowView) -> str:
     if check is None or view is None:
         return MISSING
     case = find_case(check)
-    return show_load(check, view, book.words) if case is None else _show_case(case)
+    return (
+        show_load(check, view, book.words)
+        if case is None
+        else _show_case(case, book.words)
+    )
 
 
-def _show_case(case: CasePoint) -> str:
+def _write_mark(number: str, book: Book) -> str:
+    """Formula of a number in a text, with the decimal mark of the study's language."""
+    mark = book.words.write(".")
+    return number if mark == "." else f'SUBSTITUTE({number},".","{mark}")'
+
+
+def _show_case(case: CasePoint, words: Words) -> str:
     """Case as the formula shows it."""
     values = (case.density_kg_m3, case.friction_deg, case.inclination_deg)
-    first, second, third = (f"{round(one, _CASE_DECIMALS):.15g}" for one in values)
-    return f"{first} kg/m³, φ {second}°, θ {third}°{name_further(case)}"
+    first, second, third = (
+        words.write(f"{round(one, _CASE_DECIMALS):.15g}") for one in values
+    )
+    return f"{first} kg/m³, φ {second}°, θ {third}°{words.name_further(case)}"
 
 
 def _write_reasons(
@@ -246,8 +266,8 @@ def _explain(shown: RowView) -> str:
 
 def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
     """Identification, room for signatures, assumed values, under the rows."""
-    head, text = book.text(bold=True, bottom=1), book.text()
-    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[2:_LIMIT])
+    head = book.text(bold=True, bottom=1)
+    wrapped, room = book.text(text_wrap=True), sum(_WIDTHS[_LABELLED:_LIMIT])
     signed = (
         ("heading.prepared", view.prepared),
         ("heading.checked", view.checked),
@@ -269,10 +289,12 @@ def _write_below(book: Book, sheet: Any, view: ReportView, top: int) -> None:
             sheet.write_string(top, column, shown, head)
         for label, value in pairs:
             top += 1
-            sheet.write_string(top, 0, label, text)
-            sheet.merge_range(top, 2, top, _LIMIT - 1, "", wrapped)
-            sheet.write_string(top, 2, value, wrapped)
-            book.set_height(sheet, top, count_lines([value], [room]))
+            sheet.merge_range(top, 0, top, _LABELLED - 1, "", wrapped)
+            sheet.write_string(top, 0, label, wrapped)
+            sheet.merge_range(top, _LABELLED, top, _LIMIT - 1, "", wrapped)
+            sheet.write_string(top, _LABELLED, value, wrapped)
+            lines = count_lines([label, value], [sum(_WIDTHS[:_LABELLED]), room])
+            book.set_height(sheet, top, lines)
         top += 2
 
 

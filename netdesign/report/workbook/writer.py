@@ -10,6 +10,7 @@ from typing import Any
 from netdesign.outcome import Verdict
 from netdesign.report.view.table import Cell, Column, Table
 from netdesign.report.words import Words, number_format, show_verdict
+from netdesign.report.workbook.bands import split_bands
 
 _FONT = {"font_name": "Arial", "font_size": 9, "valign": "vcenter"}
 _HEAD = {"bold": True, "bottom": 1, "text_wrap": True, "valign": "bottom"}
@@ -19,7 +20,7 @@ _COLOURS = {
     "not-proven": ("#F7EBC8", "#5F4B00"),
     "declared": ("#DCE7F2", "#20415F"),
 }
-_NARROWEST, _WIDEST = 6.0, 50.0  # columns, in characters of the default font
+_NARROWEST, _WIDEST = 6.0, 44.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
 _DECIMAL = re.compile(r"-?\d+(\.\d+)?")
@@ -29,6 +30,10 @@ _LONGEST_TEXT = 32000  # a cell holds 32767 characters
 _LONGEST_LINK = 2000  # of its text too; older XlsxWriters leave longer links out
 
 A4, A3 = 9, 8  # paper numbers of the format
+_ROOM_PT = {A4: 798.0, A3: 1147.0}  # of a line between the margins, on its side
+_CHARACTER_PT = 7.35  # of a column, as LibreOffice prints it; Excel's are narrower
+_SMALLEST = 0.7  # of the size of the text, below which a sheet takes more paper
+_NAMING = 2  # columns that name a line, repeated on a second page beside the first
 
 
 def _show_literally(text: str) -> str:
@@ -69,7 +74,7 @@ class Book:
         sheet.set_landscape()
         sheet.set_paper(paper)
         sheet.fit_to_pages(1, 0)
-        sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.7)
+        sheet.set_margins(left=0.3, right=0.3, top=0.5, bottom=0.6)
         sheet.set_footer(f"&L&8 {self._footer}&C&8 &A&R&8 &P / &N")
         sheet.write_string(0, 0, title, self.text(bold=True, font_size=13))
         sheet.set_row(0, 22)
@@ -113,12 +118,10 @@ class Book:
         place: tuple[int, int],
         column: Column,
         cell: Cell,
-        *,
-        wraps: bool = True,
     ) -> None:
         """Write a number as a number with its format, all else as text."""
         if cell.number is None or not math.isfinite(cell.number):
-            form = self._form(column, ("text_wrap", wraps))
+            form = self._form(column, ("text_wrap", True))
             sheet.write_string(*place, cell.text[:_LONGEST_TEXT], form)
             return
         shown = None
@@ -138,40 +141,73 @@ class Book:
         return self._forms[key]
 
     def write_table(
-        self, sheet: Any, table: Table, top: int, *, is_first: bool = True
+        self, sheet: Any, table: Table, top: int, widths: Sequence[float]
     ) -> int:
-        """Caption, headings and rows, or what stands for none; the next free row."""
-        sheet.write_string(top, 0, table.caption, self.text(italic=True))
+        """Caption, headings and rows, or what stands for none; the next free row.
+
+        ``widths`` are those of the sheet. A text that would reach beyond its columns is
+        wrapped: one that runs out of the sheet makes all of it small in print.
+        """
+        self.write_wide(sheet, (top, 0), table.caption, widths, italic=True)
         if not table.rows:
-            sheet.write_string(top + 1, 0, table.empty, self.text())
+            self.write_wide(sheet, (top + 1, 0), table.empty, widths)
             return top + 3
-        widths = find_widths([table])
-        if not is_first:
-            widths[-1] = _LONGEST_TEXT  # not wrapped: it reaches into empty cells
         self.write_head(sheet, top + 1, table.columns, widths)
+        last = len(table.columns) - 1
+        own = [*widths[:last], sum(widths[last:])]
         for row, cells in enumerate(table.rows, top + 2):
             for index, (column, cell) in enumerate(
                 zip(table.columns, cells, strict=True)
             ):
-                wraps = is_first or index < len(cells) - 1
-                self.write_cell(sheet, (row, index), column, cell, wraps=wraps)
+                if index == last and cell.number is None:
+                    self.write_wide(sheet, (row, last), cell.text, widths)
+                else:
+                    self.write_cell(sheet, (row, index), column, cell)
             texts = [cell.text for cell in cells]
-            self.set_height(sheet, row, count_lines(texts, widths))
+            self.set_height(sheet, row, count_lines(texts, own))
         return top + 3 + len(table.rows)
 
-    def add_table_sheet(
-        self, name: str, title: str, tables: Sequence[Table], *, paper: int = A4
-    ) -> Any:
-        """Sheet of tables one below the other; a single one can be filtered."""
+    def write_wide(
+        self,
+        sheet: Any,
+        place: tuple[int, int],
+        text: str,
+        widths: Sequence[float],
+        **look: Any,
+    ) -> None:
+        """Text from a cell to the last column, on as many lines as it needs."""
+        row, column = place
+        form = self.text(text_wrap=True, **look)
+        room = widths[column:]
+        is_long = count_lines([text], room[:1]) > 1
+        if is_long and len(room) > 1:
+            sheet.merge_range(row, column, row, column + len(room) - 1, "", form)
+        sheet.write_string(row, column, text[:_LONGEST_TEXT], form)
+        if column == 0:
+            self.set_height(sheet, row, count_lines([text], [sum(room)]))
+
+    def add_table_sheet(self, name: str, title: str, tables: Sequence[Table]) -> Any:
+        """Sheet of tables one below the other; a single one can be filtered.
+
+        Where there are several, no heading is repeated on each page of paper: it would
+        stand above columns of another table.
+        """
+        tables = [split_bands(table, self.words) for table in tables]
+        widths = find_widths(tables)
+        paper, pages = choose_paper(widths)
         sheet = self.add_sheet(name, title, paper=paper)
+        if pages > 1:
+            sheet.fit_to_pages(pages, 0)
+            sheet.repeat_columns(0, _NAMING - 1)
         self.link_back(sheet)
         top = 2
         for table in tables:
-            top = self.write_table(sheet, table, top, is_first=table is tables[0])
-        for index, width in enumerate(find_widths(tables)):
+            top = self.write_table(sheet, table, top, widths)
+        for index, width in enumerate(widths):
             sheet.set_column(index, index, width)
-        sheet.repeat_rows(3)
         first = tables[0]
+        if len(tables) == 1:
+            sheet.repeat_rows(3)
         if len(tables) == 1 and first.rows:
             sheet.autofilter(3, 0, 3 + len(first.rows), len(first.columns) - 1)
         sheet.freeze_panes(4, 1)
@@ -203,6 +239,19 @@ class Book:
             "max_value": 1.5,
         }
         sheet.conditional_format(*area, rule)
+
+
+def choose_paper(widths: Sequence[float]) -> tuple[int, int]:
+    """Paper, and pages side by side, on which columns are read without a glass.
+
+    Excel and LibreOffice make a sheet smaller until it is as wide as its pages.
+    """
+    wide, named = sum(widths), sum(widths[:_NAMING])
+    for paper, pages in ((A4, 1), (A3, 1), (A4, 2)):
+        shown = _CHARACTER_PT * (wide + (pages - 1) * named)
+        if pages * _ROOM_PT[paper] / shown >= _SMALLEST:
+            return paper, pages
+    return A3, 2
 
 
 def _align(column: Column) -> dict[str, Any]:

@@ -16,7 +16,9 @@ from netdesign.site.cells.cells import Cell, Sheet, TextFormat, group_by_row
 from netdesign.site.cells.findings import Finding, note_file, refuse_file
 from netdesign.site.cells.limits import (
     MAX_COLUMNS,
+    MAX_LINES,
     MAX_ROWS,
+    require_cells,
     require_columns,
     require_rows,
     require_width,
@@ -71,7 +73,8 @@ def read_delimited(
         text, encoding = _decode(file, content)
         delimiter = text_format.delimiter or _find_delimiter(file, text, is_heading)
         records = _split(file, text, delimiter)
-        require_rows(file, name, len(records))
+        require_rows(file, name, len(records), MAX_LINES)
+        require_cells(file, name, sum(map(len, records)))
         for record in records:
             require_width(file, name, len(record))
         rule = say(
@@ -109,7 +112,7 @@ def _split(file: str, text: str, delimiter: str) -> _Records:
         # strict: a quote that is never closed must not swallow the rest of the file
         source = StringIO(text, newline="")
         reader = csv.reader(source, delimiter=delimiter, strict=True)
-        return [_cut_end(record) for record in islice(reader, MAX_ROWS + 1)]
+        return [_cut_end(record) for record in islice(reader, MAX_LINES + 1)]
     except csv.Error as error:
         rule = say("csv.unreadable", cause=str(error))
         raise refuse_file(file, rule, say("csv.quotes")) from None

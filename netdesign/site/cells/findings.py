@@ -15,6 +15,7 @@ Severity = Literal["error", "note"]
 
 _LONGEST_QUOTE = 60
 _OF_SHEETS = ("table.lacks_sheet", "table.close_to_missing", "table.second_sheet")
+_ALIKE = ("number.ambiguous",)  # rules that repeat the text of their cell
 _MOST_ALIKE = 12  # named after the first
 
 
@@ -105,7 +106,8 @@ def fold_findings(findings: Sequence[Finding]) -> tuple[Message, ...]:
         column = finding.cell.rstrip("0123456789")
         is_fault = finding.severity == "error"
         place = (column, str(finding.field)) if is_fault else ()
-        key = (finding.severity, finding.file, finding.sheet, str(finding.rule), place)
+        rule = finding.rule.key if finding.rule.key in _ALIKE else str(finding.rule)
+        key = (finding.severity, finding.file, finding.sheet, rule, place)
         group = alike.setdefault(key, [])
         group.append(finding)
     asked = [one for one in findings if one.is_asked]

@@ -23,7 +23,9 @@ MAX_ENTRIES = 500
 MAX_MARKS = 300_000
 MAX_RATIO = 200.0
 MAX_ROWS = 2000
+MAX_LINES = 40_000  # of a csv file: a century of daily snow heights
 MAX_COLUMNS = 200
+MAX_CELLS = MAX_ROWS * MAX_COLUMNS
 
 # Others unpack a whole block at once, before anything can be counted.
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
@@ -133,11 +135,19 @@ def _refuse_expansion(file: str) -> SiteDataError:
     )
 
 
-def require_rows(file: str, sheet: str, last_row: int) -> None:
+def require_rows(file: str, sheet: str, last_row: int, most: int = MAX_ROWS) -> None:
     """Refuse a sheet that is filled far down."""
-    if last_row > MAX_ROWS:
+    if last_row > most:
         rule = say("book.filled_down", row=last_row)
-        raise refuse_file(file, rule, say("book.most_rows", most=MAX_ROWS), sheet)
+        accepted = say("book.most_rows", most=most, lines=MAX_LINES)
+        raise refuse_file(file, rule, accepted, sheet)
+
+
+def require_cells(file: str, sheet: str, count: int) -> None:
+    """Refuse a text that holds more cells than a sheet may."""
+    if count > MAX_CELLS:
+        rule = say("book.holds_cells", count=count)
+        raise refuse_file(file, rule, say("book.most_cells", most=MAX_CELLS), sheet)
 
 
 def require_columns(file: str, sheet: str, cells: Iterable[Cell]) -> None:

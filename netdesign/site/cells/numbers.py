@@ -11,8 +11,10 @@ from netdesign.words.message import say
 
 DecimalMark = Literal["", ",", "."]
 
-# Digits are capped so that a float holds every number exactly as it was typed.
+# A float holds so many digits; programs that write csv add up to five decimals more,
+# which change nothing. Longer rows of digits are no quantities.
 _MOST_DIGITS = 15
+_MOST_DECIMALS = 20
 _LARGEST = 1e15
 # What separates groups of thousands and nothing else: spaces, also the narrow and
 # the unbreakable ones of French, and the apostrophes of Switzerland.
@@ -43,7 +45,8 @@ class _Reading:
 
     @property
     def is_short(self) -> bool:
-        return max(len(self.whole), len(self.decimals)) <= _MOST_DIGITS
+        is_whole = len(self.whole) <= _MOST_DIGITS
+        return is_whole and len(self.decimals) <= _MOST_DECIMALS
 
     def goes_with(self, declared: str) -> bool:
         return self.decimal_mark in ("", declared) and self.separator != declared

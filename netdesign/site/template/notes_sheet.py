@@ -11,6 +11,7 @@ from netdesign.site.columns.languages import load_text
 from netdesign.site.columns.net_columns import NETS
 from netdesign.site.columns.range_quantities import USUAL_QUANTITIES
 from netdesign.site.template.drawing import SYMBOLS, draw_geometry
+from netdesign.words.numerals import set_marks
 
 if TYPE_CHECKING:
     from xlsxwriter.format import Format
@@ -75,7 +76,8 @@ def describe_accepted(field: Field, language: Language) -> str:
     if low == high:
         return ""
     between = {"en": "to", "fr": "à", "de": "bis"}[language]
-    return f"{low:.10g} {between} {high:.10g} {field.unit}".rstrip(" -")
+    ends = (set_marks(f"{end:.10g}", language) for end in (low, high))
+    return f" {between} ".join(ends) + f" {field.unit}".rstrip(" -")
 
 
 def describe_field(field: Field, language: Language) -> str:
@@ -88,7 +90,8 @@ def describe_field(field: Field, language: Language) -> str:
         units = ", ".join(f"[{unit}]" for unit in field.units)
         parts.append(f"{texts['units']}: {units}")
     if field.default is not None:
-        default = f"{field.default:g} {field.unit}".rstrip(" -")
+        number = set_marks(f"{field.default:g}", language)
+        default = f"{number} {field.unit}".rstrip(" -")
         parts.append(f"{texts['empty']}: {default}")
     return "\n".join(part for part in parts if part)
 

@@ -105,6 +105,7 @@ def audit_site(
         ("ranges", study.range_inputs, list(site.range_inputs)),
         ("notes", study.notes, list_site_notes(site, law)),
         ("site_file", study.provenance.site_file, site.file_name),
+        ("what_if", study.what_if, list(site.what_if)),
     )
     for name, one, other in parts:
         yield from tell_differences("audit.site_otherwise", {name: one}, {name: other})

@@ -20,6 +20,7 @@ from netdesign.coupling.history.transient import (
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.solution import FailedSolution
 from netdesign.coupling.steady.solve import solve_steady
+from netdesign.snow.fluidity import PAPER_FLUIDITY
 from netdesign.snow.ground import build_ground_from_glide_factor
 from netdesign.snow.snowpack import Snowpack
 from tests.coupling.drawn_scenes import GROUNDS, draw_scene
@@ -97,7 +98,8 @@ def the_issues_scene(a_scene, glide_factor=1.2):
         inclination_deg=35.0,
         slack=0.05,
     )
-    return replace(scene, ground=build_ground_from_glide_factor(glide_factor, 3.0))
+    ground = build_ground_from_glide_factor(glide_factor, 3.0)
+    return replace(scene, ground=ground, fluidity=PAPER_FLUIDITY)
 
 
 def demand(scene, days):
@@ -130,7 +132,9 @@ def draw_sliding(seed):
 def test_demand_on_sliding_ground_does_not_depend_on_the_horizon(seed):
     scene = draw_sliding(seed)
     # a clock on which ten days are some creep for every snow
-    scene = replace(scene, fluidity=scene.fluidity * scene.time_scale / (2.0 * DAY))
+    scene = replace(
+        scene, fluidity=scene.creep_fluidity * scene.time_scale / (2.0 * DAY)
+    )
     first, second, third = (demand(scene, days) for days in (10.0, 30.0, 100.0))
     np.testing.assert_allclose(second, first, rtol=0.02)
     np.testing.assert_allclose(third, first, rtol=0.02)

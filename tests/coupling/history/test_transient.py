@@ -155,7 +155,7 @@ def test_fluidity_only_rescales_time(a_scene):
     """Seven times the fluidity: the same history in a seventh of the time."""
     scene = a_scene()
     slow = solve(scene, horizon=7 * 86400.0)
-    fast = solve(replace(scene, fluidity=7.0 * scene.fluidity), horizon=86400.0)
+    fast = solve(replace(scene, fluidity=7.0 * scene.creep_fluidity), horizon=86400.0)
     for end in ("foot", "head"):
         np.testing.assert_allclose(
             sizes(fast.history.moments, end),

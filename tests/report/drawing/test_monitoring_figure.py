@@ -18,10 +18,7 @@ RECORD = MonitoringRecord(
     times_d=[0.0, 1.0, 2.0],
     tensions_kN=[10.0, None, 12.0],
     air_temperatures_C=[-5.0, -8.0, None],
-    model_times_d=[0.1, 1.0, 2.0],
-    model_kN=[20.0, 19.0, 18.0],
-    model_start="sagged",
-    model_reason=None,
+    model=say("monitoring.needs_winter"),
 )
 TEXT = "{http://www.w3.org/2000/svg}text"
 
@@ -30,22 +27,11 @@ def texts(svg):
     return [element.text for element in ElementTree.fromstring(svg).iter(TEXT)]
 
 
-def test_measured_stands_beside_the_model():
+def test_readings_are_drawn_and_the_model_is_told_of():
     shown = texts(draw_monitoring([RECORD], "x"))
-    assert {"measured", "model", "air", "Uphill guy, tension [kN]"} <= set(shown)
-
-
-def test_without_model_the_measurement_is_drawn_and_the_reason_told():
-    bare = replace(
-        RECORD,
-        model_times_d=[],
-        model_kN=[],
-        model_reason=say("text.as_given", text="it folded"),
-    )
-    shown = texts(draw_monitoring([bare], "x"))
-    assert "measured" in shown
-    assert "model" not in shown
-    assert "Without a history: it folded." in describe_monitoring([bare])
+    assert {"measured", "air", "Uphill guy, tension [kN]"} <= set(shown)
+    assert "sheet Winter" in describe_monitoring([RECORD, RECORD])
+    assert describe_monitoring([RECORD, RECORD]).count("sheet Winter") == 1
 
 
 def test_page_has_the_drawing_only_where_something_was_measured():
@@ -56,7 +42,7 @@ def test_page_has_the_drawing_only_where_something_was_measured():
     page = PageReader(render_html(replace(study, rows=rows)))
     assert "row-1-monitoring" in page.ids
     assert "row-2-monitoring" not in page.ids
-    assert "starts at the first reading from a sagged net" in "".join(page.text)
+    assert "sets them beside each other" in "".join(page.text)
 
 
 def test_document_keeps_the_series():

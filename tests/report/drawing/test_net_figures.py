@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from netdesign.coupling.face import Face
 from netdesign.report.drawing.net_figures import (
-    Face,
     MeshPicture,
     draw_meshes,
     draw_node_forces,

@@ -7,6 +7,7 @@ import pytest
 from netdesign.report.view.end_tables import build_end_effects
 from netdesign.report.words import Words
 from netdesign.study.support_records import EndEffectRecord
+from netdesign.words.numerals import set_marks
 from tests.report.build_study import build_study
 
 EFFECT = EndEffectRecord(
@@ -35,8 +36,9 @@ def test_each_effect_is_a_line_with_all_its_numbers(language, no_gap, own):
     table = build_end_effects(row, Words(language))
     first, second = ([cell.text for cell in line] for line in table.rows)
     numbers = ["2.37", "1.43", "3.91", "5.59", "1.47", "2.11", "3.26", "4.08"]
-    assert first == [no_gap, *numbers, own]
-    assert second[:-1] == ["1.25", *numbers]
+    shown = [set_marks(one, language) for one in ("1.25", *numbers)]
+    assert first == [no_gap, *shown[1:], own]
+    assert second[:-1] == shown
     assert len(table.columns) == len(first)
 
 

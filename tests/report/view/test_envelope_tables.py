@@ -13,6 +13,7 @@ from netdesign.study.envelope_records import (
     FlipRecord,
 )
 from netdesign.words.catalogue import LANGUAGES
+from netdesign.words.numerals import set_marks
 from tests.report.build_study import build_study
 
 ROW = build_study().rows[0]
@@ -73,6 +74,7 @@ def test_where_checks_flip_they_have_their_names(language):
     row = replace(ROW, checks=checks, envelope=build_envelope(flips))
     words = Words(language)
     (cells,) = build_drivers(row, words).rows
-    told = [f"392.4 ({show_check(words, one)})" for one in checks]
+    number = set_marks("392.4", language)
+    told = [f"{number} ({show_check(words, one)})" for one in checks]
     assert cells[-1].text == words.join(told)
     assert "_" not in cells[-1].text

@@ -6,12 +6,12 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.panel_figure import LEFT, LONGEST, SPAN, draw_panel
 from netdesign.report.page.html import list_sections, render_html
 from netdesign.report.view.demand_steps import describe_load, describe_widths
 from netdesign.report.view.panel_tables import view_panel
 from netdesign.report.view.whole import build_view
-from netdesign.report.words import Words
+from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.excel import render_workbook
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.reading import read_workbook
@@ -71,7 +71,7 @@ def test_the_page_has_the_panel_in_every_language(study, language):
     page = render_html(study, language)
     assert "row-1-panel" in list_sections(build_view(study, language))
     assert 'id="row-1-panel"' in page
-    assert Words(language)("panel_view.elevation") in page
+    assert Words(language)("panel_view.tensions") in page
     assert "row-1-panel" not in render_html(study, language, "summary")
 
 
@@ -89,7 +89,7 @@ def test_the_workbook_has_the_same_tables(study):
 
 def test_the_worked_check_gives_the_demand(study):
     check = checks_of(study)["uphill_guy.rope"]
-    steps = describe_widths(check)
+    steps = describe_widths(check, ENGLISH)
     symbols = [step[0] for step in steps]
     assert symbols[-1] == "E_k = max(E_c; E_p; E_g)"
     assert any(one.startswith("E_p = ") for one in symbols)
@@ -99,13 +99,13 @@ def test_the_worked_check_gives_the_demand(study):
 
 def test_the_worked_check_of_the_end_gives_its_demand(study):
     check = checks_of(study)["end_guy.rope.end"]
-    steps = describe_widths(check)
+    steps = describe_widths(check, ENGLISH)
     assert steps[0][0].startswith("b_e = b + f_R")
     assert steps[-1][2] == f"{check.action_kN:.1f} kN"
     action = check.action
     value = action.share * action.solved_kN * action.loaded_width_m
     assert check.action_kN == pytest.approx(value / action.post_spacing_m, rel=1e-12)
-    post = describe_widths(checks_of(study)["post.compression.end"])
+    post = describe_widths(checks_of(study)["post.compression.end"], ENGLISH)
     assert any("H · tan γ" in step[0] for step in post)
 
 
@@ -118,10 +118,9 @@ def test_arrows_are_to_one_scale(study):
     tips = [tuple(map(float, one.split()[0].split(","))) for one in heads]
     (left, top), (inner, _) = tips[0], tips[2]
     at_end = panel.drawing.lower_along_kN
-    reach = left - 150.0
-    assert reach == pytest.approx(46.0, abs=0.2)
+    assert left - LEFT == pytest.approx(LONGEST, abs=0.2)
     assert at_end == max(panel.drawing.lower_along_kN, panel.drawing.upper_along_kN)
-    assert inner == pytest.approx(310.0, abs=0.2)
+    assert inner == pytest.approx(LEFT + SPAN, abs=0.2)
     assert (
         f"{math.hypot(at_end, math.hypot(*panel.drawing.foot_kN) / 2):.1f}" in drawing
     )

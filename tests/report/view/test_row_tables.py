@@ -92,7 +92,7 @@ def test_change_in_words():
 
 
 def test_worked_steps_lead_from_the_solved_force_to_the_action():
-    edge, coupled, floor, action = describe_widths(ROW.checks[0])
+    edge, coupled, floor, action = describe_widths(ROW.checks[0], ENGLISH)
     assert edge == (
         "b_e = b / 2 + f_R · Δl",
         "4.00 m / 2 + 1.60 · 1.50 m",
@@ -106,17 +106,17 @@ def test_worked_steps_lead_from_the_solved_force_to_the_action():
     )
     given = ROW.checks[0].action
     inside = replace(ROW.checks[0], action=replace(given, position="intermediate"))
-    assert describe_widths(inside) == (coupled, floor, action)
+    assert describe_widths(inside, ENGLISH) == (coupled, floor, action)
     alone = replace(given, floor_kN=None, guideline_kN=None, position="intermediate")
-    (only,) = describe_widths(replace(ROW.checks[0], action=alone))
+    (only,) = describe_widths(replace(ROW.checks[0], action=alone), ENGLISH)
     assert only[0] == "E_k = E_s · b_e / b · k_q"
-    assert describe_widths(replace(ROW.checks[0], action=None)) == ()
+    assert describe_widths(replace(ROW.checks[0], action=None), ENGLISH) == ()
 
 
 def test_width_close_to_a_threshold_shows_both_widths_and_both_forces():
     """4.4 m are used, 3.3 m stand on the other side: three quarters of the force."""
     given = replace(ROW.checks[0].action, other_width_m=3.3)
-    *_, last = describe_widths(replace(ROW.checks[0], action=given))
+    *_, last = describe_widths(replace(ROW.checks[0], action=given), ENGLISH)
     force = ROW.checks[0].action_kN
     assert last[0] == "E_k' = E_k · b_e' / b_e"
     assert last[1] == f"{force:.1f} kN · 3.30 m / 4.40 m"
@@ -125,7 +125,7 @@ def test_width_close_to_a_threshold_shows_both_widths_and_both_forces():
 
 def test_page_draws_the_polygon_of_the_head():
     page = render_html(build_study(rows=1))
-    assert 'aria-label="Force polygon of the post head"' in page
+    assert 'aria-label="Force polygon of the post head. Net ' in page
     assert "<script" not in page
 
 

@@ -4,10 +4,9 @@ from dataclasses import replace
 
 from netdesign.report.view.check_view import SEVERITY
 from netdesign.report.view.site_tables import build_matrix, build_site_inputs
-from netdesign.report.words import VERDICTS, Words, show_given
+from netdesign.report.words import ENGLISH, VERDICTS
 from tests.report.build_study import build_study
 
-ENGLISH = Words("en")
 STUDY = build_study()
 
 
@@ -36,6 +35,10 @@ def test_inputs_of_all_rows_stand_beside_each_other():
         if echo.value == "":
             assert label not in lines
             continue
-        text = echo.value if isinstance(echo.value, str) else show_given(echo.value)
+        text = (
+            echo.value
+            if isinstance(echo.value, str)
+            else ENGLISH.show_given(echo.value)
+        )
         assert lines[label][3].text.startswith(text)
         assert lines[label][3].text.endswith("*") is (echo.cell == "default")

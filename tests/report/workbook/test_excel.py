@@ -2,12 +2,15 @@ import io
 import zipfile
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from openpyxl.utils import get_column_letter
 
 from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
+from netdesign.report.workbook.writer import A3, A4, choose_paper
 from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import FORMULA, SCRIPT, build_study
@@ -265,11 +268,108 @@ def test_sheets_are_ready_to_read_and_print(content):
         assert sheet.freeze_panes
         assert sheet.page_setup.orientation == "landscape"
         assert sheet.page_setup.fitToHeight == 0  # one page wide, any length
-        assert sheet.print_title_rows
+        # the heading of one table would stand above columns of another
+        captions = sum(bool(cell.font.i) for cell in sheet["A"])
+        is_one = captions == 1 or sheet.title in ("Summary", "Checks")
+        assert bool(sheet.print_title_rows) is is_one, sheet.title
     assert book["Checks"].auto_filter.ref == "A4:AA25"
     assert {"overall_verdict", "row_verdicts", "check_verdict"} <= set(
         book.defined_names
     )
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_text_runs_out_of_its_sheet(language):
+    """One that does makes the whole sheet small on paper, down to 4 pt as seen."""
+    book = read_workbook(render_workbook(STUDY, language))
+    for sheet in list(book)[1:]:
+        table = find_table_columns(sheet)
+        merged = {str(area).split(":")[0] for area in sheet.merged_cells.ranges}
+        for line in sheet.iter_rows(min_row=2):
+            for cell in line:
+                if not isinstance(cell.value, str) or cell.coordinate in merged:
+                    continue
+                last = max(cell.column, len(table))
+                room = sum(table[cell.column - 1 : last])
+                is_wrapped = cell.alignment.wrap_text
+                fits = is_wrapped or len(cell.value) * 0.72 <= room + 1.0
+                assert fits or sheet.column_dimensions[cell.column_letter].hidden, (
+                    sheet.title,
+                    cell.coordinate,
+                )
+
+
+def find_table_columns(sheet):
+    """Widths of the columns of a sheet, as far as its widest table goes."""
+    last = max(c.column for line in sheet.iter_rows() for c in line if c.font.b)
+    letters = [get_column_letter(k) for k in range(1, last + 1)]
+    return [sheet.column_dimensions[letter].width for letter in letters]
+
+
+def test_wide_sheets_take_more_paper_and_stay_legible():
+    """Widths of one of ours, in characters; LibreOffice's are the widest seen."""
+    for widths, pages in (([9.0] * 9, 1), ([9.0] * 16, 1), ([9.0] * 25, 2)):
+        paper, across = choose_paper(widths)
+        room = {A4: 798.0, A3: 1147.0}[paper] * across
+        wide = 7.35 * (sum(widths) + (across - 1) * sum(widths[:2]))
+        assert 9.0 * room / wide >= 6.0
+        assert across == pages
+
+
+def name_factors(study):
+    """The same study under a profile whose factors have their own names."""
+    factor = next(one for one in study.profile.values if one.id == "factor.tendon")
+    named = [
+        replace(factor, id="resistance.tendon"),
+        replace(factor, id="action.snow", value=1.5),
+    ]
+    values = [*study.profile.values, *named]
+    return replace(study, profile=replace(study.profile, values=values))
+
+
+def test_factors_are_read_from_the_profile():
+    """Change one there, and the demand of every check follows."""
+    study = name_factors(STUDY)
+    book = read_workbook(render_workbook(study), formulas=True)
+    checks, profile = book["Checks"], book[ENGLISH("heading.profile")]
+    linked = {"H": 0, "M": 0}
+    for line, check in enumerate(expected_checks(study), 5):
+        factors = {"H": check.action_factor, "M": check.resistance_factor}
+        for letter, factor in factors.items():
+            formula = checks[f"{letter}{line}"].value
+            if isinstance(formula, str) and formula.startswith("="):
+                place = formula.rpartition("!")[2].replace("$", "")
+                assert formula.startswith(f"='{profile.title}'!")
+                assert profile[place].value == factor
+                linked[letter] += 1
+    wanted = [one for one in expected_checks(study) if one.action_factor]
+    tendons = [one for one in wanted if one.mode == "tendon" and one.resistance_factor]
+    assert linked == {"H": len(wanted), "M": len(tendons)}
+    assert tendons
+
+
+def test_ends_of_intervals_are_numbers(content):
+    lines = read_rows(read_workbook(content)["Envelope"], "Net row")
+    ends = [(one.low_kN, one.high_kN) for row in STUDY.rows for one in row.extremes]
+    names = [f"{ENGLISH('heading.band')} {end} [kN]" for end in ("low", "high")]
+    found = [tuple(line[name] for name in names) for line in lines]
+    assert np.array(found) == pytest.approx(np.array(ends), rel=1e-15)
+    holds = list(read_rows(read_workbook(content)["Holds while"], "Net row"))
+    told = {
+        (hold.least, hold.most, hold.low, hold.high)
+        for row in STUDY.rows
+        for check in row.checks
+        for hold in check.holds
+    }
+    columns = [
+        f"{name} {end}" for name in ("Limit", "Searched") for end in ("low", "high")
+    ]
+    found = {
+        tuple(None if line[name] == "-" else line[name] for name in columns)
+        for line in holds
+    }
+    assert found == told
+    assert len(found) >= 1
 
 
 def test_summary_leads_to_every_sheet_and_back(content):

@@ -102,8 +102,9 @@ def test_a_declared_decimal_mark_settles_thousands(tmp_path):
         (b"", "has no clear delimiter"),
         (b"id;slope angle [deg]\x00;\n", "is no text file"),
         (NETS.encode() + b'"never closed;1;2\n', "cannot be read as csv"),
-        (b"id;slope\n" + b"R;1\n" * 2001, "has cells filled down to row 2001"),
+        (b"id;slope\n" + b"R;1\n" * 40_001, "has cells filled down to row 40001"),
         (b"id;slope\n" + b";" * 300 + b"1\n", "beyond column GR"),
+        (b"id;slope\n" + (b"1;" * 150 + b"\n") * 3000, "holds 450002 cells"),
     ],
 )
 def test_what_cannot_be_read_is_one_clear_finding(tmp_path, content, rule):

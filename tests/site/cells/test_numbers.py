@@ -94,9 +94,15 @@ def test_what_is_typed_with_two_decimals_is_what_is_read(number, separator):
     assert parse_number(typed) == float(number)
 
 
-@pytest.mark.parametrize("text", ["9" * 40, "0.6981317007977318", "1" * 16 + ",5"])
+@pytest.mark.parametrize("text", ["9" * 40, "0." + "3" * 21, "1" * 16 + ",5"])
 def test_more_digits_than_are_kept_are_refused_as_such(text):
     assert str(parse_number(text).rule) == "has more than 15 digits in a row"
+
+
+@given(st.floats(min_value=1e-3, max_value=1e5), st.sampled_from([".", ","]))
+@settings(derandomize=True, max_examples=200, deadline=None)
+def test_floats_as_programs_write_them_are_read_to_the_last_bit(number, mark):
+    assert parse_number(repr(number).replace(".", mark), mark) == number
 
 
 @pytest.mark.parametrize(

@@ -722,8 +722,7 @@ def another_reason(study):
 def a_measurement_added(study):
     study["rows"][0]["monitoring"] = [{
         "member": "foot_anchor", "source": "Monitoring!A2", "times_d": [0.0],
-        "tensions_kN": [3.0], "air_temperatures_C": [None], "model_times_d": [],
-        "model_kN": [], "model_start": "", "model_reason": as_given("none"),
+        "tensions_kN": [3.0], "air_temperatures_C": [None], "model": as_given("none"),
     }]  # fmt: skip
 
 

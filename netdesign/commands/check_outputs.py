@@ -1,0 +1,92 @@
+"""Files of ``check``: their places, refused where something is there, and contents."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from netdesign.commands.sizing import Sized, mark_names, mark_paths, render_sized
+
+if TYPE_CHECKING:
+    from netdesign.report.files import ReportStyle
+    from netdesign.report.view.whole import ReportView
+    from netdesign.study.records import Study
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outputs:
+    """Places of all files, and the style of the reports.
+
+    Attributes
+    ----------
+    of_studies : list of list of Path
+        Of each profile.
+    sized : list of list of Path
+        Of the what-if studies of ``--size``, as far as there will be any.
+    together : list of Path
+        Of the page that compares several profiles.
+    style : ReportStyle
+        Of the reports.
+    """
+
+    of_studies: list[list[Path]]
+    sized: list[list[Path]]
+    together: list[Path]
+    style: ReportStyle
+
+
+def plan_outputs(
+    folder: Path | None,
+    profiles: Sequence[str],
+    kinds: Sequence[str],
+    style: ReportStyle,
+    *,
+    size: bool,
+    is_what_if: object,
+    overwrite: bool,
+) -> Outputs:
+    """Places of the outputs of each profile, by their ids.
+
+    Raises
+    ------
+    OutputError
+        Where something is there.
+    """
+    from netdesign.edge.output import require_free
+    from netdesign.report.files import STUDY_FILE, name_files
+    from netdesign.report.page.comparison_page import PAGE_FILE
+
+    names = name_files(
+        folder, profiles, mark_names([STUDY_FILE, *kinds], is_what_if=is_what_if)
+    )
+    is_compared = folder is not None and "report.html" in kinds and len(profiles) > 1
+    page = mark_names([PAGE_FILE], is_what_if=is_what_if)
+    outputs = Outputs(
+        of_studies=names,
+        sized=mark_paths(names) if size else [],
+        together=[folder / name for name in page] if folder and is_compared else [],
+        style=style,
+    )
+    groups = (*outputs.of_studies, *outputs.sized, outputs.together)
+    require_free([path for group in groups for path in group], overwrite=overwrite)
+    return outputs
+
+
+def render_outputs(
+    outputs: Outputs,
+    studies: Sequence[Study],
+    sized: Sequence[Sized],
+    views: Sequence[ReportView],
+) -> dict[Path, bytes]:
+    """Contents of all files."""
+    from netdesign.report.files import render_files
+    from netdesign.report.page.comparison_page import render_comparison
+
+    style = outputs.style
+    files = render_files(studies, outputs.of_studies, style, views)
+    files |= render_sized(sized, outputs.sized, style)
+    for place in outputs.together:
+        files[place] = render_comparison(studies, style.language)
+    return files

@@ -1,0 +1,161 @@
+"""Places for the labels of a drawing: no two meet, few cross a line.
+
+A label is tried around its point, near first, and in the direction that suits it best;
+where it has to go further off, a thin line leads to it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from netdesign.report.drawing.figures import GREY, INK, TEXT_PT
+from netdesign.report.drawing.letters import measure_words
+from netdesign.report.drawing.sketch import Point, Sketch
+
+LINE_PT = 1.3 * TEXT_PT  # from one line of a label to the next
+_AIR = 1.5  # between two labels [pt]
+_STEP = 3.0  # between the points of a line that stand for it [pt]
+_REACHES = (4.0, 9.0, 15.0, 22.0, 30.0, 40.0, 52.0, 66.0, 82.0)
+_LED_FROM = 12.0  # reach from which a line leads to the label
+_TURNS = (0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6, -6, 7, -7, 8)  # of 22.5 degrees
+_DESCENT = 0.25  # of a letter below its line
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A rectangle on paper [pt]; y downwards."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def meets(self, other: Box, air: float = 0.0) -> bool:
+        """They overlap, or come closer than ``air``."""
+        return (
+            self.left < other.right + air
+            and other.left < self.right + air
+            and self.top < other.bottom + air
+            and other.top < self.bottom + air
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Label:
+    """Lines of text, each with its colour, that belong to a point of the drawing."""
+
+    lines: tuple[tuple[str, str], ...]
+    at: Point
+    toward: Point  # direction in which it would stand best
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height [pt]."""
+        wide = max(measure_words(text, TEXT_PT) for text, _ in self.lines)
+        return wide, LINE_PT * len(self.lines)
+
+
+@dataclass(slots=True, kw_only=True)
+class LabelBoard:
+    """Paper of a drawing, and what its labels have to leave free."""
+
+    width: float
+    height: float
+    taken: list[Box] = field(default_factory=list)
+    lines: list[Point] = field(default_factory=list)
+
+    def reserve(self, box: Box) -> None:
+        """Keep labels out of an area."""
+        self.taken.append(box)
+
+    def avoid(self, points: Sequence[Point]) -> None:
+        """Keep labels off a line where there is room elsewhere."""
+        for start, end in pairwise(points):
+            count = max(1, round(math.dist(start, end) / _STEP))
+            self.lines += [_between(start, end, k / count) for k in range(count + 1)]
+
+    def draw(self, sketch: Sketch, label: Label) -> None:
+        """Write a label where it is free."""
+        box, foot, reach = self._find(label)
+        self.taken.append(box)
+        is_right = foot[0] > box.left + (box.right - box.left) / 2
+        if reach >= _LED_FROM:
+            sketch.line([label.at, foot], stroke=GREY, width=0.4)
+            self.avoid([label.at, foot])
+        anchor, x = ("end", box.right) if is_right else ("start", box.left)
+        for place, (text, colour) in enumerate(label.lines):
+            base = box.top + (place + 1) * LINE_PT - _DESCENT * TEXT_PT
+            sketch.words((x, base), text, anchor=anchor, fill=colour)
+
+    def _find(self, label: Label) -> tuple[Box, Point, float]:
+        """Box of the label, the point of it that is nearest to its own, the reach."""
+        for avoids_lines in (True, False):
+            for box, foot, reach in self._list_places(label):
+                if self._is_free(box, avoids_lines=avoids_lines):
+                    return box, foot, reach
+        wide, tall = label.size
+        rows = range(int((self.height - tall) / LINE_PT) + 1)
+        free = (
+            box
+            for left in range(0, max(1, int(self.width - wide)), 8)
+            for row in rows
+            if self._is_free(
+                box := Box(left, row * LINE_PT, left + wide, row * LINE_PT + tall),
+                avoids_lines=False,
+            )
+        )
+        box = next(free, Box(0.0, self.height, wide, self.height + tall))
+        return box, (box.right, box.top + tall / 2), math.inf
+
+    def _list_places(self, label: Label) -> Iterator[tuple[Box, Point, float]]:
+        best = math.atan2(label.toward[1], label.toward[0])
+        for reach in _REACHES:
+            for turn in _TURNS:
+                angle = best + math.pi / 8 * turn
+                foot = (
+                    label.at[0] + reach * math.cos(angle),
+                    label.at[1] + reach * math.sin(angle),
+                )
+                yield _hang(label.size, foot, angle), foot, reach
+
+    def _is_free(self, box: Box, *, avoids_lines: bool) -> bool:
+        if box.left < 0 or box.top < 0:
+            return False
+        if box.right > self.width or box.bottom > self.height:
+            return False
+        if any(box.meets(other, _AIR) for other in self.taken):
+            return False
+        return not avoids_lines or not any(
+            box.left - 1 < x < box.right + 1 and box.top - 1 < y < box.bottom + 1
+            for x, y in self.lines
+        )
+
+
+def write_label(text: str, at: Point, toward: Point, colour: str = INK) -> Label:
+    """Label of one line."""
+    return Label(lines=((text, colour),), at=at, toward=toward)
+
+
+def _hang(size: tuple[float, float], foot: Point, angle: float) -> Box:
+    """Box of a size that begins at ``foot`` and lies in the direction ``angle``."""
+    wide, tall = size
+    left = foot[0] - wide * _share(math.cos(angle))
+    top = foot[1] - tall * _share(math.sin(angle))
+    return Box(left, top, left + wide, top + tall)
+
+
+def _share(part: float) -> float:
+    """Part of a box that lies before its foot: all, half or nothing of it."""
+    if part > 0.35:
+        return 0.0
+    return 1.0 if part < -0.35 else 0.5
+
+
+def _between(start: Point, end: Point, share: float) -> Point:
+    return (
+        start[0] + share * (end[0] - start[0]),
+        start[1] + share * (end[1] - start[1]),
+    )

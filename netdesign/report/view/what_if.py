@@ -1,0 +1,97 @@
+"""Mark of a study of no site as built, and the cells that it reads otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from netdesign.report.view.table import Table, name_columns, text_cell
+from netdesign.report.words import (
+    MISSING,
+    VerdictWords,
+    Words,
+    show_member,
+    show_text,
+    show_verdict,
+)
+from netdesign.study.records import Study
+from netdesign.study.sizing import SizedCell
+
+
+def mark_verdict(study: Study, words: Words) -> VerdictWords:
+    """Verdict of a study in words; that of a what-if is never read without its mark."""
+    plain = show_verdict(study.verdict, words)
+    if not study.what_if:
+        return plain
+    return replace(
+        plain,
+        word=words("what_if.verdict", verdict=plain.word),
+        meaning=words(
+            "what_if.meaning", meaning=plain.meaning, cells=words.join(_list(study))
+        ),
+    )
+
+
+def tell_overall(study: Study, words: Words) -> str:
+    """Verdict of a study in one line, with what it means."""
+    verdict = mark_verdict(study, words)
+    return f"{words('show.overall', verdict=verdict.word)} - {verdict.meaning}"
+
+
+def mark_title(study: Study, title: str, words: Words) -> str:
+    """Line that runs along with the pages, which says what no page may leave open."""
+    if not study.what_if:
+        return title
+    return " · ".join(one for one in (words("what_if.mark"), title) if one)
+
+
+def _list(study: Study) -> list[str]:
+    return [_tell_cell(one.cell, one.was or MISSING, one.now) for one in study.what_if]
+
+
+def _tell_cell(cell: str, was: str, now: str) -> str:
+    """Cell with what it has and what is read instead."""
+    return show_text(f"{cell}: {was} → {now}")
+
+
+def build_what_if(study: Study, words: Words) -> Table:
+    """Cells that are read otherwise than the workbook has them; empty of most sites."""
+    keys = ("what_if.cell", "what_if.was", "what_if.now")
+    headings = [words(key) for key in keys]
+    return Table(
+        caption=words("what_if.caption"),
+        columns=name_columns(headings, numbers=()),
+        rows=tuple(
+            (
+                text_cell(one.cell),
+                text_cell(one.was or MISSING),
+                text_cell(one.now),
+            )
+            for one in study.what_if
+        ),
+        empty=words("show.none"),
+    )
+
+
+def list_sized(sized: Iterable[SizedCell], words: Words) -> Sequence[str]:
+    """Lines on the smallest types that were found, or that none was."""
+    return [_tell_sized(one, words) for one in sized]
+
+
+def _tell_sized(one: SizedCell, words: Words) -> str:
+    place = {"row": show_text(one.row_id), "member": show_member(words, one.column)}
+    if not one.cell:
+        return words("what_if.no_cell", **place)
+    if not one.now:
+        return words(
+            "what_if.no_type", **place, cell=one.cell, was=one.was, count=one.tried
+        )
+    used = words.show_number("utilisation", one.used)
+    return words(
+        "what_if.type",
+        **place,
+        cell=one.cell,
+        was=one.was or MISSING,
+        now=one.now,
+        used=used,
+    )

@@ -1,0 +1,125 @@
+"""Cells of a workbook that are read as if something else were typed there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from netdesign.errors import SiteDataError
+from netdesign.site.cells.cells import Cell, Sheet, Workbook, group_by_row
+from netdesign.site.cells.findings import Finding
+from netdesign.site.model import InputEcho, NetRow, ReplacedCell
+from netdesign.words.message import Message, say
+
+_PLACE = re.compile(r"(?P<sheet>.+?)[!.](?P<column>[A-Za-z]{1,3})(?P<row>[1-9]\d{0,6})")
+
+
+def split_replacement(text: str) -> tuple[str, str] | None:
+    """Place and text of ``Nets.P8=A40``, the place as ``Nets!P8``; None of others."""
+    place, sign, value = text.partition("=")
+    found = _PLACE.fullmatch(place.strip())
+    if not sign or found is None or not value.strip():
+        return None
+    address = f"{found['column'].upper()}{found['row']}"
+    return f"{found['sheet']}!{address}", value.strip()
+
+
+def write_replacement(cell: str, value: str) -> str:
+    """The same as an option has it: with a point, which no shell takes for its own."""
+    return f"{'.'.join(cell.rsplit('!', 1))}={value}"
+
+
+def replace_cells(
+    workbook: Workbook, instead: Mapping[str, str]
+) -> tuple[Workbook, tuple[ReplacedCell, ...]]:
+    """Workbook with other texts in some cells, and what was there.
+
+    Parameters
+    ----------
+    workbook : Workbook
+        As stored.
+    instead : mapping of str to str
+        Texts by place, such as ``Nets!P8``.
+
+    Raises
+    ------
+    SiteDataError
+        With every place on a sheet that is not read, and every text that is there
+        already: a what-if that changes nothing would be the site as built.
+    """
+    findings: list[Finding] = []
+    told: list[ReplacedCell] = []
+    sheets = {sheet.name: sheet for sheet in workbook.sheets}
+    names = {name.casefold(): name for name in sheets}
+    for place, text in instead.items():
+        typed, _, address = place.rpartition("!")
+        name = names.get(typed.casefold())
+        if name is None:
+            findings.append(_refuse_sheet(workbook, typed, tuple(sheets)))
+            continue
+        cell = _find_cell(sheets[name], address)
+        if cell.text == text:
+            findings.append(_refuse_same(cell))
+            continue
+        sheets[name] = _put(sheets[name], replace(cell, value=text, formula=""))
+        told.append(ReplacedCell(cell=cell.place, was=cell.text, now=text))
+    if findings:
+        raise SiteDataError(findings)
+    return replace(workbook, sheets=tuple(sheets.values())), tuple(told)
+
+
+def _find_cell(sheet: Sheet, address: str) -> Cell:
+    letters = address.rstrip("0123456789")
+    column = 0
+    for letter in letters:
+        column = 26 * column + ord(letter) - ord("A") + 1
+    return sheet.cell(int(address[len(letters) :]), column)
+
+
+def _put(sheet: Sheet, cell: Cell) -> Sheet:
+    """Sheet with one cell, its display format taken away: that was of another value."""
+    plain = replace(
+        cell, is_error=False, is_percent=False, is_thousandth=False, shown_unit=""
+    )
+    kept = [one for line in sheet.rows.values() for one in line.values()]
+    others = [one for one in kept if (one.row, one.column) != (plain.row, plain.column)]
+    return replace(sheet, rows=group_by_row([*others, plain]))
+
+
+def _refuse_sheet(workbook: Workbook, typed: str, known: tuple[str, ...]) -> Finding:
+    return Finding(
+        file=workbook.file,
+        rule=say("what_if.no_sheet", sheet=typed),
+        accepted=say("accepted.words", words=known),
+    )
+
+
+def _refuse_same(cell: Cell) -> Finding:
+    return Finding(
+        file=cell.file,
+        sheet=cell.sheet,
+        cell=cell.address,
+        text=cell.text,
+        rule=say("what_if.same"),
+        accepted=say("what_if.another_text"),
+    )
+
+
+def tell_replaced(row: NetRow, replaced: Iterable[ReplacedCell]) -> NetRow:
+    """Net row whose inputs say what the workbook has in the place of a what-if."""
+    was = {one.cell: one.was for one in replaced}
+    if not was:
+        return row
+
+    def tell(echo: InputEcho) -> InputEcho:
+        if echo.cell not in was or echo.derivation is not None:
+            return echo
+        return replace(echo, derivation=tell_instead(was[echo.cell]))
+
+    return replace(row, inputs=tuple(map(tell, row.inputs)))
+
+
+def tell_instead(was: str) -> Message:
+    """Text that a cell of the workbook holds, which a what-if replaced."""
+    return say("what_if.instead", was=was) if was else say("what_if.instead_of_nothing")

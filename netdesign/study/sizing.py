@@ -1,0 +1,233 @@
+"""Smallest types of the workbook with which failing checks pass: each one is tried.
+
+A type is tried where the workbook names it: in its cell, with every check that follows
+from that cell, at each support. No force depends on the types that are tried here; a
+type for which that does not hold is not judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from netdesign.checks import Standard
+from netdesign.outcome import Verdict
+from netdesign.site.model import END_MODES, MEMBER_MODES, NAMED_BY, NetRow, Site
+from netdesign.structure.members import EndMember, Member
+from netdesign.study.cases import CheckRun, have_same_forces
+from netdesign.study.check_site import SolvedSite
+from netdesign.study.judge import judge_site
+from netdesign.study.records import CheckRecord, RowStudy, Study
+from netdesign.words.message import say
+
+Column = Member | EndMember
+# Site of the workbook with other texts in some of its cells.
+ReadInstead = Callable[[Mapping[str, str]], Site]
+
+_OPEN = (Verdict.FAIL, Verdict.NOT_PROVEN)
+# Of the first mode that a column's types have: it tells their sheet.
+_MODES: Mapping[Column, str] = {
+    **{column: mode for column, mode in reversed(MEMBER_MODES)},
+    **{column: mode for column, mode in reversed(END_MODES)},
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SizedCell:
+    """A cell that names a type with which some check does not pass.
+
+    Attributes
+    ----------
+    row_id, column, cell, was : str
+        Net row; member whose column it is; ``Nets!P8``, "" without such a cell; the
+        type that is there.
+    now : str
+        Smallest type with which every check of the cell passes; "" where none does.
+    used : float or None
+        Upper end of the largest utilisation of these checks, with that type [-].
+    tried : int
+        Number of types that were tried.
+    """
+
+    row_id: str
+    column: Column
+    cell: str
+    was: str
+    now: str = ""
+    used: float | None = None
+    tried: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Slot:
+    """A cell that names a type, with the checks that follow from it."""
+
+    row_id: str
+    column: Column
+    cell: str
+    was: str
+    checks: tuple[str, ...]  # their ids
+    types: tuple[str, ...]  # of its sheet
+
+    def choose(self, number: int) -> str | None:
+        """Type of a trial; None where all were tried."""
+        return self.types[number] if number < len(self.types) else None
+
+
+def size_site(
+    solved: SolvedSite,
+    study: Study,
+    standard: Standard,
+    run: CheckRun,
+    read: ReadInstead,
+) -> list[SizedCell]:
+    """Find the smallest type for every cell whose checks do not all pass.
+
+    The smallest is the one that is used most while everything passes; of two alike the
+    first by its name.
+
+    Parameters
+    ----------
+    solved : SolvedSite
+        The site as built, solved.
+    study : Study
+        Of it, under the profile ``standard``.
+    standard : Standard
+        Limit profile.
+    run : CheckRun
+        Settings of the run.
+    read : callable
+        Gives the site with other texts in some cells; refuses what the workbook does.
+
+    Returns
+    -------
+    list of SizedCell
+        In the order of rows and columns; empty where every check passes.
+    """
+    slots = [
+        slot
+        for row, given in zip(study.rows, solved.site.rows, strict=True)
+        for slot in _list_slots(row, given, solved.site)
+    ]
+    placed = [slot for slot in slots if slot.cell]
+    found: dict[str, dict[str, float]] = {slot.cell: {} for slot in placed}
+    for number in range(max((len(slot.types) for slot in placed), default=0)):
+        trial = {slot: kind for slot in placed if (kind := slot.choose(number))}
+        for slot, used in _try_types(trial, solved, study, standard, run, read):
+            found[slot.cell][trial[slot]] = used
+    return [_choose(slot, found.get(slot.cell, {})) for slot in slots]
+
+
+def _choose(slot: _Slot, passing: Mapping[str, float]) -> SizedCell:
+    best = min(passing, key=lambda kind: (-passing[kind], kind), default="")
+    return SizedCell(
+        row_id=slot.row_id,
+        column=slot.column,
+        cell=slot.cell,
+        was=slot.was,
+        now=best,
+        used=passing.get(best),
+        tried=len(slot.types) if slot.cell else 0,
+    )
+
+
+def _list_slots(row: RowStudy, given: NetRow, site: Site) -> Iterator[_Slot]:
+    """Cells of a row that name a type with which some check does not pass."""
+    checks: dict[tuple[Column, str, str], list[CheckRecord]] = {}
+    for check in row.checks:
+        column = _find_column(check.member)
+        if column is not None:
+            place = _find_cell(given, column, check.position)
+            checks.setdefault((column, *place), []).append(check)
+    for (column, cell, was), members in checks.items():
+        if any(one.verdict in _OPEN for one in members):
+            yield _Slot(
+                row_id=row.id,
+                column=column,
+                cell=cell,
+                was=was,
+                checks=tuple(one.id for one in members),
+                types=tuple(
+                    one.type_id
+                    for one in site.catalogue
+                    if one.mode == _MODES[column] and one.type_id != was
+                ),
+            )
+
+
+def _find_column(member: str) -> Column | None:
+    """Column that names the type of a member; None of the net."""
+    named: dict[str, Column] = {one: one for one in _MODES}
+    column = named.get(member)
+    return NAMED_BY.get(column, column) if isinstance(column, Member) else column
+
+
+def _find_cell(row: NetRow, column: Column, position: str) -> tuple[str, str]:
+    """Cell that names a type, and the type; of an end its own, where it has one."""
+    echoes = {echo.label: echo for echo in row.inputs}
+    at_end = echoes.get(say(f"column.Ends.{column}"))
+    inside = echoes.get(say(f"column.Nets.{column}"))
+    is_at_end = position == "edge" or isinstance(column, EndMember)
+    echo = at_end if is_at_end and at_end is not None else inside
+    if echo is None or "!" not in echo.cell:
+        return "", ""
+    return echo.cell, str(echo.value)
+
+
+def _try_types(
+    trial: Mapping[_Slot, str],
+    solved: SolvedSite,
+    study: Study,
+    standard: Standard,
+    run: CheckRun,
+    read: ReadInstead,
+) -> Iterator[tuple[_Slot, float]]:
+    """Cells that pass with their types of a trial, each with its utilisation."""
+    site = read({slot.cell: kind for slot, kind in trial.items()})
+    wanted = {slot.row_id for slot in trial}
+    old = zip(solved.site.rows, solved.rows, strict=True)
+    by_id = {row.id: (row, of_row) for row, of_row in old}
+    rows = [
+        row
+        for row in site.rows
+        if row.id in wanted
+        and have_same_forces(
+            row, site.ranges, by_id[row.id][0], solved.site.ranges, run
+        )
+    ]
+    judged = judge_site(
+        replace(site, rows=tuple(rows)),
+        [by_id[row.id][1] for row in rows],
+        standard,
+        run,
+    )
+    built = {row.id: row for row in study.rows}
+    for row in judged.rows:
+        for slot in trial:
+            if slot.row_id == row.id:
+                used = _rate(slot, built[row.id].checks, row.checks)
+                if used is not None:
+                    yield slot, used
+
+
+def _rate(
+    slot: _Slot, built: Iterable[CheckRecord], tried: Sequence[CheckRecord]
+) -> float | None:
+    """Largest utilisation of a cell's checks, at most 1; None if any does not pass.
+
+    A check that is declared as proven elsewhere stays so; no other becomes one. A type
+    may bring checks of its own: a bar bends where a rope anchor turns.
+    """
+    declared = {one.id for one in built if one.verdict is Verdict.DECLARED}
+    places = {one.position for one in tried if one.id in slot.checks}
+    used = 0.0
+    for one in tried:
+        is_of_slot = _find_column(one.member) == slot.column and one.position in places
+        if one.id not in slot.checks and not is_of_slot:
+            continue
+        if one.verdict is Verdict.DECLARED and one.id in declared:
+            continue
+        if one.verdict is not Verdict.PASS:
+            return None
+        used = max(used, one.utilisation_band[1] or 0.0)
+    return used

@@ -1,0 +1,44 @@
+"""What to do when a row fails: told where one does, in every language."""
+
+import pytest
+
+from netdesign.commands.next_steps import TUTORIAL, list_next_steps, tell_next_steps
+from netdesign.outcome import Verdict
+from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.report.build_study import build_study
+
+HEADING = "## What to do when a row fails"
+
+
+def keys(*verdicts, is_sized=False):
+    steps = list_next_steps(set(verdicts), "my site.xlsx", is_sized=is_sized)
+    return [one.key.partition(".")[2] for one in steps]
+
+
+def test_each_verdict_has_its_own_steps():
+    assert keys(Verdict.PASS) == []
+    assert keys(Verdict.PASS, Verdict.DECLARED) == []
+    assert keys(Verdict.FAIL) == ["heading", "inputs", "size", "again", "more"]
+    assert keys(Verdict.NOT_PROVEN) == ["heading", "inputs", "open", "again", "more"]
+    both = keys(Verdict.FAIL, Verdict.NOT_PROVEN, is_sized=True)
+    assert both == ["heading", "inputs", "open", "again", "more"]
+
+
+def test_the_command_can_be_copied():
+    steps = list_next_steps({Verdict.FAIL}, "my site.xlsx", is_sized=False)
+    told = "\n".join(map(str, steps))
+    assert "netdesign check 'my site.xlsx' --size" in told
+    assert str(TUTORIAL) in told
+    assert HEADING in TUTORIAL.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_they_are_told_in_the_language_of_the_run(language, capsys):
+    tell_next_steps([build_study()], "site.xlsx", language, is_sized=False)
+    told = capsys.readouterr()
+    assert told.out == ""
+    texts = load_texts(language)
+    for key in ("next.heading", "next.inputs", "next.open"):
+        assert texts[key] in told.err
+    tell_next_steps([build_study(rows=1)], "site.xlsx", language, is_sized=False)
+    assert capsys.readouterr().err == ""

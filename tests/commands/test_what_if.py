@@ -1,0 +1,85 @@
+"""``check --size`` and ``--what-if``: never taken for the site as built."""
+
+import json
+
+import pytest
+
+from tests.short_example import write_short_example
+
+QUICK = ("--accuracy", "0.0512345678", "--jobs", "1", "--quiet")
+BARE = ("--no-html", "--no-excel")
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory):
+    return tmp_path_factory.mktemp("store") / "cases.sqlite"
+
+
+@pytest.fixture
+def site(tmp_path, monkeypatch, store):
+    monkeypatch.setenv("NETDESIGN_STORE", str(store))
+    write_short_example(tmp_path / "site.xlsx", ["R7"])
+    return tmp_path
+
+
+def read_study(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
+    ended = call("check", "site.xlsx", *QUICK, "--size", "--out", "a", *BARE)
+    assert ended.code == 1, ended.err  # of the site as built
+    assert "smallest type of the workbook that passes is A40-tested" in ended.out
+    built, sized = (read_study(site / f"a/{n}study.json") for n in ("", "what-if-"))
+    assert (built["verdict"], built["what_if"]) == ("fail", [])
+    assert sized["verdict"] == "pass"
+    assert sized["what_if"] == [
+        {"cell": "Nets!P2", "was": "A28-computed", "now": "A40-tested"}
+    ]
+    command = sized["provenance"]["command"]
+    assert "--size" not in command.split()
+    assert command.endswith("--what-if Nets.P2=A40-tested")
+    given = ("--what-if", "Nets.P2=A40-tested")
+    ended = call("check", "site.xlsx", *QUICK, *given, "--out", "b", *BARE)
+    assert ended.code == 0, ended.err
+    assert [path.name for path in (site / "b").iterdir()] == ["what-if-study.json"]
+    assert read_study(site / "b/what-if-study.json")["rows"] == sized["rows"]
+    options = ("--site", "site.xlsx", "--out", "c", "--no-excel", "--detail", "summary")
+    again = call("report", "a/what-if-study.json", *options)
+    assert again.code == 0, again.err
+    assert [path.name for path in (site / "c").iterdir()] == ["what-if-report.html"]
+
+
+def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
+    options = ("--what-if", "Nets.P2=A40-tested", *BARE)
+    assert call("check", "site.xlsx", *QUICK, *options, "--out", "a").code == 0
+    place = site / "a/what-if-study.json"
+    study = read_study(place)
+    for change in ({"what_if": []}, {"command": "netdesign check site.xlsx"}):
+        altered = json.loads(json.dumps(study)) | {"digest": ""}
+        if "command" in change:
+            altered["what_if"] = []
+            altered["provenance"] |= change
+        else:
+            altered |= change
+        place.write_text(json.dumps(altered), encoding="utf-8")
+        refused = call("report", place, "--site", "site.xlsx", "--out", "b")
+        assert refused.code not in (0, 5), refused.err
+        assert not (site / "b").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--what-if", "P2=A40"), "accepted is CELL=TEXT"),
+        (("--what-if", "Nets.P2=A40-tested", "--what-if", "Nets!p2=x"), "given twice"),
+        (("--what-if", "Nets.ZZ2=1"), "Nets!ZZ2: nothing that is read of the site"),
+        (("--what-if", "Nets.P2=A40-tested", "--size"), "looks for the cells itself"),
+        (("--size", "--json"), "give --out"),
+        (("--size", "--dry-run"), "leave --dry-run out"),
+    ],
+)
+def test_options_that_say_nothing_are_refused(site, call, options, said):
+    ended = call("check", "site.xlsx", *options)
+    assert ended.code == 2
+    assert said in " ".join(ended.err.split())

@@ -1,0 +1,298 @@
+"""Drawings of untidy rows: long distances, tiny angles, large forces, many axes."""
+
+import math
+import random
+from dataclasses import replace
+from datetime import date, timedelta
+
+import numpy as np
+
+from netdesign.coupling.face import Face
+from netdesign.report.drawing.envelope_figure import draw_envelope
+from netdesign.report.drawing.envelope_maps import draw_drivers, draw_lines, draw_maps
+from netdesign.report.drawing.head_figure import draw_head
+from netdesign.report.drawing.monitoring_figure import draw_monitoring
+from netdesign.report.drawing.net_figures import draw_node_forces, draw_stick_slip
+from netdesign.report.drawing.panel_figure import draw_panel
+from netdesign.report.drawing.section_figure import draw_section
+from netdesign.report.drawing.winter_figure import draw_winter
+from netdesign.study.case_records import CasePoint
+from netdesign.study.envelope_records import (
+    AxisRecord,
+    BoundRecord,
+    DriverRecord,
+    EnvelopeRecord,
+    LineRecord,
+    MapRecord,
+)
+from netdesign.study.records import MonitoringRecord
+from netdesign.study.support_records import (
+    Arrow,
+    Drawing,
+    HeadForce,
+    PanelDrawing,
+    PanelRecord,
+    RopeRecord,
+)
+from tests.report.build_study import build_row
+
+AXES = {
+    "density_kg_m3": (203.7, 487.3),
+    "friction_deg": (11.9, 44.7),
+    "inclination_deg": (17.3, 37.9),
+    "thickness_m": (1.27, 4.83),
+    "upslope_length_m": (8.3, 27.1),
+    "slack": (0.0103, 0.1297),
+    "stiffness_kN_per_m": (2130.0, 24700.0),
+    "slip_length_m": (0.013, 13.7),
+}
+
+
+def draw_all(rng: random.Random, words) -> list[str]:
+    """Every kind of drawing once, of values drawn with ``rng``."""
+    envelope = build_envelope(rng)
+    return [
+        draw_section(build_section(rng), "s", words),
+        *(draw(envelope, words) for draw in (draw_maps, draw_lines, draw_drivers)),
+        draw_head(build_head(rng), words),
+        draw_panel(build_panel(rng), words),
+        draw_winter(build_winter(rng), {"2023-01-05": -12.5, "2023-02-05": 3.1}, words),
+    ]
+
+
+def draw_slow(rng: random.Random, words) -> list[str]:
+    """The kinds that matplotlib writes, and the grid of cases."""
+    face = build_face(rng)
+    row = build_row("A", 5, scale=rng.uniform(0.05, 9.0), failed_case=True)
+    return [
+        draw_envelope(row, words),
+        draw_monitoring([build_monitoring(rng)], "m", words),
+        draw_node_forces(face, "f", words),
+        draw_stick_slip(face, "t", words),
+    ]
+
+
+def build_section(rng: random.Random) -> Drawing:
+    """Section of any proportions that a layout allows."""
+    height = rng.uniform(0.9, 6.2)
+    lean = math.radians(rng.uniform(0.0, 40.0))
+    head = (height * math.tan(lean), height)
+    base = head[0] - height * math.tan(math.radians(rng.uniform(-30.0, 45.0)))
+    uphill = rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
+    downhill = base + rng.choice([0.0, rng.uniform(0.2, 3.0) * height])
+    shares = np.linspace(0.0, 1.0, 25)
+    sag = rng.uniform(0.0, 0.15) * height * 4 * shares * (1 - shares)
+    thickness = height * rng.uniform(0.5, 1.0)
+    net = [(head[0] * s + f, head[1] * s) for s, f in zip(shares, sag, strict=True)]
+    points = {
+        "foot_anchor": (0.0, 0.0),
+        "uphill_anchor": (-uphill, 0.0),
+        "downhill_anchor": (downhill, 0.0),
+        "post": (base, 0.0),
+    }
+    return Drawing(
+        case=CasePoint(
+            density_kg_m3=412.0, friction_deg=17.3, inclination_deg=math.degrees(lean)
+        ),
+        slope_deg=rng.uniform(22.0, 62.0),
+        snow_thickness_m=thickness,
+        net_m=[(float(x), float(y)) for x, y in net],
+        sticks=[rng.random() < 0.7 for _ in net],
+        mesh_edges_m=[],
+        head_m=head,
+        post_base_m=points["post"],
+        uphill_anchor_m=points["uphill_anchor"],
+        downhill_anchor_m=points["downhill_anchor"],
+        arrows=[_pull(rng, name, at, head) for name, at in points.items()],
+        pressure_kPa=[
+            None, None, *(rng.uniform(-2.0, 80.0) for _ in net[4:]), None, None,
+        ],
+    )  # fmt: skip
+
+
+def _pull(rng, name, at, head):
+    size = rng.choice([0.0, 10 ** rng.uniform(-0.5, 3.2)])
+    across, up = head[0] - at[0], head[1] - at[1]
+    length = math.hypot(across, up)
+    sign = -1.0 if name == "post" else 1.0
+    return Arrow(
+        member=name,
+        x_m=at[0],
+        y_m=at[1],
+        force_x_kN=sign * size * across / length,
+        force_y_kN=sign * size * up / length,
+    )
+
+
+def build_envelope(rng: random.Random) -> EnvelopeRecord:
+    """One member over three to eight quantities."""
+    keys = list(AXES)[: rng.randint(3, 8)]
+    size = 10 ** rng.uniform(-0.5, 3.3)
+    return EnvelopeRecord(
+        axes=[AxisRecord(key=key, low=AXES[key][0], high=AXES[key][1]) for key in keys],
+        is_per_metre=False,
+        is_closed=True,
+        gap_asked_percent=1.0,
+        certainty=3.0,
+        resolved_share=0.6,
+        cases=50,
+        skipped=0,
+        skips_tested=0,
+        failed=0,
+        bounds=[_build_bound(rng, keys, size)],
+        log=[],
+    )
+
+
+def _build_bound(rng, keys, size):
+    densities, frictions = (np.linspace(*AXES[key], 9).tolist() for key in keys[:2])
+    force = [size * (0.5 + 0.05 * k) for k in range(9)]
+    angles = np.linspace(*AXES["inclination_deg"], rng.randint(1, 3)).tolist()
+    return BoundRecord(
+        quantity=rng.choice(["foot_anchor", "downhill_guy", "uphill_guy"]),
+        max_kN=size,
+        upper_bound_kN=1.013 * size,
+        case={key: rng.choice(AXES[key]) for key in keys},
+        coincident_kN={},
+        unexplained=0.001,
+        drivers=[
+            DriverRecord(
+                key=key, at_low_kN=0.5 * size, at_high_kN=size, least_kN=0.5 * size,
+                most_kN=size, first_order=0.3, total=0.4,
+            )
+            for key in keys
+        ],
+        flips=[],
+        lines=[
+            LineRecord(
+                key=key, values=np.linspace(*AXES[key], 9).tolist(), force_kN=force,
+                bound_kN=[1.01 * one for one in force],
+            )
+            for key in keys
+        ],
+        maps=[
+            MapRecord(
+                inclination_deg=angle, density_kg_m3=densities, friction_deg=frictions,
+                force_kN=[force] * 9,
+            )
+            for angle in angles
+        ],
+        confirmation=None,
+    )  # fmt: skip
+
+
+def build_head(rng: random.Random) -> list[HeadForce]:
+    """Three or four forces that close."""
+    members = ["net", "post", "uphill_guy", "downhill_guy"][: rng.randint(3, 4)]
+    size = 10 ** rng.uniform(0.0, 3.0)
+    forces = [(rng.gauss(0, size), rng.gauss(0, size)) for _ in members[1:]]
+    forces.append((-sum(x for x, _ in forces), -sum(y for _, y in forces)))
+    return [
+        HeadForce(member=member, x_kN=x, y_kN=y)
+        for member, (x, y) in zip(members, forces, strict=True)
+    ]
+
+
+def build_panel(rng: random.Random) -> PanelRecord:
+    """Panel from flat to tall."""
+    half, height = rng.uniform(1.0, 3.5), rng.uniform(1.5, 5.5)
+    head = (height * math.tan(math.radians(rng.uniform(0.0, 38.0))), height)
+    places = np.linspace(0.05, half, 9).tolist()
+    size = 10 ** rng.uniform(0.5, 3.0)
+    tensions = [size * (1.0 + 0.01 * k) for k in range(9)]
+    ropes = [
+        RopeRecord(**_fill_rope(name, f"2 x {rng.choice(['B22', 'GALFAN 26'])}"))
+        for name in ("lower", "upper")
+    ]
+    pull = (rng.uniform(0, size), rng.uniform(0, size))
+    drawing = PanelDrawing(
+        case=CasePoint(density_kg_m3=400.0, friction_deg=15.0, inclination_deg=25.0),
+        places_m=places,
+        post_head_m=head,
+        lower_m=[(0.2 * z, 0.05 * z) for z in places],
+        upper_m=[(head[0] + 0.2 * z, head[1] - 0.2 * z) for z in places],
+        mid_net_m=[(0.0, 0.0), head],
+        rope_places_m=places,
+        lower_tensions_kN=tensions,
+        upper_tensions_kN=[0.9 * one for one in tensions],
+        foot_kN=pull,
+        mid_foot_kN=pull,
+        head_kN=(pull[0], -pull[1]),
+        section_foot_kN=pull,
+        section_head_kN=pull,
+        lower_along_kN=rng.uniform(0.5, 1.5) * size,
+        upper_along_kN=rng.uniform(0.5, 1.5) * size,
+    )
+    return PanelRecord(
+        cut="upper", has_mid_anchors=False, ropes=ropes, extremes=[], drawing=drawing
+    )
+
+
+def _fill_rope(name, kind):
+    return {
+        "rope": name, "type": kind, "stiffness_kN": 1e4, "sag": 0.06,
+        "along_kN": 90.0, "tension_kN": 100.0, "breaking_kN": 300.0, "cell": "Ends!B2",
+    }  # fmt: skip
+
+
+def build_winter(rng: random.Random) -> dict:
+    """Some weeks to more than a year of snow, its marks anywhere."""
+    first, count = date(2022, 10, 3), rng.choice([21, 160, 400])
+    days = [first + timedelta(days=k) for k in range(0, count, 7)]
+    size = 10 ** rng.uniform(0.0, 2.5)
+    curve = [
+        {
+            "date": f"{day}",
+            "thickness_m": 0.3 + 2.0 * math.sin(k / len(days) * math.pi),
+            "density_kg_m3": 300.0,
+            "layers": [],
+            "foot_kN_per_m": size * (1 + k % 5),
+            "head_kN_per_m": size * (1 + k % 4),
+            "members_kN": {
+                "foot_anchor": size * (5 + k), "uphill_guy": size, "post": size * 4
+            },
+        }
+        for k, day in enumerate(days)
+    ]  # fmt: skip
+    return {
+        "name": "2022/23",
+        "curve": curve,
+        "height_max_date": f"{rng.choice(days)}",
+        "governing_date": f"{rng.choice(days)}",
+    }
+
+
+def build_face(rng: random.Random) -> Face:
+    """Plane face under a pressure that varies."""
+    heights = np.linspace(0.0, rng.uniform(1.0, 6.0), 25)
+    pressure = 10 ** rng.uniform(2.0, 5.0) * (1.2 + np.sin(heights))
+    forces = np.array([pressure, -0.2 * pressure]) * (heights[1] - heights[0])
+    return Face(
+        points=np.array([0.4 * heights, heights]),
+        forces=forces,
+        slides=heights > 0.6 * heights[-1],
+        friction=0.5,
+        is_quadratic=False,
+    )
+
+
+def build_monitoring(rng: random.Random) -> MonitoringRecord:
+    """Measured and modelled series that end together or apart."""
+    last = rng.uniform(3.0, 200.0)
+    times = [last * k / 9 for k in range(10)]
+    return MonitoringRecord(
+        member="uphill_guy",
+        source="Monitoring!A2",
+        times_d=times,
+        tensions_kN=[10.0 + k for k in range(10)],
+        air_temperatures_C=[-5.0 - k for k in range(10)],
+        model_times_d=times,
+        model_kN=[19.0 + rng.uniform(-0.5, 0.5)] * 10,
+        model_start="sagged",
+        model_reason=None,
+    )
+
+
+def without_pressure(drawing: Drawing) -> Drawing:
+    """The same section as an earlier version kept it."""
+    return replace(drawing, pressure_kPa=[])

@@ -1,0 +1,42 @@
+"""Labels of all drawings in a real browser: none meets another, none leaves the paper.
+
+The rows are drawn at random, untidier than any site: boxes are those that the browser
+gives the text in its own font.
+"""
+
+import random
+
+import pytest
+
+from netdesign.report.drawing.section_figure import draw_section
+from netdesign.report.words import Words
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.drawing.drawn import (
+    build_section,
+    draw_all,
+    draw_slow,
+    without_pressure,
+)
+from tests.report.printing import list_meeting
+
+SEED, ROWS = 20261122, 12
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_label_meets_another_or_leaves_its_drawing(language, tmp_path):
+    rng, words = random.Random(SEED), Words(language)
+    drawings = [svg for _ in range(ROWS) for svg in draw_all(rng, words)]
+    drawings += draw_slow(rng, words)
+    drawings.append(draw_section(without_pressure(build_section(rng)), "o", words))
+    assert all(drawings)
+    assert list_meeting(drawings, tmp_path) == []
+
+
+def test_labels_that_meet_are_found(tmp_path):
+    """The measurement itself: one text over another, one beyond the edge."""
+    svg = (
+        '<svg role="img" aria-label="x" width="300" height="60" viewBox="0 0 300 60">'
+        '<text x="20" y="30">one word</text><text x="30" y="32">other</text>'
+        '<text x="280" y="50">too far</text></svg>'
+    )
+    assert list_meeting([svg], tmp_path) == ["other / one word: x", "too far: x"]

@@ -1,0 +1,97 @@
+"""Profiles beside each other by name: what the reports of each of them say."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.report.page.comparison_page import render_comparison
+from netdesign.report.view.check_view import find_governing
+from netdesign.report.view.comparison import compare_profiles
+from netdesign.report.words import VERDICTS, Words
+from netdesign.site.model import ReplacedCell
+from netdesign.study.cases import solve_site
+from netdesign.study.judge import judge_site
+from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.report.reading import PageReader
+from tests.small_site import ROWS, RUN, build_row, build_site, resist
+
+NAMES = ("nf-p-95-304-style", "eurocode", "onr-24805-style")
+
+
+@pytest.fixture(scope="module")
+def studies():
+    """Two rows, one with an anchor that only some of the profiles accept."""
+    between = resist(foot_anchor__pull_out=BETWEEN)
+    site = build_site(build_row("R7b", resistances=between), ROWS[1])
+    solved = solve_site(site, RUN)
+    return [judge_site(site, solved, load_standard(name), RUN) for name in NAMES]
+
+
+BETWEEN = 511e3  # [N], on the free ground of the first row
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_member_has_its_verdict_utilisation_and_clause(studies, language):
+    words, view = Words(language), compare_profiles(studies, language)
+    assert len(view.rows) == 2
+    for place, table in enumerate(view.rows):
+        for line in table.rows:
+            for study, cell in zip(studies, line[1:], strict=True):
+                checks = [
+                    one
+                    for one in study.rows[place].checks
+                    if one.action is not None
+                    and words(f"member.{one.member}") == line[0].text
+                ]
+                if not checks:
+                    continue
+                worst = find_governing(checks)
+                assert cell.text.startswith(VERDICTS[worst.verdict].symbol)
+                if worst.utilisation is not None:
+                    shown = words.show_number("utilisation", worst.utilisation)
+                    assert f" {shown}" in cell.text
+                assert worst.clause == "-" or worst.clause in cell.text
+    listed = [cells[0].text for cells in view.rows[0].rows]
+    assert words("member.foot_anchor") in listed
+    assert listed[-1] == load_texts(language)["heading.rest"]
+
+
+def test_verdicts_that_depend_on_the_profile_are_named(studies):
+    verdicts = {
+        find_governing(
+            [one for one in study.rows[0].checks if one.member == "foot_anchor"]
+        ).verdict
+        for study in studies
+    }
+    assert len(verdicts) > 1, "the drawn resistance tells no profiles apart"
+    told = compare_profiles(studies).told
+    assert "R7b Foot anchor" in told
+    same = compare_profiles([studies[0], studies[0]])
+    assert same.told == load_texts("en")["compare.same"]
+    assert same.values.rows == ()
+
+
+def test_values_stand_by_name_where_they_differ(studies):
+    table = compare_profiles(studies).values
+    named = {line[0].text: [cell.text for cell in line[1:]] for line in table.rows}
+    values = [{v.id: v.value for v in study.profile.values} for study in studies]
+    for name in set().union(*values):
+        differs = len({one.get(name) for one in values}) > 1
+        assert differs <= (name in named), name
+    assert named["resistance.pull_out.tested"] == ["1.35", "1.15", "1.2"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_page_shows_all_of_it(studies, language):
+    page = render_comparison(studies, language).decode()
+    text = " ".join(" ".join(PageReader(page).text).split())
+    view = compare_profiles(studies, language)
+    for table in (view.verdicts, *view.rows, view.values):
+        for line in table.rows:
+            for cell in line:
+                assert " ".join(cell.text.split()) in text
+    assert view.mark == ""
+    cell = ReplacedCell(cell="Nets!P8", was="a", now="b")
+    marked = render_comparison([replace(one, what_if=[cell]) for one in studies])
+    assert marked.decode().count(load_texts("en")["what_if.mark"]) == 2

@@ -1,0 +1,65 @@
+"""A what-if is marked on every output, in every language."""
+
+import io
+import zipfile
+from dataclasses import replace
+
+import pytest
+from rich.console import Console
+
+from netdesign.report.document.word import render_document
+from netdesign.report.page.html import render_html
+from netdesign.report.terminal import print_summary
+from netdesign.report.view.whole import build_view
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.site.model import ReplacedCell
+from netdesign.words.catalogue import LANGUAGES, load_texts
+from tests.report.build_study import build_study
+
+BUILT = build_study()
+CELL = ReplacedCell(cell="Nets!P8", was="A28-old", now="A40-new")
+STUDY = replace(BUILT, what_if=[CELL])
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_output_says_that_it_is_no_site_as_built(language):
+    texts, view = load_texts(language), build_view(STUDY, language)
+    mark = texts["what_if.mark"]
+    assert view.verdict.word != build_view(BUILT, language).verdict.word
+    assert view.verdict.word == texts["what_if.verdict"].format(
+        verdict=texts[f"verdict.{STUDY.verdict}"]
+    )
+    assert view.running_title.startswith(mark)
+    page = render_html(STUDY, language, "summary", view).replace("&#39;", "'")
+    document = render_document(STUDY, language, "summary", view)
+    book = render_workbook(STUDY, language, view)
+    shown = {
+        "page": page[page.index("<h1>") :],
+        "document": unpack(document, "word/document.xml"),
+        "workbook": unpack(book, "xl/sharedStrings.xml"),
+        "terminal": print_out(view, language),
+    }
+    for name, text in shown.items():
+        for said in (mark, CELL.cell, CELL.was, CELL.now):
+            assert said in text, (name, said)
+    assert page.index(mark) < page.index("</title>")
+
+
+def unpack(content, part):
+    with zipfile.ZipFile(io.BytesIO(content)) as packed:
+        return packed.read(part).decode()
+
+
+def print_out(view, language):
+    console = Console(file=io.StringIO(), width=400)
+    print_summary(STUDY, console, language, view)
+    return console.file.getvalue()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_site_as_built_has_no_mark(language):
+    view = build_view(BUILT, language)
+    mark = load_texts(language)["what_if.mark"]
+    assert (view.mark, view.what_if.rows) == ("", ())
+    assert mark not in view.running_title
+    assert mark not in print_out(view, language)

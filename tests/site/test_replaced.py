@@ -1,0 +1,83 @@
+"""Cells that are read as if something else were typed there."""
+
+import pytest
+
+from netdesign.errors import SiteDataError
+from netdesign.site.reader import read_site
+from netdesign.site.replaced import split_replacement, write_replacement
+from tests.short_example import write_short_example
+
+
+@pytest.fixture(scope="module")
+def workbook(tmp_path_factory):
+    path = tmp_path_factory.mktemp("site") / "site.xlsx"
+    write_short_example(path, ["R4", "R7"])
+    return path
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("Nets.P8=A40-tested", ("Nets!P8", "A40-tested")),
+        ("Nets!p8= 3,0 m ", ("Nets!P8", "3,0 m")),
+        ("site.Nets.AB12=a=b", ("site.Nets!AB12", "a=b")),
+        ("P8=A40", None),
+        ("Nets.P8", None),
+        ("Nets.P8=", None),
+        ("Nets.P0=1", None),
+    ],
+)
+def test_a_replacement_names_sheet_cell_and_text(text, found):
+    assert split_replacement(text) == found
+    if found:
+        assert split_replacement(write_replacement(*found)) == found
+
+
+def test_a_replaced_cell_is_read_and_told(workbook):
+    built = read_site(workbook)
+    site = read_site(workbook, instead={"Nets!P3": "A40-tested", "Ranges!D2": "431"})
+    ids = {one.type_id for one in site.rows[1].resistances_at("intermediate")}
+    assert "A40-tested" in ids
+    assert site.ranges["density"].high == 431.0
+    assert site.rows[0] == built.rows[0]
+    (told,) = [e for e in site.rows[1].inputs if e.cell == "Nets!P3"]
+    assert str(told.derivation) == "what-if: the workbook has A28-computed"
+    assert [(one.cell, one.was, one.now) for one in site.what_if] == [
+        ("Nets!P3", "A28-computed", "A40-tested"),
+        ("Ranges!D2", "400", "431"),
+    ]
+    assert built.what_if == ()
+    assert site.sha256 == built.sha256
+
+
+@pytest.mark.parametrize(
+    ("place", "text", "rule"),
+    [
+        ("Netz!P3", "A40-tested", "has no sheet Netz that is read"),
+        ("Nets!P3", "A28-computed", "that is what the workbook has"),
+        ("Nets!P3", "A41", "is no id of sheet Anchors"),
+        ("Anchors!B2", "strong", "not a number"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_its_place(workbook, place, text, rule):
+    with pytest.raises(SiteDataError) as caught:
+        read_site(workbook, instead={place: text})
+    (finding,) = caught.value.findings
+    assert rule in str(finding.message)
+
+
+def test_the_catalogue_holds_types_that_no_row_uses(workbook):
+    site = read_site(workbook)
+    used = {one.type_id for row in site.rows for one in row.resistances}
+    listed = {one.type_id for one in site.catalogue if one.mode == "pull_out"}
+    assert listed - used, "all of them are used: the test has no point"
+    values = {
+        (one.type_id, one.mode): one.value
+        for row in site.rows
+        for one in row.resistances
+        if not one.dimensions and one.type_id
+    }
+    known = {(one.type_id, one.mode): one.value for one in site.catalogue}
+    shared = values.keys() & known.keys()
+    assert len(shared) >= 5
+    assert all(values[key] == known[key] for key in shared)

@@ -1,0 +1,128 @@
+"""Smallest types that pass, tried cell by cell; what-ifs that are solved again."""
+
+from dataclasses import replace
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.outcome import Verdict
+from netdesign.site.reader import read_site
+from netdesign.solving.runner import Runner
+from netdesign.study.check_site import solve_rows
+from netdesign.study.sizing import size_site
+from tests.short_example import write_short_example
+from tests.small_site import ROWS, RUN, build_site
+
+PROFILE = load_standard("nf-p-95-304-style")
+
+
+class Nobody:
+    def enter(self, key):
+        """No phase is told."""
+
+    tell_wave = enter
+
+    def count_piece(self):
+        """Nor a check."""
+
+
+def solve(site, known=None):
+    return solve_rows(site, RUN, Runner(), Nobody(), known)
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    """Site, its workbook, and its rows solved; judged without what would turn it."""
+    path = tmp_path_factory.mktemp("site") / "site.xlsx"
+    write_short_example(path, ["R7"])
+    site = read_site(path)
+    return path, solve(site)
+
+
+def judge(solved):
+    from netdesign.study.judge import judge_site
+
+    return judge_site(solved.site, solved.rows, PROFILE, RUN)
+
+
+def size(example, **changes):
+    path, solved = example
+    read = lambda instead: read_site(path, instead={**changes, **instead})  # noqa: E731
+    site = read({}) if changes else solved.site
+    solved = replace(solved, site=site)
+    study = judge(solved)
+    return study, size_site(solved, study, PROFILE, RUN, read), read
+
+
+def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
+    """Each type of the sheet is judged here again, one at a time."""
+    study, cells, read = size(example)
+    assert study.verdict is Verdict.FAIL
+    assert [(one.row_id, one.column, one.cell) for one in cells] == [
+        ("R7", "foot_anchor", "Nets!P2")
+    ]
+    for one in cells:
+        uses = {}
+        for kind in {other.type_id for other in read({}).catalogue}:
+            if not kind.startswith("A") or kind == one.was:
+                continue
+            again = judge(replace(example[1], site=read({one.cell: kind})))
+            (row,) = [row for row in again.rows if row.id == one.row_id]
+            checks = [c for c in row.checks if c.member == "foot_anchor"]
+            assert len(checks) >= 4
+            if all(check.verdict is Verdict.PASS for check in checks):
+                uses[kind] = max(c.utilisation_band[1] or 0.0 for c in checks)
+        assert one.now == max(uses, key=uses.get)
+        assert one.used == pytest.approx(uses[one.now], rel=1e-12)
+        assert one.used <= 1.0
+
+
+def test_without_a_type_that_does_nothing_is_claimed(example):
+    """Every type of the sheet too weak for the free ground of R7."""
+    weak = {f"Anchors!C{line}": str(21.5 + line) for line in (2, 3, 4, 5, 7)}
+    _, cells, _ = size(example, **weak)
+    (last,) = [
+        one for one in cells if (one.row_id, one.column) == ("R7", "foot_anchor")
+    ]
+    assert (last.now, last.used) == ("", None)
+    assert last.tried == 5
+
+
+def test_a_site_that_passes_has_nothing_to_replace(example):
+    study, cells, _ = size(example, **{"Nets!P2": "A40-tested"})
+    assert study.verdict is Verdict.PASS
+    assert cells == []
+    assert [one.cell for one in study.what_if] == ["Nets!P2"]
+
+
+def test_only_rows_with_other_forces_are_solved_again():
+    """The net's stiffness changes a force, a type of anchor does not."""
+    built = build_site(*ROWS)
+    known = solve(built)
+    softer = replace(ROWS[0], net_stiffness_per_m=3.1e6)
+    stronger = replace(ROWS[1], resistances=ROWS[0].resistances[::-1])
+    again = solve(build_site(softer, stronger), known)
+    assert again.rows[1] is known.rows[1]
+    afresh = solve(build_site(softer, stronger))
+    found, old, new = (
+        [one.member_forces["foot_anchor"].value for one in rows[0].results]
+        for rows in (again.rows, known.rows, afresh.rows)
+    )
+    assert found == new
+    assert all(one != other for one, other in zip(found, old, strict=True))
+
+
+def test_ranges_that_differ_are_solved_again():
+    built = build_site(*ROWS)
+    known = solve(built)
+    other = replace(built.ranges["density"], high=412.5)
+    ranges = replace(
+        built.ranges,
+        intervals=tuple(
+            (name, other if name == "density" else span)
+            for name, span in built.ranges.intervals
+        ),
+    )
+    again = solve(replace(built, ranges=ranges), known)
+    densities = {one.case.density for row in again.rows for one in row.results}
+    assert max(densities) == 412.5
