@@ -53,9 +53,10 @@ def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
 
 @needs_compiler
 def test_a_library_of_another_text_is_not_taken(tmp_path, monkeypatch):
+    monkeypatch.delenv(library.SWITCH, raising=False)
     hook = load_hook()
     path = tmp_path / "_core.so"
-    assert hook.compile_core(ROOT, hook.find_compiler(), path) == ""
+    assert hook.compile_core(ROOT, hook.find_compiler(), path, ("-O0",)) == ""
     assert isinstance(library._load(path), ctypes.PyDLL)
     library._load.cache_clear()
     monkeypatch.setattr(library, "digest_sources", lambda: "of another")
@@ -72,6 +73,7 @@ def test_every_c_file_is_compiled():
 @needs_compiler
 def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
     hook = load_hook()
+    monkeypatch.delenv(library.SWITCH, raising=False)
     assert hook.find_compiler()
     monkeypatch.setenv(library.SWITCH, library.SWITCHED_OFF)
     assert hook.find_compiler() is None
@@ -82,7 +84,8 @@ def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
 
 
 @needs_compiler
-def test_a_compiler_that_fails_is_told(tmp_path):
+def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
+    monkeypatch.delenv(library.SWITCH, raising=False)
     hook = load_hook()
     path = tmp_path / "_core.so"
     fault = hook.compile_core(ROOT, hook.find_compiler(), path, ("-DPOINTS=[",))
