@@ -1,7 +1,7 @@
-/* Equilibrium curve of an elastic cable under nodal forces.
+/* Equilibrium curve of an elastic cable under nodal forces, and the lengths of its parts.
  *
- * The kernel of cable/funicular.py, with the steps of numerics/newton.py. Theory:
- * cable/THEORY.md, (C1) to (C5). */
+ * The kernels of cable/funicular.py, with the steps of numerics/newton.py, and of
+ * cable/parted.py. Theory: cable/THEORY.md, (C1) to (C5b). */
 #include "core.h"
 
 #include <math.h>
@@ -150,5 +150,101 @@ EXPORT int32_t nd_hang(int32_t n, const double *forces, const double *lengths,
     int32_t fault = close_gap(&cable, tolerance, pull);
     fill_results(&cable, pull, curve, tension, ends);
     free(cable.offsets);
+    return fault;
+}
+
+enum { MOST_PARTED = 30, MOST_HALVINGS = 20 };
+
+/* A cable whose parts, of given shares, have to rise so far. */
+typedef struct {
+    Cable cable;             /* its lengths are not used */
+    int32_t n_parts;
+    const int64_t *firsts;   /* (n_parts,): first element of each part */
+    const double *shares;    /* (n,): of an element in its part */
+    const double *rises;     /* (n_parts,) */
+    double head_x, length;
+} Parted;
+
+/* Lengths of the parts under a pull (C5a), gaps of (C5b), their derivatives; gives the
+ * size of the gaps, not finite where a part does not rise. */
+static double evaluate_parts(const Parted *to, const double *pull, double *lengths,
+                             double *gap, double slope[2][2]) {
+    const Cable *cable = &to->cable;
+    int is_risen = 1;
+    gap[0] = -to->head_x;
+    gap[1] = -to->length;
+    slope[0][0] = slope[0][1] = slope[1][0] = slope[1][1] = 0.0;
+    for (int32_t part = 0; part < to->n_parts; part++) {
+        double mean[2] = {0.0, 0.0}, turn[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, sum = 0.0;
+        int64_t end = part + 1 < to->n_parts ? to->firsts[part + 1] : cable->n;
+        for (int64_t i = to->firsts[part]; i < end; i++)
+            for (int q = 0; q < 2; q++) {
+                double v[2] = {pull[0] + cable->offsets[q * cable->n + i],
+                               pull[1] + cable->offsets[(2 + q) * cable->n + i]};
+                double size = hypot(v[0], v[1]), half = to->shares[i] / 2.0;
+                double give = half * (1.0 / size + 1.0 / cable->stiffness);
+                sum += give;
+                for (int a = 0; a < 2; a++) {
+                    mean[a] += give * v[a];
+                    for (int c = 0; c < 2; c++)
+                        turn[a][c] -= half * v[c] / (size * size * size) * v[a];
+                }
+            }
+        double length = to->rises[part] / mean[1];
+        lengths[part] = length;
+        is_risen = is_risen && length > 0.0;
+        gap[0] += length * mean[0];
+        gap[1] += length;
+        for (int c = 0; c < 2; c++) {
+            double longer = -length / mean[1] * (turn[1][c] + (c == 1 ? sum : 0.0));
+            slope[0][c] += longer * mean[0] + (turn[0][c] + (c == 0 ? sum : 0.0)) * length;
+            slope[1][c] += longer;
+        }
+    }
+    return is_risen ? hypot(gap[0], gap[1]) : INFINITY;
+}
+
+/* Damped Newton steps to lengths that leave no gap. */
+static int close_parts(const Parted *to, double *pull, double *lengths) {
+    double gap[2], slope[2][2], step[2], then[2];
+    double miss = evaluate_parts(to, pull, lengths, gap, slope);
+    for (int count = 0; count < MOST_PARTED; count++) {
+        if (miss <= 1e-12 * to->length) return FINE;
+        if (!isfinite(miss)) return OPEN;
+        double determinant = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+        step[0] = -(gap[0] * slope[1][1] - gap[1] * slope[0][1]) / determinant;
+        step[1] = -(gap[1] * slope[0][0] - gap[0] * slope[1][0]) / determinant;
+        double before = miss;
+        for (int halved = 0; halved < MOST_HALVINGS; halved++) {
+            then[0] = pull[0] + step[0];
+            then[1] = pull[1] + step[1];
+            miss = evaluate_parts(to, then, lengths, gap, slope);
+            if (miss < before) break;
+            step[0] /= 2.0;
+            step[1] /= 2.0;
+        }
+        pull[0] += step[0];
+        pull[1] += step[1];
+    }
+    return OPEN;
+}
+
+/* Lengths (n_parts,) of the parts of a cable of n elements in equilibrium; ``pull`` (2,)
+ * is where to start, and the end. OPEN if none is found in which every part rises. */
+EXPORT int32_t nd_part(int32_t n, int32_t n_parts, const double *forces,
+                       const double *shares, const int64_t *firsts, const double *rises,
+                       double head_x, double length, double stiffness, double *pull,
+                       double *lengths) {
+    if (n < 1 || n_parts < 1) return BAD_INPUT;
+    for (int32_t part = 0; part < n_parts; part++)
+        if (firsts[part] < 0 || firsts[part] >= n) return BAD_INPUT;
+    Parted to = {.cable = {.n = n, .forces = forces, .stiffness = stiffness},
+                 .n_parts = n_parts, .firsts = firsts, .shares = shares, .rises = rises,
+                 .head_x = head_x, .length = length};
+    to.cable.offsets = malloc(4 * (size_t)n * sizeof(double));
+    if (!to.cable.offsets) return NO_MEMORY;
+    fill_offsets(&to.cable);
+    int32_t fault = close_parts(&to, pull, lengths);
+    free(to.cable.offsets);
     return fault;
 }

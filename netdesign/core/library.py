@@ -43,7 +43,7 @@ def _load(path: Path) -> ctypes.PyDLL | None:
             return None
     except (OSError, AttributeError):  # not built, or for another machine
         return None
-    for name in ("nd_plan", "nd_step", "nd_residual", "nd_place", "nd_hang"):
+    for name in ("nd_plan", "nd_step", "nd_residual", "nd_place", "nd_hang", "nd_part"):
         getattr(library, name).restype = ctypes.c_int32
     return library
 

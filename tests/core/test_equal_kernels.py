@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from netdesign.cable.funicular import solve_funicular
+from netdesign.cable.parted import PartedCable, part_cable
 from netdesign.core.library import find_core
 from netdesign.outcome import Outcome
 from netdesign.snow.flow_step import compute_residual
@@ -68,3 +69,34 @@ def test_a_cable_without_equilibrium(fault, in_numpy):
         drawn = (forces, lengths, stiffness, head, start)
         found, expected = solve_funicular(*drawn), in_numpy(solve_funicular, *drawn)
     assert found.outcome is expected.outcome is Outcome.NO_EQUILIBRIUM
+
+
+def draw_parted(number):
+    """A cable of some parts, forces and a start near or far from the equilibrium."""
+    rng = np.random.default_rng([37, number])
+    sizes = rng.integers(1, 6, int(rng.integers(2, 6)))
+    shares = np.concatenate([one / one.sum() for one in map(rng.random, sizes)])
+    rises = rng.uniform(0.2, 1.0, sizes.size)
+    cable = PartedCable(
+        shares=shares,
+        firsts=np.append(0, np.cumsum(sizes)[:-1]),
+        rises=rises,
+        head_x=float(rng.uniform(0.0, 0.5)),
+        length=float(rises.sum() * rng.uniform(1.02, 1.3)),
+        stiffness=float(10.0 ** rng.uniform(1.0, 4.0)),
+    )
+    pushed = rng.choice([0.0, -20.0])  # down: some parts cannot rise
+    forces = rng.normal([[0.5], [pushed]], 0.2, (2, 2 * shares.size + 1)) / shares.size
+    return cable, forces, rng.normal([0.0, 1.0], 0.4)
+
+
+def test_parts_of_cables_are_those_of_numpy(in_numpy):
+    found = 0
+    for number in range(60):
+        drawn = draw_parted(number)
+        lengths, expected = part_cable(*drawn), in_numpy(part_cable, *drawn)
+        assert (lengths is None) == (expected is None)
+        if expected is not None:
+            compare(lengths, expected, 1e-10)
+            found += 1
+    assert 10 < found < 60

@@ -2,6 +2,7 @@
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 
 import pytest
 
@@ -22,12 +23,24 @@ def assert_equal(scene, in_numpy):
     """Same outcome; forces to 1e-8, or a tenth of the error where contacts branch."""
     found = solve_steady(scene, SETTINGS)
     expected = in_numpy(solve_steady, scene, SETTINGS)
-    assert found.outcome is expected.outcome
+    if found.outcome is not expected.outcome:
+        assert hangs_on_rounding(scene, in_numpy)
+        return
     if not isinstance(expected, Solution):
         return
     for one, other in ((found.foot, expected.foot), (found.head, expected.head)):
         apart = math.hypot(one.x - other.x, one.y - other.y)
         assert apart <= max(1e-8 * other.size, other.error / 10.0)
+
+
+def hangs_on_rounding(scene, in_numpy):
+    """The outcome in NumPy is another for a net stiffer by some 1e-10."""
+    outcomes = set()
+    for number in range(12):
+        stiffness = scene.net.stiffness_per_m * (1.0 + number * 1e-10)
+        close = replace(scene, net=replace(scene.net, stiffness_per_m=stiffness))
+        outcomes.add(in_numpy(solve_steady, close, SETTINGS).outcome)
+    return len(outcomes) > 1
 
 
 @pytest.mark.parametrize("name", ["slipping-part", "dense-firn", "weak-base"])
