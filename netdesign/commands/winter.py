@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +30,13 @@ from netdesign.commands.site_input import (
 )
 from netdesign.commands.solving import open_phases, solving_options
 from netdesign.commands.usage import UsageRefusal
+from netdesign.commands.winter_fit import (
+    SOLVES,
+    fit_options,
+    fit_rows,
+    require_measured_forces,
+    tell_fit,
+)
 from netdesign.edge.streams import print_json
 from netdesign.outcome import Verdict
 from netdesign.words.message import say
@@ -36,6 +44,7 @@ from netdesign.words.message import say
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from netdesign.commands.winter_fit import FitChoice
     from netdesign.files.winter import WinterRun
     from netdesign.site.cells.cells import TextFormat
     from netdesign.site.model import Site, StationWinter
@@ -77,6 +86,7 @@ EXAMPLE_HEIGHTS = "winter_2000.csv"
 @click.option(
     "--accept-heights", is_flag=True, help="However little or much snow that is."
 )
+@fit_options
 @accuracy_option("Relative error allowed in every end force.", default=0.01)
 @solving_options
 @out_option(f"Folder of the outputs [{_FOLDER}; with --json none].")
@@ -94,6 +104,7 @@ def winter(
     every: int,
     median: bool,
     accept_heights: bool,
+    fit: FitChoice | None,
     accuracy: float,
     jobs: int | None,
     executor: str,
@@ -112,10 +123,12 @@ def winter(
     netdesign winter site.xlsx --out winter
     netdesign winter site.xlsx --heights station.csv --model hs2swe
     netdesign winter site.xlsx --row R1 --every 1 --json > winter.json
+    netdesign winter site.xlsx --fit --noise 0.05 --known slack
 
     Daily snow heights become layers, each day's snow is solved at rest: forces against
     date, the governing day, annual maxima of many winters, and a range of density that
-    sheet Ranges may use. Exit code 4 if a winter has no proven maximum.
+    sheet Ranges may use. With measured forces --fit narrows the force to
+    design for. Exit code 4 if a winter has no proven maximum, or a fit is refused.
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.files.winter import write_winter_document
@@ -138,8 +151,10 @@ def winter(
         site, heights, text_format, median, example=example, language=language
     )
     chosen = _choose_rows(site, row_ids)
+    if fit:
+        require_measured_forces(chosen)
     with open_phases(
-        _list_phases(chosen),
+        _list_phases(chosen, is_fitted=fit is not None),
         processes=jobs or os.cpu_count() or 1,
         executor=executor,
         cache=cache,
@@ -157,6 +172,8 @@ def winter(
             is_smoothed=median,
             is_checked=not accept_heights,
         )
+        if fit:
+            run = replace(run, fits=fit_rows(run, fit, runner))
     failed = tell_faults(runner.faults, language)
     document = write_winter_document(run, language)
     if folder:
@@ -165,8 +182,17 @@ def winter(
         write_files(files, overwrite=force)
     _show(document, language, as_json=as_json)
     report_places([names], language, quiet=quiet or as_json)
-    proven = all(one["is_proven"] for row in document["rows"] for one in row["winters"])
-    sys.exit(failed or (0 if proven else EXIT_CODES[Verdict.NOT_PROVEN]))
+    sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _is_proven(document: dict[str, Any]) -> bool:
+    """Every winter has a proven maximum, and no fit is refused."""
+    rows = document["rows"]
+    return all(
+        all(one["is_proven"] for one in row["winters"])
+        and (row["fit"] is None or row["fit"]["outcome"] == "fitted")
+        for row in rows
+    )
 
 
 def _read_site(site_file: Path | None, **reading: Any) -> Site:
@@ -186,7 +212,6 @@ def _find_heights(
     language: Language,
 ) -> StationWinter:
     """Heights of the file, else those of the site, else those of the example."""
-    from dataclasses import replace
     from importlib.resources import as_file, files
 
     from netdesign.site.winter_sheet import read_height_file
@@ -207,8 +232,6 @@ def _find_heights(
 
 def _choose_rows(site: Site, row_ids: Sequence[str]) -> Site:
     """Site with the rows asked for alone."""
-    from dataclasses import replace
-
     known = tuple(row.id for row in site.rows)
     unknown = tuple(one for one in row_ids if one not in known)
     if unknown:
@@ -217,10 +240,10 @@ def _choose_rows(site: Site, row_ids: Sequence[str]) -> Site:
     return replace(site, rows=rows)
 
 
-def _list_phases(site: Site) -> list[Any]:
+def _list_phases(site: Site, *, is_fitted: bool) -> list[Any]:
     from netdesign.edge.progress import Phase
 
-    count = _PHASE * len(site.rows)
+    count = (_PHASE + SOLVES * is_fitted) * len(site.rows)
     return [
         Phase(key="winters", words=say("phase.winters"), cases=count, most=4 * count)
     ]
@@ -303,3 +326,5 @@ def _show(document: dict[str, Any], language: Language, *, as_json: bool) -> Non
             )
         if row["equivalent_density"]:
             tell(row["equivalent_density"]["justification"], language)
+        if row["fit"]:
+            tell_fit(row["id"], row["fit"], language)

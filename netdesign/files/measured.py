@@ -52,7 +52,7 @@ def _write_one(one: Comparison, series: HeightSeries) -> dict[str, Any]:
         "computed_over_measured": one.mean_ratio,
         "scatter": one.scatter,
         "readings_in_band": one.inside,
-        "amplitude_assumed": any(day.is_assumed for day in one.computed),
+        "temperature_amplitude_assumed": any(day.is_assumed for day in one.computed),
         "readings": [
             {"time": moment.isoformat(), "force_kN": kilonewton_from_newton(force)}
             for moment, force in zip(one.pulls.moments, one.pulls.forces, strict=True)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from netdesign.checks.result import Band
 from netdesign.files.measured import write_measured
+from netdesign.files.winter_fit import write_fit
 from netdesign.site.model import Site, StationWinter
 from netdesign.snowpack.pack import DayPack
 from netdesign.units import (
@@ -17,6 +18,7 @@ from netdesign.units import (
 )
 from netdesign.winter.compared import Comparison
 from netdesign.winter.day import RowDay, WinterRow
+from netdesign.winter.fit import SeasonFit
 from netdesign.winter.gumbel import RETURN_PERIODS, Gumbel
 from netdesign.winter.maxima import AnnualMaximum
 from netdesign.winter.row_winters import RowWinters, StationPacks, list_complete
@@ -51,6 +53,8 @@ class WinterRun:
         Of each solve [-].
     step : int
         Days between those of a curve.
+    fits : mapping of str to SeasonFit
+        To measured forces, by row; empty where none was asked for.
     """
 
     site: Site
@@ -62,6 +66,7 @@ class WinterRun:
     is_smoothed: bool
     accuracy: float
     step: int
+    fits: Mapping[str, SeasonFit] = field(default_factory=dict)
 
 
 def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str, Any]:
@@ -122,6 +127,7 @@ def _write_row(
     packs = run.packs.packs[result.model]
     seasons = {season.name: season for season in result.seasons}
     complete = list_complete(run.winter.series)
+    fitted = run.fits.get(row.id)
     winters = [
         _write_winter(maximum, packs[maximum.winter], seasons.get(maximum.winter), run)
         | {
@@ -149,7 +155,7 @@ def _write_row(
         "winters": winters,
         "statistics": _write_statistics(result.statistics, result.maxima, complete),
         "equivalent_density": _write_range(result, run, language),
-        "fit": None,
+        "fit": write_fit(fitted, run.winter.series, language) if fitted else None,
     }
 
 

@@ -18,7 +18,7 @@ def store(tmp_path_factory):
 @pytest.fixture
 def site(tmp_path, monkeypatch, store):
     monkeypatch.setenv("NETDESIGN_STORE", str(store))
-    write_short_example(tmp_path / "site.xlsx", ["R7"])
+    write_short_example(tmp_path / "site.xlsx", ["R6"])
     return tmp_path
 
 
@@ -28,18 +28,18 @@ def read_study(path):
 
 def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
     ended = call("check", "site.xlsx", *QUICK, "--size", "--out", "a", *BARE)
-    assert ended.code == 1, ended.err  # of the site as built
-    assert "smallest type of the workbook that passes is A40-tested" in ended.out
+    assert ended.code == 4, ended.err  # of the site as built
+    assert "smallest type of the workbook that passes is A28-computed" in ended.out
     built, sized = (read_study(site / f"a/{n}study.json") for n in ("", "what-if-"))
-    assert (built["verdict"], built["what_if"]) == ("fail", [])
+    assert (built["verdict"], built["what_if"]) == ("not_proven", [])
     assert sized["verdict"] == "pass"
     assert sized["what_if"] == [
-        {"cell": "Nets!P2", "was": "A28-computed", "now": "A40-tested"}
+        {"cell": "Nets!P2", "was": "A25-untested", "now": "A28-computed"}
     ]
     command = sized["provenance"]["command"]
     assert "--size" not in command.split()
-    assert command.endswith("--what-if Nets.P2=A40-tested")
-    given = ("--what-if", "Nets.P2=A40-tested")
+    assert command.endswith("--what-if Nets.P2=A28-computed")
+    given = ("--what-if", "Nets.P2=A28-computed")
     ended = call("check", "site.xlsx", *QUICK, *given, "--out", "b", *BARE)
     assert ended.code == 0, ended.err
     assert [path.name for path in (site / "b").iterdir()] == ["what-if-study.json"]
@@ -51,7 +51,7 @@ def test_sizing_writes_a_study_that_its_own_command_makes_again(site, call):
 
 
 def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
-    options = ("--what-if", "Nets.P2=A40-tested", *BARE)
+    options = ("--what-if", "Nets.P2=A28-computed", *BARE)
     assert call("check", "site.xlsx", *QUICK, *options, "--out", "a").code == 0
     place = site / "a/what-if-study.json"
     study = read_study(place)
@@ -72,9 +72,9 @@ def test_a_what_if_cannot_be_passed_off_as_the_site(site, call):
     ("options", "said"),
     [
         (("--what-if", "P2=A40"), "accepted is CELL=TEXT"),
-        (("--what-if", "Nets.P2=A40-tested", "--what-if", "Nets!p2=x"), "given twice"),
+        (("--what-if", "Nets.P2=A28", "--what-if", "Nets!p2=x"), "given twice"),
         (("--what-if", "Nets.ZZ2=1"), "Nets!ZZ2: nothing that is read of the site"),
-        (("--what-if", "Nets.P2=A40-tested", "--size"), "looks for the cells itself"),
+        (("--what-if", "Nets.P2=A28-computed", "--size"), "looks for the cells itself"),
         (("--size", "--json"), "give --out"),
         (("--size", "--dry-run"), "leave --dry-run out"),
     ],

@@ -2,6 +2,7 @@
 
 import json
 
+import openpyxl
 import pytest
 
 from netdesign.words.catalogue import LANGUAGES
@@ -116,3 +117,49 @@ def test_medians_are_taken_where_asked_for(call, site, tmp_path):
     (winter,) = smoothed["rows"][0]["winters"]
     assert winter["height_max_m"] == 1.0
     assert plain["rows"][0]["winters"][0]["height_max_m"] == 1.9
+
+
+def write_monitoring(path, lines):
+    book = openpyxl.load_workbook(path)
+    if "Monitoring" in book.sheetnames:
+        del book["Monitoring"]
+    sheet = book.create_sheet("Monitoring")
+    sheet.append(["net row", "member", "time [d]", "date and time", "tension [kN]"])
+    for line in lines:
+        sheet.append(line)
+    book.save(path)
+
+
+def test_measured_forces_stand_beside_the_chain(call, heights, tmp_path):
+    path, folder = tmp_path / "site.xlsx", tmp_path / "out"
+    write_short_example(path, ["R2"])
+    hours = [
+        f"2003-02-{day:02d} {hour:02d}:00"
+        for day in range(4, 14)
+        for hour in (2, 9, 21)
+    ]
+    lines = [["R2", "foot anchor", None, at, 8.0 + k] for k, at in enumerate(hours)]
+    lines += [["R2", "post", 3.5, None, 20.0]]
+    write_monitoring(path, lines)
+    ended = call("winter", path, "--heights", heights, "--out", folder, *QUICK)
+    assert ended.code == 0
+    document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
+    (row,) = document["rows"]
+    (one,) = row["measured"]
+    (winter,) = row["winters"]
+    assert (one["member"], one["winter"]) == ("foot_anchor", "2002/2003")
+    assert len(one["readings"]) == 30
+    assert one["readings"][3] == {"time": "2003-02-05T02:00:00", "force_kN": 11.0}
+    by_day = {day["date"]: day for day in winter["curve"]}
+    for day in one["computed"]:
+        force = by_day[day["date"]]["members_kN"].get("foot_anchor", 0.0)
+        assert day["force_kN"] == force
+        assert day["low_kN"] <= force <= day["high_kN"]
+    assert one["temperature_amplitude_assumed"] is False
+    assert 0.0 <= one["readings_in_band"] <= 1.0
+    (told,) = row["not_compared"]
+    assert "measured times without a date" in told
+    page = (folder / "winter.html").read_text(encoding="utf-8")
+    assert page.count("<svg") == 2
+    assert "Foot anchor: measured and computed force per support" in page
+    assert told in page

@@ -6,7 +6,7 @@ import subprocess
 from tests.programs import require_program
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-PAPER_PX = 680  # width of the print area at 96 dots per inch: 210 mm less both margins
+PAPER_PX = 695  # width of the print area at 96 dots per inch: 210 mm less both margins
 PHONE_PX = 400
 _QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage")
 # What lies further right than the page, each with the section that it stands in; what
@@ -26,7 +26,7 @@ document.body.innerHTML = "<pre>" + found.join("\\n") + "</pre>";
 def count_pages(page: str, folder) -> int:
     """Pages on A4."""
     target = folder / "report.pdf"
-    _open(page, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
+    open_page(page, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
     return len(re.findall(rb"/Type\s*/Page\b", target.read_bytes()))
 
 
@@ -37,7 +37,7 @@ def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[s
         page = page.replace("@media print", "@media all")
         page = page.replace("@media screen", "@media speech")
     page = page.replace("</body>", _MEASURE.replace("WIDTH", str(width)))
-    tree = _open(page, folder, f"--window-size={width},2000", "--dump-dom")
+    tree = open_page(page, folder, f"--window-size={width},2000", "--dump-dom")
     (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
     return told.split("\n") if told else []
 
@@ -74,7 +74,7 @@ def list_meeting(drawings: list[str], folder) -> list[str]:
     style = "body { font-family: Arial, sans-serif; } svg { display: block; }"
     figures = "".join(f"<figure>{svg}</figure>" for svg in drawings)
     page = f"<html><style>{style}</style><body>{figures}</body></html>"
-    tree = _open(page.replace("</body>", _MEETING), folder, "--dump-dom")
+    tree = open_page(page.replace("</body>", _MEETING), folder, "--dump-dom")
     (told,) = re.findall("<pre>(.*?)</pre>", tree, flags=re.DOTALL)
     return told.split("\n") if told else []
 
@@ -91,12 +91,13 @@ def list_hidden(page: str, folder) -> set[str]:
     page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
     page = page.replace("@media print", "@media all").replace("</body>", _HIDDEN)
     (told,) = re.findall(
-        "<pre>(.*?)</pre>", _open(page, folder, "--dump-dom"), re.DOTALL
+        "<pre>(.*?)</pre>", open_page(page, folder, "--dump-dom"), re.DOTALL
     )
     return set(told.split())
 
 
-def _open(page: str, folder, *arguments: str) -> str:
+def open_page(page: str, folder, *arguments: str) -> str:
+    """What the browser prints of a page."""
     path = folder / "page.html"
     path.write_text(page, encoding="utf-8")
     return subprocess.run(

@@ -54,8 +54,12 @@ def size(example, **changes):
     return study, size_site(solved, study, PROFILE, RUN, read), read
 
 
+@pytest.mark.slow
 def test_the_type_that_is_found_passes_and_every_smaller_one_does_not(example):
-    """Each type of the sheet is judged here again, one at a time."""
+    """Each type of the sheet is judged here again, one at a time.
+
+    ``python -m pytest -m slow tests/study/test_sizing.py``
+    """
     study, cells, read = size(example)
     assert study.verdict is Verdict.FAIL
     assert [(one.row_id, one.column, one.cell) for one in cells] == [

@@ -36,6 +36,14 @@ def a_scene(ground=None, net_height=3.0, **changes):
     )
 
 
+def loaded(density, thickness, ground):
+    """Scene under uniform snow."""
+    snow = Snowpack(
+        slope_angle=SLOPE, thickness=thickness, upslope_length=20.0, density=density
+    )
+    return replace(a_scene(ground), snowpack=snow)
+
+
 def a_solver(ground=None, accuracy=0.01, factor=1.0, layout=None, **changes):
     row = WinterRow(
         id="A", scene=a_scene(ground, **changes), height_factor=factor, layout=layout

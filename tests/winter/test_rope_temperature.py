@@ -13,13 +13,12 @@ import pytest
 from netdesign.coupling.scene import SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.snow.ground import GroundLaw
-from netdesign.snow.snowpack import Snowpack
 from netdesign.winter.rope_temperature import (
     find_amplitude,
     find_half_time,
     find_swing,
 )
-from tests.winter.made_up_row import SLOPE, a_scene
+from tests.winter.made_up_row import loaded
 from tests.winter.rope_histories import follow_lengths
 
 DAY = 86400.0
@@ -28,13 +27,6 @@ ALPHA = 1.2e-5  # of steel [1/K]
 AT_ONCE = 2e7 * ALPHA * COOLED  # [N/m]
 NO_SLIP = GroundLaw(kind="no-slip")
 SLIDES = GroundLaw(kind="sliding", slip_length=4.7)
-
-
-def loaded(density, thickness, ground):
-    snow = Snowpack(
-        slope_angle=SLOPE, thickness=thickness, upslope_length=20.0, density=density
-    )
-    return replace(a_scene(ground), snowpack=snow)
 
 
 @pytest.mark.parametrize(

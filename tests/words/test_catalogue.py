@@ -23,6 +23,7 @@ FAMILIES: tuple[str, ...] = (
     *("evidence.", "law.", "termination.", "verdict.", "meaning.", "factor."),
     "creep_law.",
     *("winter_column.", "winter_outcome.", "day_outcome."),
+    *("fit_page.", "fit_case.", "fit_parameter."),
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",

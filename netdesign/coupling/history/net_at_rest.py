@@ -99,7 +99,9 @@ def hang_polygon(
     else:  # a head that hardly stands above the snow counts as level with it
         curve = curve + np.outer(problem.head - curve[:, -1], fractions)
         end = end[:, :0]
-    chord = np.outer(curve[:, -1], curve[:, -1] @ curve / (curve[:, -1] ** 2).sum())
+    # from foot to head: where the net stands above thin snow it is the fold at the
+    # surface that takes up the slack, and the top moves with the sag
+    chord = np.outer(problem.head, problem.head @ curve / (problem.head**2).sum())
 
     def unstress(sag: float) -> Floats:
         points = (chord + sag * (curve - chord))[:, ::2]

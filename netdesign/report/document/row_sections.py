@@ -207,13 +207,11 @@ class RowWriter:
         if row.searched:
             self.to.text(row.searched)
             for one in drawn.searched[:1]:
-                key = "caption.maps" if one.maps else "caption.lines"
-                self.to.figure(one.maps or one.lines, t(key))
+                self.to.figure(one.maps or one.lines)
             self.to.table(row.bounds)
             return
         if drawn.envelope:
-            told = (t("caption.envelope_grid"), row.unloaded)
-            self.to.figure(drawn.envelope, " ".join(one for one in told if one))
+            self.to.figure(drawn.envelope, row.unloaded)
         else:
             self.to.none(t("heading.no_case_converged"))
         self.to.subheading("heading.largest_forces")

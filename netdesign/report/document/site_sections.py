@@ -175,7 +175,8 @@ def write_basis(to: Writer, view: ReportView, *, is_full: bool) -> None:
     to.subheading("heading.scope")
     to.items(view.scope)
     to.subheading("heading.reading")
-    to.paragraph(symbols(t("caption.checks", legend=view.legend)))
+    for sentence in view.reading:
+        to.paragraph(symbols(sentence))
     to.subheading("heading.ranges")
     to.table(view.ranges)
     to.subheading("heading.inputs")

@@ -12,6 +12,7 @@ from netdesign.report.drawing.figures import (
     GREY,
     INK,
     PALE,
+    SOFT,
     TEXT_PT,
     WIDTH_IN,
     use_style,
@@ -221,7 +222,7 @@ def _draw_mark(axes: Axes, mark: Mark) -> None:
         textcoords="offset points",
         ha="right",
         va="top",
-        color="#596069",
+        color=SOFT,
         fontsize=TEXT_PT,
     )
 
@@ -253,7 +254,7 @@ def _label_group(axes: Axes, group: Sequence[tuple[Any, Line]], drop: float) -> 
             xytext=(3, -drop),
             textcoords="offset points",
             va="center",
-            color=ACCENT if line.is_accent else shade,
+            color=ACCENT if line.is_accent else INK if shade == INK else SOFT,
         )
 
 

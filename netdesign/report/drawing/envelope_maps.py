@@ -35,7 +35,7 @@ from netdesign.study.envelope_records import (
 from netdesign.words.names import name
 
 _LEFT, _GAP, _RIGHT = 36.0, 34.0, 46.0  # beside and between panels [pt]
-_HEAD, _PANEL, _FOOT = 26.0, 60.0, 24.0  # heights of a row of panels [pt]
+_HEAD, _PANEL, _FOOT = 25.0, 60.0, 19.0  # heights of a row of panels [pt]
 _ACROSS = 4  # lines side by side; more go below
 _SMALLEST = 1e-9  # of the largest force: below it a member counts as unloaded
 _OVERLAP = 0.5  # of the cells of a map: no white lines between them [pt]

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INK = "#1b1e22"
-GREY = "#7d838b"
+GREY = "#7d838b"  # of lines; words of that grey are too pale to read
+SOFT = "#596069"
 PALE = "#d3d7dc"
 SNOW = "#f3f5f7"
 ACCENT = "#b23a1e"  # forces and what governs; nothing else

@@ -175,7 +175,8 @@ def _label_time(chart: Chart, span: Span, bottom: float) -> None:
             x = frame.x(span.place(datetime.combine(day, time())))
             chart.line(((x, bottom), (x, bottom + 3.0)), stroke=GREY)
             label = f"{day:%m/%Y}" if is_long else f"{day:%d/%m}"
-            chart.text(x + 2.0, bottom + TEXT_PT + 4.0, label)
+            if x < frame.left + frame.width - 2.0:
+                chart.text(x + 2.0, bottom + TEXT_PT + 4.0, label)
         day += timedelta(days=1)
         count += 1
 

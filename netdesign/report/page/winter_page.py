@@ -13,6 +13,7 @@ from netdesign.edge.given_files import make_printable
 from netdesign.report.drawing.measured_figure import draw_measured, find_detail
 from netdesign.report.drawing.winter_figure import draw_winter
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.page.winter_fit import view_fit
 from netdesign.report.view.table import (
     Cell,
     Table,
@@ -111,6 +112,7 @@ def _view_row(
             view for one in row["measured"] for view in _view_measured(one, air, words)
         ],
         "not_compared": [show_text(text) for text in row["not_compared"]],
+        "fit": view_fit(row["fit"], document["check_density_kg_m3"][1], words),
         "figures": [
             {
                 "svg": mark_safe(draw_winter(winter, air, words)),
@@ -157,7 +159,7 @@ def _describe_measured(one: Mapping[str, Any], words: Words) -> str:
         }
         found.append(words("winter_measured.apart", **apart))
     found.append(words("winter_measured.swing"))
-    if one["amplitude_assumed"]:
+    if one["temperature_amplitude_assumed"]:
         found.append(words("winter_measured.assumed"))
     return " ".join(found)
 

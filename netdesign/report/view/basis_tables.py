@@ -10,6 +10,7 @@ from netdesign.report.view.tables import ASSUMED, DEFAULT, list_settings
 from netdesign.report.words import (
     MISSING,
     Words,
+    name_heading,
     show_text,
     understand,
 )
@@ -17,6 +18,19 @@ from netdesign.study.notes import tell_evidence
 from netdesign.study.records import Study
 from netdesign.words.message import say
 
+_READING = (
+    "caption.arrows",
+    "reading.pressure",
+    "caption.maps",
+    "caption.lines",
+    "caption.envelope_grid",
+    "caption.on_paper",
+    "reading.search",
+    "reading.holds",
+    "reading.directions",
+    "caption.drivers",
+    "reading.sobol",
+)
 _SCOPE = ("scope.treated", "scope.not_treated", "scope.decision")
 _MODEL = (
     "assumption.plane_strain",
@@ -33,6 +47,24 @@ _ALTITUDE = say("column.Nets.altitude")
 def list_scope(words: Words) -> tuple[str, ...]:
     """Scope: what is treated, what is not, and who decides."""
     return tuple(words(key) for key in _SCOPE)
+
+
+def list_reading(study: Study, words: Words) -> tuple[str, ...]:
+    """Sentences that hold of the drawings and tables of every row."""
+    checks = words("caption.checks", legend=name_cases(study, words))
+    return checks, *(words(key) for key in _READING)
+
+
+def name_cases(study: Study, words: Words) -> str:
+    """Legend of the numbers of a case, in their order."""
+    points = [case.case for row in study.rows for case in row.cases[:1]]
+    names = (
+        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
+    )
+    legend = words("show.legend")
+    if not names:
+        return legend
+    return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
 def build_assumptions(study: Study, words: Words) -> Table:

@@ -51,7 +51,6 @@ from netdesign.report.view.table import Table
 from netdesign.report.words import (
     VerdictWords,
     Words,
-    name_heading,
     show_check,
     show_member,
     show_text,
@@ -172,6 +171,7 @@ class ReportView:
     quality: Table
     outcomes: Table
     legend: str  # of the numbers of a case
+    reading: tuple[str, ...]  # what is said once of all rows
     provenance: Table
 
 
@@ -232,7 +232,8 @@ def build_view(study: Study, language: Language = "en") -> ReportView:
         figure_tables=formula_tables.build_holding(words),
         quality=tables.build_quality(study, words),
         outcomes=tables.build_outcomes(study, words),
-        legend=describe_cases(study, words),
+        legend=basis_tables.name_cases(study, words),
+        reading=basis_tables.list_reading(study, words),
         provenance=tables.build_provenance(study, words),
     )
 
@@ -346,18 +347,6 @@ def _view_figures(row: RowStudy, words: Words) -> Figures:
         tests=figure_tables.build_tests(row, words),
         turns=statics_tables.build_turns(row, words),
     )
-
-
-def describe_cases(study: Study, words: Words) -> str:
-    """Legend of the numbers of a case, in their order."""
-    points = [case.case for row in study.rows for case in row.cases[:1]]
-    names = (
-        [name_heading(words, key) for key in [*points[0].values][3:]] if points else []
-    )
-    legend = words("show.legend")
-    if not names:
-        return legend
-    return words("show.legend_further", legend=legend, names=" / ".join(names))
 
 
 def _count_laws(row: RowStudy, words: Words) -> str:

@@ -124,7 +124,7 @@ _RATIOS = (
     _field("Q", "utilisation", "high"),
 )
 _SET = _Field("R", "", "heading.set_by_study", 10)
-_VERDICT = _Field("S", "", "heading.verdict", 13)
+_VERDICT = _Field("S", "", "heading.verdict", 15)
 _TAIL = (
     _Field("W", "", "heading.resistance_from", 18),
     _Field("X", "", "heading.reason", 50),
@@ -185,7 +185,8 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     sheet.fit_to_pages(_PAGES, 0)
     sheet.repeat_columns(_LEAD[0].index, _LEAD[2].index)
     book.link_back(sheet, (0, 3))
-    widths = [field.width for field in _SHOWN]
+    first_page = _SHOWN[: _VERDICT.index + 1]  # what stands beside it is another one
+    widths = [field.width for field in first_page]
     for line, notes in enumerate(_NOTES, 1):
         text = " ".join(book.words(note) for note in notes)
         book.write_wide(sheet, (line, 0), text, widths, italic=True)
@@ -324,7 +325,7 @@ class _CheckLine:
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )
-        form = self._book.text(bold=True)
+        form = self._book.text(bold=True, text_wrap=True)
         self._sheet.write_formula(self._at(_VERDICT), formula, form, shown)
         rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
         value = compute_rank(number, check.verdict, check.utilisation)

@@ -19,7 +19,7 @@ from netdesign.study.case_records import CasePoint
 from netdesign.study.records import RowStudy, Study
 
 _HEAD_ROW = 4  # zero-based
-_WIDTHS = (4, 9, 13, 7, 9, 9, 7, 9, 9, 7, 18, 18, 9, 29)
+_WIDTHS = (4, 9, 16, 7, 9, 9, 7, 9, 9, 6, 17, 17, 9, 29)
 _LABELLED = 3  # columns of a label below the rows
 # Columns D, E, F, G.
 _COUNTED = (Verdict.FAIL, Verdict.NOT_PROVEN, Verdict.DECLARED, Verdict.PASS)
@@ -32,7 +32,8 @@ _ABOVE = 5  # links that stand one line higher, at the end of it
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
     """Sheet "Summary": overall verdict, net rows, assumed values, signatures."""
-    sheet = book.add_sheet("summary", book.words("heading.anchor_check"))
+    titles = (view.mark, book.words("heading.anchor_check"))
+    sheet = book.add_sheet("summary", " · ".join(one for one in titles if one))
     sheet.write_string(1, 0, view.running_title or MISSING, book.text())
     last = _HEAD_ROW + max(len(study.rows), 1)
     _write_overall(book, sheet, study, last)
@@ -102,7 +103,8 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
         held=f'"{word if held else MISSING}"',
         words=_list_words(book),
     )
-    sheet.write_formula(2, 2, formula, form, word)
+    small = book.text(bold=True, font_size=12, shrink=True)
+    sheet.write_formula(2, 2, formula, small, word)
     meanings = {book.word(v): book.verdicts[v].meaning for v in Verdict}
     meaning = f'"{meanings[book.word(Verdict.NOT_PROVEN)]}"'
     for one in (Verdict.DECLARED, Verdict.FAIL, Verdict.PASS):
@@ -135,7 +137,8 @@ def _write_row(
         held=f"{chr(ord('A') + _HELD)}{line}",
         words=_list_words(book),
     )
-    sheet.write_formula(index, 2, formula, book.text(bold=True), shown.verdict.word)
+    bold = book.text(bold=True, text_wrap=True)
+    sheet.write_formula(index, 2, formula, bold, shown.verdict.word)
     for column, verdict in enumerate(_COUNTED, 3):
         count = (
             f"=COUNTIFS(check_net_row_number,A{line},"

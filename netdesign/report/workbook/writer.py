@@ -23,7 +23,7 @@ _COLOURS = {
 _NARROWEST, _WIDEST = 6.0, 44.0  # columns, in characters of the default font
 _CHARACTER = 0.72  # width of one of ours
 _LINE_PT = 12.5  # height of a line of text
-_DECIMAL = re.compile(r"-?\d+(\.\d+)?")
+_DECIMAL = re.compile(r"-?\d+(?:[.,](\d+))?")  # with the mark of any language
 _LINK = "#2A4B6B"
 _LONGEST_NAME = 31  # of a sheet
 _LONGEST_TEXT = 32000  # a cell holds 32767 characters
@@ -127,8 +127,8 @@ class Book:
         shown = None
         if column.quantity:
             shown = ("num_format", number_format(column.quantity))
-        elif _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
-            decimals = len(cell.text.partition(".")[2])
+        elif found := _DECIMAL.fullmatch(cell.text):  # as many digits as the page shows
+            decimals = len(found[1] or "")
             shown = ("num_format", f"0.{'0' * decimals}".rstrip("."))
         sheet.write_number(*place, cell.number, self._form(column, shown))
 

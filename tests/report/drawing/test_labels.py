@@ -19,7 +19,7 @@ from tests.report.drawing.drawn import (
 )
 from tests.report.printing import list_meeting
 
-SEED, ROWS = 20261122, 12
+SEED, ROWS = 20261122, 8
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

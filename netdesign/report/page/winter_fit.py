@@ -1,0 +1,194 @@
+"""Section of the winter page on the fit of a row: bands, parameters, residuals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from netdesign.report.drawing.residual_figure import draw_residuals
+from netdesign.report.page.render import mark_safe
+from netdesign.report.view.table import (
+    Cell,
+    Table,
+    fixed_cell,
+    name_columns,
+    text_cell,
+)
+from netdesign.report.words import MISSING, Words, show_member, show_text, show_unit
+
+_DECIMALS = {"slip_length": 1, "friction_angle": 1, "slack": 4}  # else 3
+
+
+def view_fit(
+    fit: Mapping[str, Any] | None, density: float, words: Words
+) -> dict[str, Any] | None:
+    """Tables and sentences of a fit for the template; None without one.
+
+    Parameters
+    ----------
+    fit : mapping or None
+        Entry ``fit`` of the winter document.
+    density : float
+        Of the design case [kg/m3].
+    words : Words
+        Language.
+    """
+    if fit is None:
+        return None
+    noise = fit["noise"]
+    is_fitted = fit["outcome"] == "fitted"
+    return {
+        "heading": words("fit_page.heading", winter=fit["winter"] or MISSING),
+        "why": show_text(fit["why"]),
+        "is_fitted": is_fitted,
+        "taken": words("fit_page.taken", readings=fit["readings"], days=fit["days"]),
+        "noise": words(
+            "fit_page.noise",
+            reading=noise["reading"],
+            cell=noise["cell"],
+            rope=noise["rope_K"],
+        ),
+        "forces": _tabulate_forces(fit["forces"], words),
+        "forces_note": (
+            words("fit_page.forces_note", density=density)
+            if is_fitted
+            else words("fit_page.forces_none")
+        ),
+        "parameters": _tabulate_parameters(fit, words),
+        "parameters_note": words(
+            "fit_page.parameters_note", share=fit["unconstrained_above"]
+        ),
+        "known": _tell_known(fit, words),
+        "left_out": _tell_left_out(fit, words),
+        "correlations": _tabulate_correlations(fit, words),
+        "residuals": _tabulate_residuals(fit["residuals"], words),
+        "svg": mark_safe(draw_residuals(fit["residuals"], words)),
+    }
+
+
+def _tabulate_forces(forces: Sequence[Mapping[str, Any]], words: Words) -> Table:
+    keys = ("before", "deviation_before", "after", "deviation_after")
+    headings = [words(f"fit_page.{key}") for key in keys]
+    columns = [words("fit_page.case"), words("fit_page.member"), *headings]
+    return Table(
+        caption=words("fit_page.forces_caption"),
+        columns=name_columns(columns, numbers=headings),
+        rows=tuple(
+            (
+                text_cell(words(f"fit_case.{one['case']}")),
+                text_cell(show_member(words, one["member"])),
+                _band_cell(one["before_kN"], words),
+                _percent_cell(one["before_deviation"], words),
+                _band_cell(one["after_kN"], words),
+                _percent_cell(one["after_deviation"], words),
+            )
+            for one in forces
+        ),
+    )
+
+
+def _tabulate_parameters(fit: Mapping[str, Any], words: Words) -> Table:
+    keys = ("parameter", "unit", "prior", "posterior", "told")
+    headings = [words(f"fit_page.{key}") for key in keys]
+    return Table(
+        caption=words("fit_page.parameters_caption"),
+        columns=name_columns(headings, numbers=headings[2:4]),
+        rows=tuple(
+            (
+                text_cell(words(f"fit_parameter.{one['name']}")),
+                text_cell(show_unit(one["unit"])),
+                _value_cell(one, "prior", words),
+                _value_cell(one, "posterior", words),
+                text_cell(_tell_worth(one, fit["outcome"], words)),
+            )
+            for one in fit["parameters"]
+        ),
+    )
+
+
+def _value_cell(one: Mapping[str, Any], key: str, words: Words) -> Cell:
+    value, deviation = one[key], one[f"{key}_deviation"]
+    decimals = _DECIMALS.get(one["name"], 3)
+    shown = words.show_fixed(value, decimals)
+    if deviation is None:
+        return Cell(text=shown, number=value)
+    if one["deviation_of"] == "logarithm":
+        around = f"{words.show_fixed(100.0 * deviation, 0)} %"
+    else:
+        around = words.show_fixed(deviation, decimals)
+    return Cell(text=f"{shown} ± {around}", number=value)
+
+
+def _tell_worth(one: Mapping[str, Any], outcome: str, words: Words) -> str:
+    if outcome != "fitted":
+        return MISSING
+    if one["is_at_end"]:
+        return words("fit_page.at_end")
+    if one["is_constrained"]:
+        return words("fit_page.constrained")
+    return words("fit_page.unconstrained")
+
+
+def _tell_known(fit: Mapping[str, Any], words: Words) -> str:
+    named = tuple(words(f"fit_parameter.{one}") for one in fit["known"])
+    return words("fit_page.known", names=named) if named else ""
+
+
+def _tell_left_out(fit: Mapping[str, Any], words: Words) -> str:
+    days = tuple(fit["days_left_out"])
+    return words("fit_page.left_out", days=days) if days else ""
+
+
+def _tabulate_correlations(fit: Mapping[str, Any], words: Words) -> Table:
+    names = [words(f"fit_parameter.{one['name']}") for one in fit["parameters"]]
+    headings = [words("fit_page.parameter"), *names]
+    return Table(
+        caption=words("fit_page.correlations_caption"),
+        columns=name_columns(headings, numbers=names),
+        rows=tuple(
+            (text_cell(name), *(fixed_cell(words, _unsigned(one), 2) for one in line))
+            for name, line in zip(names, fit["correlations"], strict=False)
+        ),
+    )
+
+
+def _unsigned(value: float) -> float:
+    """Correlation without the sign of one that is shown as 0."""
+    return round(value, 2) or 0.0
+
+
+def _tabulate_residuals(residuals: Sequence[Mapping[str, Any]], words: Words) -> Table:
+    keys = ("measured", "computed", "residual", "deviation")
+    headings = [words(f"fit_page.{key}") for key in keys]
+    columns = [words("fit_page.date"), words("fit_page.member"), *headings]
+    return Table(
+        caption=words("fit_page.residuals_caption"),
+        columns=name_columns(columns, numbers=headings),
+        rows=tuple(
+            (
+                text_cell(one["date"].replace("-", "\u2011")),
+                text_cell(show_member(words, one["member"])),
+                fixed_cell(words, one["measured_kN"], 1),
+                fixed_cell(words, one["computed_kN"], 1),
+                fixed_cell(words, one["measured_kN"] / one["computed_kN"], 3),
+                _percent_cell(one["deviation"], words),
+            )
+            for one in residuals
+        ),
+    )
+
+
+def _band_cell(band: Mapping[str, float] | None, words: Words) -> Cell:
+    if band is None:
+        return text_cell(MISSING)
+    low, value, high = (
+        words.show_fixed(band[key], 1) for key in ("low", "value", "high")
+    )
+    ends = words("show.band", low=low, high=high)
+    return Cell(text=f"{value} ({ends})", number=band["value"])
+
+
+def _percent_cell(share: float | None, words: Words) -> Cell:
+    if share is None:
+        return text_cell(MISSING)
+    return Cell(text=f"{words.show_fixed(100.0 * share, 1)} %", number=share)

@@ -1,0 +1,73 @@
+"""Pages for those who cannot see them, or not well: axe, contrast, words for pictures.
+
+axe leaves the inside of drawings alone: they are pictures with a text of their own. The
+contrast of their words is measured here.
+"""
+
+import random
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from netdesign.report.page.html import render_html
+from netdesign.report.words import Words
+from netdesign.words.catalogue import LANGUAGES
+from tests.report.accessible import list_violations, measure_contrast
+from tests.report.build_study import build_study
+from tests.report.drawing.drawn import draw_all, draw_slow
+from tests.report.printing import PHONE_PX
+
+LEAST_CONTRAST = 4.5  # of text below 18 pt, WCAG 2 level AA
+TEXT = "{http://www.w3.org/2000/svg}text"
+SNOW = (0xF3, 0xF5, 0xF7)  # ground of some labels
+
+
+@pytest.mark.parametrize(
+    ("language", "detail", "width"),
+    [("fr", "full", 1100), ("de", "summary", PHONE_PX)],
+)
+def test_axe_finds_no_violation(language, detail, width, tmp_path):
+    page = render_html(build_study(rows=1), language, detail)
+    assert list_violations(page, tmp_path, width) == []
+
+
+@pytest.mark.robustness
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("detail", ["summary", "full", "figures"])
+@pytest.mark.parametrize("width", [PHONE_PX, 1100])
+def test_axe_finds_no_violation_anywhere(language, detail, width, tmp_path):
+    """All pages: python -m pytest -m robustness tests/report/test_accessible.py."""
+    page = render_html(build_study(), language, detail)
+    assert list_violations(page, tmp_path, width) == []
+
+
+def test_axe_finds_what_is_wrong(tmp_path):
+    page = render_html(build_study(rows=1), "en", "summary")
+    pale = page.replace("--soft: #596069", "--soft: #a9b0b9").replace("h3", "h5")
+    rules = {one.split(":")[0] for one in list_violations(pale, tmp_path)}
+    assert {"color-contrast", "heading-order"} <= rules
+
+
+def test_words_in_drawings_have_contrast():
+    rng = random.Random(5)
+    drawings = [*draw_all(rng, Words("en")), *draw_slow(rng, Words("en"))]
+    for svg in drawings:
+        for colour in list_colours(svg):
+            assert measure_contrast(colour, SNOW) >= LEAST_CONTRAST, colour
+    assert measure_contrast("#7d838b") < LEAST_CONTRAST
+
+
+def list_colours(svg):
+    """Colours of the words of a drawing; without one of their own they are ink."""
+    found = set()
+    for text in ElementTree.fromstring(svg).iter(TEXT):
+        look = f"{text.get('fill', '')} {text.get('style', '')}"
+        found |= set(re.findall(r"#[0-9a-f]{6}", look))
+    return found
+
+
+def test_words_for_a_picture_have_its_numbers():
+    for svg in draw_all(random.Random(7), Words("fr")):
+        (told,) = re.findall(r'aria-label="([^"]*)"', svg)
+        assert re.search(r"\d", told), told

@@ -1,0 +1,260 @@
+"""Page, document and workbook of one drawn study, read as a stranger would: all alike.
+
+Nothing here asks the program what it shows: numbers of the workbook are rounded to the
+decimals that the page prints. The site is drawn, solved and judged.
+"""
+
+import math
+import random
+import re
+
+import pytest
+
+from netdesign.checks import load_standard
+from netdesign.report.page.html import render_html
+from netdesign.report.workbook.excel import render_workbook
+from netdesign.site.model import InputEcho
+from netdesign.snow.ground import GroundLaw
+from netdesign.structure.layout import SupportLayout
+from netdesign.study.cases import solve_site
+from netdesign.study.judge import judge_site
+from netdesign.words.catalogue import load_texts
+from netdesign.words.message import say
+from tests.report.reading import PageReader, read_rows, read_workbook
+from tests.small_site import RUN, build_row, build_site, resist
+
+pytest.importorskip("docx")
+from netdesign.report.document.word import render_document
+from tests.report.document.reading import W, open_word, squeeze
+
+SEED = 20261122
+PLAIN = re.compile(r"^-?\d+(?:\.\d+)?(?:e-?\d+)?$")
+# Verdict, utilisation, its band, design demand of a check on the page.
+SHOWN = re.compile(
+    r"^(\S+) (.+?) (-|[\d.,]+)(?: ([\d.,]+) \S+ ([\d.,]+))?"
+    r"(?: E d ([\d.,]*\d)(?=[ ;]|$).*)?$"
+)
+
+
+def draw_row(dice, name):
+    """A row of untidy values: some checks pass, some fail, some lack a resistance."""
+    height = dice.uniform(2.2, 3.4)
+    slope = dice.uniform(31.0, 44.0)
+    weak = {
+        f"{member}__{mode}": dice.choice([None, 10 ** dice.uniform(4.6, 6.2)])
+        for member, mode in (
+            ("foot_anchor", "tendon"),
+            ("foot_anchor", "pull_out"),
+            ("uphill_guy", "rope"),
+            ("post", "compression"),
+            ("post_base", "bearing"),
+        )
+    }
+    spacing = dice.uniform(2.6, 4.1)
+    inputs = tuple(
+        InputEcho(
+            label=say(f"column.Nets.{key}"),
+            unit=unit,
+            text=f"{value:.7g}",
+            value=value,
+            cell=f"Nets!{column}{2 + int(name[1:])}",
+        )
+        for key, value, unit, column in (
+            ("slope_angle", slope, "deg", "B"),
+            ("net_height", height, "m", "I"),
+            ("post_spacing", spacing, "m", "L"),
+        )
+    )
+    return build_row(
+        name,
+        slope_angle=math.radians(slope),
+        snow_thickness=0.97 * height,
+        net_height=height,
+        upslope_length=dice.uniform(4.3, 11.9),
+        net_stiffness_per_m=dice.uniform(4e6, 1.7e7),
+        slack=dice.uniform(0.011, 0.083),
+        ground=GroundLaw(kind=dice.choice(["free", "no-slip"])),
+        layout=SupportLayout(
+            post_spacing=spacing,
+            uphill_anchor_distance=height,
+            downhill_anchor_distance=height,
+        ),
+        resistances=resist(dice.uniform(3e5, 9e5), **weak),
+        inputs=inputs,
+    )
+
+
+@pytest.fixture(scope="module")
+def study():
+    dice = random.Random(SEED)
+    site = build_site(*(draw_row(dice, f"R{number}") for number in (1, 2)))
+    judged = judge_site(
+        site, solve_site(site, RUN), load_standard("nf-p-95-304-style"), RUN
+    )
+    verdicts = {check.verdict for row in judged.rows for check in row.checks}
+    assert len(verdicts) >= 3, "the drawn site has too few verdicts to compare"
+    return judged
+
+
+@pytest.fixture(scope="module", params=["en", "fr"])
+def outputs(request, study):
+    """Language, checks of page, document and workbook, their tables of inputs."""
+    language = request.param
+    page = PageReader(render_html(study, language, "full"))
+    document = list_tables(render_document(study, language, "full"))
+    book = read_workbook(render_workbook(study, language))
+    return language, page, document, book
+
+
+def list_shown(tables, texts):
+    """Checks of forces of a page or document: by place in order, row by row.
+
+    Every line names the check; a cell is of the support inside, one of that at the end.
+    """
+    head = clean(texts["heading.check_clause_resistance"])
+    of_rows = [table for table in tables if table and table[0][0] == head]
+    found = []
+    for table in of_rows:
+        checks = {}
+        for cells in table[1:]:
+            if len(cells) != 4:
+                continue
+            for place, text in (("", cells[2]), ("end", cells[3])):
+                if text != "-":
+                    checks[cells[0], place] = (cells[1], text)
+        found.append(checks)
+    return found
+
+
+def read_check(text):
+    """Verdict, utilisation, low, high and demand of a cell."""
+    return SHOWN.match(re.sub(r"E ?_?d(?= )", "E d", text)).groups()
+
+
+def clean(text):
+    return " ".join(text.split())
+
+
+def list_tables(content):
+    """Tables of a document; a line of a cell ends with a blank, and a lowered index."""
+    ends = {f"{W}br", f"{W}p"}
+
+    def read(cell):
+        parts = [
+            (one.text or "") if one.tag == f"{W}t" else " "
+            for one in cell.iter()
+            if one.tag == f"{W}t" or one.tag in ends
+        ]
+        return clean("".join(parts))
+
+    return [
+        [[read(cell) for cell in line.tc_lst] for line in table._tbl.tr_lst]
+        for table in open_word(content).tables
+    ]
+
+
+def list_stored(book, texts, count):
+    """Checks of forces of the workbook: by net row, then name and support."""
+    sheet = book[texts["heading.checks"]]
+    rows = [{} for _ in range(count)]
+    for line in read_rows(sheet, texts["heading.no"]):
+        values = list(line.values())
+        rows[int(values[0]) - 1][values[2]] = values
+    return rows
+
+
+def is_shown(number, text):
+    """A number of the workbook, rounded as the other output prints it."""
+    if text is None or text == "-":
+        return number in (None, "-")
+    plain = text.replace(",", ".")
+    assert PLAIN.match(plain), text
+    decimals = len(plain.partition(".")[2])
+    return f"{number:.{decimals}f}" == plain or math.isclose(
+        float(plain), number, abs_tol=0.5000001 * 10.0**-decimals
+    )
+
+
+def test_no_value_of_a_check_differs(study, outputs):
+    language, page, document, book = outputs
+    texts = load_texts(language)
+    on_page = list_shown([t for ts in page.tables.values() for t in ts], texts)
+    in_document = list_shown(document, texts)
+    assert len(on_page) == len(in_document) == len(study.rows)
+    stored, compared = list_stored(book, texts, len(study.rows)), 0
+    for shown, written, kept in zip(on_page, in_document, stored, strict=True):
+        assert shown.keys() == written.keys()
+        for (title, at), (resistance, text) in shown.items():
+            assert written[title, at][0] == resistance
+            assert squeeze(written[title, at][1]) == squeeze(text)
+            name = find_name(title, kept, is_end=at == "end")
+            line = kept.pop(name)
+            symbol, word, used, low, high, demand = read_check(text)
+            assert demand is not None, text
+            assert (line[18], bool(symbol)) == (word, True)
+            numbers = (line[15], line[14], line[16], line[9], line[13])
+            texts_of = (used, low, high, demand, resistance)
+            for number, text in zip(numbers, texts_of, strict=True):
+                if text is None:  # no band is printed of a check without a number
+                    continue
+                assert is_shown(number, text), (name, number, text)
+                compared += 1
+    assert compared > 150
+    # what is left in the workbook are the checks that follow from no force
+    assert all(line[5] in (None, "-") for kept in stored for line in kept.values())
+
+
+def find_name(title, kept, *, is_end):
+    """Name in the workbook of a check on the page: the longest that begins its cell."""
+    names = [
+        name
+        for name in kept
+        if title.startswith(name if not is_end else name.rpartition(",")[0])
+        and (not is_end or name.count(",") >= 2)
+    ]
+    return max(names, key=len)
+
+
+def test_no_input_differs(study, outputs):
+    language, page, document, book = outputs
+    texts = load_texts(language)
+    head = texts["heading.input"]
+    wanted = [row.id for row in study.rows]
+    count = len(wanted)
+    (shown,) = [
+        t
+        for ts in page.tables.values()
+        for t in ts
+        if t and t[0][0] == head and t[0][-count:] == wanted
+    ]
+    (written,) = [
+        t for t in document if t and t[0][0] == head and t[0][-count:] == wanted
+    ]
+    assert written == shown
+    stored = {
+        (line[texts["heading.net_row"]], line[head]): line[
+            texts["heading.understood_as"]
+        ]
+        for line in read_rows(book[texts["heading.inputs"]], texts["heading.net_row"])
+    }
+    compared = 0
+    for line in shown[1:]:
+        for row, text in zip(wanted, line[-count:], strict=True):
+            assert is_shown(stored[row, line[0]], text.rstrip("*‡")), (row, line)
+            compared += 1
+    assert compared == 3 * count
+
+
+def test_a_changed_value_is_seen(outputs):
+    """A number that is one more in its last place is not the one that is printed."""
+    language, _, document, _ = outputs
+    texts = load_texts(language)
+    for checks in list_shown(document, texts):
+        for resistance, shown in checks.values():
+            for text in (resistance, read_check(shown)[2]):
+                if text == "-":
+                    continue
+                number = float(text.replace(",", "."))
+                decimals = len(text.replace(",", ".").partition(".")[2])
+                assert is_shown(number, text)
+                assert not is_shown(number + 1.1 * 10.0**-decimals, text)
