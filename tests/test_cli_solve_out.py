@@ -10,6 +10,7 @@ import pytest
 
 from netdesign import cli
 from netdesign.report.page.solution_page import render_solution, write_history
+from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
 
 SCENE = """
 [slope]
@@ -63,6 +64,8 @@ def test_steady_scene_becomes_a_folder(tmp_path, monkeypatch, capsys, net):
         else document["anchor_forces"]["foot"]["size_kN_per_m"]
     )
     assert f"{pull:.2f}" in page
+    assert list_too_wide(page, PHONE_PX, tmp_path, media="screen") == []
+    assert list_too_wide(page, PAPER_PX, tmp_path) == []
     for name in DRAWINGS:
         ElementTree.parse(out / name)
     assert "wrote" in capsys.readouterr().err

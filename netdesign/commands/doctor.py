@@ -1,7 +1,4 @@
-"""``netdesign doctor``: versions, threads and data, and a test of the program here.
-
-It speaks English only: it is for whoever develops or examines the program.
-"""
+"""``netdesign doctor``: versions, threads and data, and a test of the program here."""
 
 from __future__ import annotations
 
@@ -10,14 +7,16 @@ import os
 import platform
 import sys
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
 import click
 
 from netdesign import __version__
-from netdesign.commands.options import json_option
+from netdesign.commands.options import json_option, language_option
+from netdesign.words.catalogue import Language, render
+from netdesign.words.message import Message, say
 
 _LIBRARIES = (
     *("numpy", "scipy", "scikit-fem", "pandas", "openpyxl", "defusedxml"),
@@ -31,14 +30,15 @@ _EXIT_UNSOUND = 5
 class Probe:
     """One thing that was looked at."""
 
-    what: str
-    shows: str
+    what: Message | str
+    shows: Message | str
     is_sound: bool = True
 
 
 @click.command()
 @json_option("list")
-def doctor(*, as_json: bool) -> None:
+@language_option()
+def doctor(*, as_json: bool, language: Language) -> None:
     """Show versions, threads and data, and test that the program works here.
 
     \b
@@ -50,48 +50,61 @@ def doctor(*, as_json: bool) -> None:
         document = {
             "schema": "netdesign.doctor/1",
             "sound": all(probe.is_sound for probe in probes),
-            "probes": [asdict(probe) for probe in probes],
+            "probes": [_dump(probe, language) for probe in probes],
         }
         click.echo(json.dumps(document, indent=1))
     else:
         for probe in probes:
-            mark = "ok" if probe.is_sound else "FAULT"
-            click.echo(f"{mark:6}{probe.what:24}{probe.shows}")
+            mark = render(
+                say("doctor.ok" if probe.is_sound else "doctor.fault"), language
+            )
+            what, shows = (render(x, language) for x in (probe.what, probe.shows))
+            click.echo(f"{mark:8}{what:24}{shows}")
     sys.exit(0 if all(probe.is_sound for probe in probes) else _EXIT_UNSOUND)
+
+
+def _dump(probe: Probe, language: Language) -> dict[str, Any]:
+    """Probe as plain values; what was looked at is a key, the same in each language."""
+    shows = render(probe.shows, language)
+    return {"what": str(probe.what), "shows": shows, "is_sound": probe.is_sound}
 
 
 def _list_versions() -> list[Probe]:
     probes = [
         Probe(what="netdesign", shows=__version__),
         Probe(what="python", shows=platform.python_version()),
-        Probe(what="system", shows=f"{platform.system()} {platform.machine()}"),
+        Probe(
+            what=say("doctor.system"), shows=f"{platform.system()} {platform.machine()}"
+        ),
     ]
     for name in _LIBRARIES:
         try:
             probes.append(Probe(what=name, shows=metadata.version(name)))
         except metadata.PackageNotFoundError:
-            probes.append(Probe(what=name, shows="is missing", is_sound=False))
+            probes.append(Probe(what=name, shows=say("doctor.missing"), is_sound=False))
     return probes
 
 
 def _list_threads() -> list[Probe]:
-    limits = {name: os.environ.get(name, "not set") for name in _THREADS}
-    shown = {"processors": str(os.cpu_count()), **limits}
-    return [Probe(what=what, shows=shows) for what, shows in shown.items()]
+    limits = [
+        Probe(what=name, shows=os.environ.get(name) or say("doctor.not_set"))
+        for name in _THREADS
+    ]
+    return [Probe(what=say("doctor.processors"), shows=str(os.cpu_count())), *limits]
 
 
 def _run_tests() -> list[Probe]:
-    tests: dict[str, Callable[[], str]] = {
-        "BLAS": _name_blas,
-        "core": _name_core,
-        "limit profiles": _load_profiles,
-        "site workbook": _round_trip_example,
-        "solver": _solve_small_scene,
-    }
-    return [_try(what, test) for what, test in tests.items()]
+    tests: tuple[tuple[Message | str, Callable[[], Message | str]], ...] = (
+        ("BLAS", _name_blas),
+        (say("doctor.core"), _name_core),
+        (say("doctor.profiles"), _load_profiles),
+        (say("doctor.workbook"), _round_trip_example),
+        (say("doctor.solver"), _solve_small_scene),
+    )
+    return [_try(what, test) for what, test in tests]
 
 
-def _try(what: str, test: Callable[[], str]) -> Probe:
+def _try(what: Message | str, test: Callable[[], Message | str]) -> Probe:
     try:
         return Probe(what=what, shows=test())
     except Exception as error:  # whatever fails here is what the doctor is asked for
@@ -120,7 +133,7 @@ def _load_profiles() -> str:
     return ", ".join(load_standard(name).id for name in list_standards())
 
 
-def _round_trip_example() -> str:
+def _round_trip_example() -> Message:
     import tempfile
     from pathlib import Path
 
@@ -133,10 +146,10 @@ def _round_trip_example() -> str:
         site = read_site(path)
     if site.notes:
         raise RuntimeError("; ".join(map(str, site.notes)))
-    return f"example written and read: {len(site.rows)} net rows"
+    return say("doctor.example", rows=len(site.rows))
 
 
-def _solve_small_scene() -> str:
+def _solve_small_scene() -> Message:
     """Uniform snow on freely gliding ground: the net carries its whole weight."""
     import time
     from math import radians
@@ -166,4 +179,4 @@ def _solve_small_scene() -> str:
     if isinstance(solution, FailedSolution):
         raise SolveError(solution.outcome, solution.reason)
     residual = solution.balance.relative_residual
-    return f"balance residual {residual:.1e} of the weight, {elapsed:.2f} s"
+    return say("doctor.solved", residual=residual, seconds=elapsed)

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from netdesign.edge.progress import Phase, RunProgress
     from netdesign.envelope.ranges import Ranges
     from netdesign.envelope.rows import RowTask
+    from netdesign.report.words import Words
     from netdesign.solving.runner import Runner
     from netdesign.solving.solve import Settings
     from netdesign.study.envelope_records import EnvelopeRecord
@@ -138,7 +139,7 @@ def envelope(
             document, record = _search(task, runner, progress, start, language)
         progress.enter("outputs")
     failed = tell_faults(runner.faults, language)
-    text = _write(document, record, paths, overwrite=force)
+    text = _write(document, record, paths, overwrite=force, language=language)
     if as_json:
         click.echo(text)
     else:
@@ -272,35 +273,43 @@ def _write(
     paths: list[Path],
     *,
     overwrite: bool,
+    language: Language,
 ) -> str:
     """Text of the document; it and the drawings are files where these have places."""
     from netdesign.edge.output import write_files
 
     text = json.dumps(document, indent=1, allow_nan=False)
     if paths:
-        files = dict(zip(paths, _render(record, text), strict=True))
+        files = dict(zip(paths, _render(record, text, language), strict=True))
         write_files(files, overwrite=overwrite)
     return text
 
 
-def _render(record: EnvelopeRecord | None, text: str) -> list[bytes]:
+def _render(
+    record: EnvelopeRecord | None, text: str, language: Language
+) -> list[bytes]:
     """Contents of the outputs; a grid has no model to draw."""
     from netdesign.report.drawing.envelope_maps import (
         draw_drivers,
         draw_lines,
         draw_maps,
     )
+    from netdesign.report.words import Words
 
-    pictures = [
-        draw(record) if record else "" for draw in (draw_maps, draw_lines, draw_drivers)
-    ]
+    draws, words = (draw_maps, draw_lines, draw_drivers), Words(language)
+    pictures = [draw(record, words) if record else "" for draw in draws]
     return [part.encode() for part in (f"{text}\n", *pictures)]
 
 
 def _show(document: dict[str, Any], language: Language) -> None:
+    from netdesign.quantities import QUANTITIES
+    from netdesign.report.words import Words
+
+    words = Words(language)
     for one in document["extremes"]:
-        line = render(_describe_extreme(one), language)
-        click.echo(f"{one['quantity']:22} {line}")
+        line = render(_describe_extreme(one, words), language)
+        label = words.show(QUANTITIES[one["quantity"]].label)
+        click.echo(f"{label:22} {line}")
         again = one.get("confirmation") or {}
         if again.get("difference_percent") is not None:
             line = render(_describe_confirmation(again), language)
@@ -315,8 +324,8 @@ def _show(document: dict[str, Any], language: Language) -> None:
         tell(say("envelope.not_proven", reason=document["reason"]), language)
 
 
-def _describe_extreme(one: dict[str, Any]) -> Message:
-    case = ", ".join(f"{key} {value:.4g}" for key, value in one["case"].items())
+def _describe_extreme(one: dict[str, Any], words: Words) -> Message:
+    case = ", ".join(words.name_values(one["case"].items()))
     bound = one["upper_bound"]
     limit = say("envelope.no_bound")
     if bound is not None:

@@ -33,13 +33,16 @@ def standards() -> None:
 
 
 @standards.command("list")
-@language_option("Of refusals.", expose_value=False)
-def list_profiles() -> None:
+@language_option()
+def list_profiles(*, language: Language) -> None:
     """List the profiles that come with the program."""
     from netdesign.checks import list_standards, load_standard
+    from netdesign.report.words import Words, show_own
 
     for name in list_standards():
-        click.echo(f"{name:22} {load_standard(name).title}")
+        profile, words = load_standard(name), Words(language)
+        title = show_own(words, f"{profile.title}, {profile.edition}")
+        click.echo(f"{name:22} {title}")
 
 
 @standards.command("show")
@@ -63,7 +66,9 @@ def show_profile(name: str, *, language: Language) -> None:
     click.echo(f"{show_own(words, profile.what_it_is_not)}\n")
     for entry in profile.listed:
         status = render(name_of("status", entry.status), language)
-        click.echo(f"{entry.id} = {entry.value:g} {entry.unit}  [{status}]")
+        click.echo(
+            f"{entry.id} = {words.show_given(entry.value)} {entry.unit}  [{status}]"
+        )
         source = show_own(words, entry.source)
         clause = render(
             say("standard.clause", clause=entry.clause, source=source), language

@@ -1,7 +1,4 @@
-"""``netdesign validate``: the program against truth and against measured structures.
-
-It speaks English only: it is for whoever develops or examines the program.
-"""
+"""``netdesign validate``: the program against truth and against measured structures."""
 
 from __future__ import annotations
 
@@ -9,12 +6,16 @@ from pathlib import Path
 
 import click
 
+from netdesign.commands.language import tell
 from netdesign.commands.options import (
     force_option,
     json_option,
+    language_option,
     out_option,
     quiet_option,
 )
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 _FAIL, _NOT_PROVEN = 1, 4
 
@@ -27,8 +28,15 @@ _FAIL, _NOT_PROVEN = 1, 4
 @json_option("validation")
 @force_option
 @quiet_option
+@language_option("Of page and messages.")
 def validate(
-    structures: Path | None, out: Path, *, as_json: bool, force: bool, quiet: bool
+    structures: Path | None,
+    out: Path,
+    *,
+    as_json: bool,
+    force: bool,
+    quiet: bool,
+    language: Language,
 ) -> None:
     """Write one page: verification, settling of snow, measured structures.
 
@@ -58,13 +66,14 @@ def validate(
 
     require_free(list_pages(out), overwrite=force)
     known = read_all(structures)
-    with show_progress(count_parts(known), "parts", quiet=quiet) as advance:
+    parts = count_parts(known)
+    with show_progress(parts, "parts", quiet=quiet, language=language) as advance:
         evidence = gather(known, advance)
-    write_page(evidence, out, force=force)
+    write_page(evidence, out, force=force, language=language)
     if as_json:
         print_json(write_validation(evidence))
     if not quiet:
-        click.echo(f"wrote {list_pages(out)[0]}", err=True)
+        tell(say("cli.wrote", path=str(list_pages(out)[0])), language, err=True)
     if not all(case.passes for case in evidence.cases):
         sys.exit(_FAIL)
     bands = [one for one in evidence.validations if not one.structure.is_known]

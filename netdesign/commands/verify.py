@@ -58,7 +58,7 @@ _SHOWN = 20  # differences; more help nobody
 )
 @force_option
 @json_option("cases")
-@language_option("Of what --study prints; the pack speaks English.")
+@language_option()
 def verify(
     *,
     study_file: Path | None,
@@ -86,7 +86,7 @@ def verify(
     if study_file is None:
         if site_file or standard or jobs:
             raise UsageRefusal(say("usage.only_with_study"))
-        sys.exit(_run_pack(as_json=as_json, out=out, force=force))
+        sys.exit(_run_pack(as_json=as_json, out=out, force=force, language=language))
     if out is not None:
         raise UsageRefusal(say("usage.out_not_with_study"))
     if as_json:
@@ -94,7 +94,9 @@ def verify(
     sys.exit(_verify_study(study_file, site_file, standard, jobs, language))
 
 
-def _run_pack(*, as_json: bool, out: Path | None, force: bool) -> int:
+def _run_pack(
+    *, as_json: bool, out: Path | None, force: bool, language: Language
+) -> int:
     from netdesign.edge.output import require_free
     from netdesign.edge.progress import show_progress
     from netdesign.evidence.validation.gather import gather, list_pages, write_page
@@ -102,7 +104,9 @@ def _run_pack(*, as_json: bool, out: Path | None, force: bool) -> int:
 
     if out is not None:
         require_free(list_pages(out), overwrite=force)
-    with show_progress(len(GROUPS), "groups of cases", quiet=False) as advance:
+    with show_progress(
+        len(GROUPS), "groups", quiet=False, language=language
+    ) as advance:
         cases = run_pack(advance)
     if as_json:
         click.echo(json.dumps(write_pack(cases), indent=1, allow_nan=False))
@@ -110,10 +114,11 @@ def _run_pack(*, as_json: bool, out: Path | None, force: bool) -> int:
         from rich.console import Console
 
         from netdesign.evidence.verification.verification_table import print_cases
+        from netdesign.report.words import Words
 
-        print_cases(cases, Console())
+        print_cases(cases, Console(), Words(language))
     if out is not None:
-        write_page(gather((), cases=cases), out, force=force)
+        write_page(gather((), cases=cases), out, force=force, language=language)
     return 0 if all(case.passes for case in cases) else _FAIL
 
 

@@ -130,19 +130,12 @@ def winter(
     sheet Ranges may use. With measured forces --fit narrows the force to
     design for. Exit code 4 if a winter has no proven maximum, or a fit is refused.
     """
-    from netdesign.edge.output import require_free, write_files
     from netdesign.files.winter import write_winter_document
-    from netdesign.report.page.winter_page import (
-        DOCUMENT_FILE,
-        PAGE_FILE,
-        render_winter,
-    )
 
     if example == (site_file is not None):
         raise UsageRefusal(say("usage.site_or_example"))
     folder = out or (None if as_json else Path(_FOLDER))
-    names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
-    require_free(names, overwrite=force)
+    names = _list_places(folder, overwrite=force)
     site = _read_site(site_file, overwrite=force, language=language, **reading)
     text_format = build_text_format(
         delimiter=reading["delimiter"], decimal_mark=reading["decimal_mark"]
@@ -172,17 +165,35 @@ def winter(
             is_smoothed=median,
             is_checked=not accept_heights,
         )
-        if fit:
-            run = replace(run, fits=fit_rows(run, fit, runner))
+        run = fit_rows(run, fit, runner)
     failed = tell_faults(runner.faults, language)
     document = write_winter_document(run, language)
     if folder:
-        contents = render_winter(document, language)
-        files = {folder / name: content for name, content in contents.items()}
-        write_files(files, overwrite=force)
+        _write(folder, document, language, overwrite=force)
     _show(document, language, as_json=as_json)
     report_places([names], language, quiet=quiet or as_json)
     sys.exit(failed or (0 if _is_proven(document) else EXIT_CODES[Verdict.NOT_PROVEN]))
+
+
+def _list_places(folder: Path | None, *, overwrite: bool) -> list[Path]:
+    """Places of both files, refused where something is there; none without a folder."""
+    from netdesign.edge.output import require_free
+    from netdesign.report.page.winter_page import DOCUMENT_FILE, PAGE_FILE
+
+    names = [folder / name for name in (DOCUMENT_FILE, PAGE_FILE)] if folder else []
+    require_free(names, overwrite=overwrite)
+    return names
+
+
+def _write(
+    folder: Path, document: dict[str, Any], language: Language, *, overwrite: bool
+) -> None:
+    from netdesign.edge.output import write_files
+    from netdesign.report.page.winter_page import render_winter
+
+    contents = render_winter(document, language)
+    files = {folder / name: content for name, content in contents.items()}
+    write_files(files, overwrite=overwrite)
 
 
 def _is_proven(document: dict[str, Any]) -> bool:

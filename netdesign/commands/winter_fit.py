@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from netdesign.files.winter import WinterRun
     from netdesign.site.model import Site
     from netdesign.solving.runner import Runner
-    from netdesign.winter.fit import SeasonFit
     from netdesign.words.catalogue import Language
 
 SOLVES = 600  # of a fit, about
@@ -109,8 +108,10 @@ def require_measured_forces(site: Site) -> None:
         raise UsageRefusal(say("fit.no_measured_forces"))
 
 
-def fit_rows(run: WinterRun, choice: FitChoice, runner: Runner) -> dict[str, SeasonFit]:
-    """Fit of each row with measured forces, by its id."""
+def fit_rows(run: WinterRun, choice: FitChoice | None, runner: Runner) -> WinterRun:
+    """Run with the fit of each row with measured forces; as it is without a choice."""
+    if choice is None:
+        return run
     from netdesign.study.measured_pulls import list_measured_pulls
     from netdesign.winter.day import DaySolver
     from netdesign.winter.fit import FIT_SETTINGS, fit_season
@@ -135,7 +136,7 @@ def fit_rows(run: WinterRun, choice: FitChoice, runner: Runner) -> dict[str, Sea
             design_density=run.site.ranges["density"].high,
         )
         fits[row.id] = fit_season(task)
-    return fits
+    return replace(run, fits=fits)
 
 
 def tell_fit(row: str, fit: Mapping[str, Any], language: Language) -> None:

@@ -20,9 +20,12 @@ _SILENCE_S = 5.0  # longest that plain lines keep silent while cases end
 
 @contextmanager
 def show_progress(
-    total: int, what: str, *, quiet: bool
+    total: int, what: str, *, quiet: bool, language: Language = "en"
 ) -> Iterator[Callable[[object], None] | None]:
-    """Function to call after each of ``total`` pieces; None when quiet."""
+    """Function to call after each of ``total`` pieces; None when quiet.
+
+    ``what`` names the pieces: a text ``piece.what`` of every language.
+    """
     if quiet:
         yield None
         return
@@ -31,21 +34,25 @@ def show_progress(
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield _count_quarters(total, what)
+        yield _count_quarters(total, what, language)
         return
     with Progress(console=console, transient=True) as progress:
-        task = progress.add_task(what, total=total)
+        task = progress.add_task(render(say(f"piece.{what}"), language), total=total)
         yield lambda _: progress.advance(task)
 
 
-def _count_quarters(total: int, what: str) -> Callable[[object], None]:
+def _count_quarters(
+    total: int, what: str, language: Language
+) -> Callable[[object], None]:
     done = 0
 
     def on_done(_: object) -> None:
         nonlocal done
         done += 1
         if done <= total and done * 4 // total > (done - 1) * 4 // total:
-            sys.stderr.write(f"{done} of {total} {what}\n")
+            named = say(f"piece.{what}")
+            told = say("progress.count", done=done, total=total, what=named)
+            sys.stderr.write(f"{render(told, language)}\n")
 
     return on_done
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -37,6 +37,11 @@ class Words:
     def __call__(self, key: str, /, **arguments: Argument) -> str:
         """Text of a key with its gaps filled."""
         return render(Message(key, arguments), self.language)
+
+    @property
+    def semicolon(self) -> str:
+        """Semicolon; French sets it apart."""
+        return self.join(("", "")).rstrip()
 
     def join(self, parts: Iterable[str]) -> str:
         """Parts of one cell, one after the other."""
@@ -137,13 +142,13 @@ class Words:
         if case is None:
             return MISSING
         density, *others = case.values.items()
-        return ", ".join((self.show_with_unit(*density), *self._name_values(others)))
+        return ", ".join((self.show_with_unit(*density), *self.name_values(others)))
 
     def name_further(self, case: CasePoint | None) -> str:
         """Values of a case beside the usual three, after a comma: ``, d 2.5 m``."""
         if case is None:
             return ""
-        return "".join(f", {x}" for x in self._name_values([*case.values.items()][3:]))
+        return "".join(f", {x}" for x in self.name_values([*case.values.items()][3:]))
 
     def name_case_short(self, case: CasePoint | None) -> str:
         """Numbers of a case for a narrow column: ``350 / 30 / 25``."""
@@ -151,7 +156,8 @@ class Words:
             return MISSING
         return " / ".join(self.show_number(*one) for one in case.values.items())
 
-    def _name_values(self, values: Sequence[tuple[str, float]]) -> list[str]:
+    def name_values(self, values: Iterable[tuple[str, float]]) -> list[str]:
+        """Values of quantities with their symbols and units: ``φ 30°``."""
         return [
             f"{QUANTITIES[key].symbol} {self.show_with_unit(key, x)}"
             for key, x in values
@@ -282,7 +288,7 @@ def show_own(words: Words, text: str) -> str:
 
 _OWN = (
     *("profile_title.", "profile_about.", "profile_text.", "profile_source."),
-    "creep_law.",
+    *("creep_law.", "reference.", "measured.", "model_source."),
 )
 
 

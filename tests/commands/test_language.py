@@ -106,12 +106,6 @@ def test_a_limit_profile_is_shown_in_the_language(call, language, profile):
     assert len(english.out.splitlines()) == len(ended.out.splitlines())
 
 
-def test_a_dry_run_speaks_the_language(call, language):
-    ended = call("check", "--example", "--dry-run", "--language", language)
-    assert ended.code == 0
-    assert find_english(ended.out + ended.err) == set()
-
-
 @pytest.mark.parametrize(
     "arguments",
     [

@@ -7,6 +7,8 @@ import pytest
 
 from netdesign.words.catalogue import LANGUAGES
 from netdesign.words.numerals import set_marks
+from tests.report.accessible import list_violations
+from tests.report.printing import PAPER_PX, PHONE_PX, list_too_wide
 from tests.short_example import write_short_example
 
 HEIGHTS = [0, 30, 60, 55, 90, 130, 125, 150, 160, 150, 140, 120, 90, 60, 20, 0]
@@ -80,6 +82,11 @@ def test_page_shows_the_document_in_each_language(
     assert page.count("<svg") == 1
     assert winter["why"].split(":")[0] in page
     assert "<script" not in page
+    wide = list_too_wide(page, PHONE_PX, tmp_path, media="screen")
+    assert {one.split()[1] for one in wide} <= {"table"}  # in what can be scrolled
+    assert list_too_wide(page, PAPER_PX, tmp_path) == []
+    if language == "de":
+        assert list_violations(page, tmp_path, PHONE_PX) == []
 
 
 def test_snow_above_the_net_is_not_proven(call, site, tmp_path):

@@ -1,13 +1,21 @@
 """A page as a browser prints it: how many pages, and what is too wide for them."""
 
+import contextlib
 import re
 import subprocess
+import zlib
 
 from tests.programs import require_program
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 PAPER_PX = 695  # width of the print area at 96 dots per inch: 210 mm less both margins
 PHONE_PX = 400
+A4_PT, FOOTER = 841.92, 0.948  # height of a page, share of it above all footers
+PRINTED_PX = 1036  # height of the print area: 297 mm less both margins
+_STREAM = re.compile(rb"stream\r?\n(.*?)\r?\nendstream", re.DOTALL)
+_STEP = re.compile(
+    rb"^(?:([qQ])|[-\d.]+ \S+ \S+ ([-\d.]+) [-\d.]+ ([-\d.]+) (cm|Tm))$", re.MULTILINE
+)
 _QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage")
 # What lies further right than the page, each with the section that it stands in; what
 # a section scrolls counts too.
@@ -28,6 +36,53 @@ def count_pages(page: str, folder) -> int:
     target = folder / "report.pdf"
     open_page(page, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
     return len(re.findall(rb"/Type\s*/Page\b", target.read_bytes()))
+
+
+def measure_pages(page: str, folder) -> list[float]:
+    """Lowest word of each page that is not its footer, as a share of the page."""
+    target = folder / "measured.pdf"
+    open_page(page, folder, f"--print-to-pdf={target}", "--no-pdf-header-footer")
+    found = []
+    for stream in _STREAM.findall(target.read_bytes()):
+        with contextlib.suppress(zlib.error):
+            heights = list(_list_heights(zlib.decompress(stream)))
+            if heights:
+                found.append(max((h for h in heights if h < FOOTER), default=0.0))
+    return found
+
+
+def _list_heights(text: bytes):
+    """Height of each word from the top of its page; drawings have scales of their own.
+
+    A browser's pages are scaled and moved (cm) inside of brackets (q Q), never turned.
+    """
+    scale, move, outer = 1.0, 0.0, []
+    for bracket, upright, shift, kind in _STEP.findall(text):
+        if bracket == b"q":
+            outer.append((scale, move))
+        elif bracket == b"Q":
+            scale, move = outer.pop()
+        elif kind == b"cm":
+            scale, move = scale * float(upright), move + scale * float(shift)
+        else:
+            yield 1.0 - (move + scale * float(shift)) / A4_PT
+
+
+_BOTTOM = """<script>
+document.body.style.width = "WIDTHpx";
+const box = document.querySelector("SELECTOR").getBoundingClientRect();
+document.body.innerHTML = "<pre>" + box.bottom + "</pre>";
+</script></body>"""
+
+
+def measure_bottom(page: str, selector: str, folder) -> float:
+    """Lower edge of an element on paper, from the top of the first page [px]."""
+    page = re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page)
+    page = page.replace("@media print", "@media all")
+    page = page.replace("@media screen", "@media speech")
+    script = _BOTTOM.replace("WIDTH", str(PAPER_PX)).replace("SELECTOR", selector)
+    tree = open_page(page.replace("</body>", script), folder, "--dump-dom")
+    return float(re.findall("<pre>(.*?)</pre>", tree)[0])
 
 
 def list_too_wide(page: str, width: int, folder, media: str = "print") -> list[str]:

@@ -267,7 +267,7 @@ class RowAgain:
         compression = cross(pull, g) / cross(p, g)
         foot = b * math.hypot(state["fx"], state["fy"])
         near = 2e-5 * size
-        self.same(f"{what} |F_foot|", state["|Ffoot|"], foot)
+        self.same(f"{what} |F_f|", state["|Ff|"], foot)
         self.same(f"{what} T_u", state["Tu"], max(tensions[0], 0.0), near)
         self.same(f"{what} T_d", state["Td"], 0.0 if is_uphill else tensions[1], near)
         self.same(f"{what} C", state["C"], compression, near)
@@ -491,7 +491,7 @@ class RowAgain:
         states = self.find_states(f"{member} by the panel", self.row.states)
         force = self.read_state(member, states[0]) if states else 0.0
         if member == FOOT and states:
-            force = max(force, states[0]["Fmid"])
+            force = max(force, states[0]["Fm"])
         self.same(f"{what} E_p", panel["Ep"], force)
         beside = {
             end: (one["g"] * panel[f"Ep{end}"] + one[f"A{end}"]) * on_row
@@ -507,10 +507,10 @@ class RowAgain:
         return self.read_state(member, found[0]) if found else 0.0
 
     def read_state(self, member, state):
-        keys = {FOOT: "|Ffoot|", UP_GUY: "Tu", UP: "Tu", DOWN_GUY: "Td", DOWN: "Td"}
+        keys = {FOOT: "|Ff|", UP_GUY: "Tu", UP: "Tu", DOWN_GUY: "Td", DOWN: "Td"}
         keys |= {POST: "C", BASE: "V"}
         if state["xU"] == 0.0 and member in (FOOT, UP):
-            return state["|Ffoot|"] + state["Tu"]
+            return state["|Ff|"] + state["Tu"]
         return state[keys[member]]
 
     def check_band(self, what, member, one):
@@ -608,10 +608,10 @@ class RowAgain:
         self.same(f"{what} R_k", given["Rk"], value)
         tests = self.row.tests.get(given["No."])
         if tests:
-            worst = min(tests["Rmean"] / tests["ξmean"], tests["Rmin"] / tests["ξmin"])
+            worst = min(tests["Rm"] / tests["ξm"], tests["Rmin"] / tests["ξmin"])
             self.same(f"{what} of tests", given["Rk"], worst)
             self.same(f"{what} of tests, R_k", tests["Rk"], given["Rk"])
-            for key, name in (("ξmean", "mean"), ("ξmin", "least")):
+            for key, name in (("ξm", "mean"), ("ξmin", "least")):
                 factor = self.find_correlation(name, int(tests["n"]))
                 self.same(f"{what} {key}", tests[key], factor)
 

@@ -8,6 +8,7 @@ import pytest
 
 from netdesign.evidence.verification.case import VerificationCase, observe_order
 from netdesign.evidence.verification.pack import run_pack, write_pack
+from netdesign.words.catalogue import load_texts
 
 
 def a_case(**changes):
@@ -58,6 +59,8 @@ def test_whole_pack_passes_and_can_be_written():
     assert done == list(range(1, len(done) + 1))
     names = [case.id for case in cases]
     assert len(names) == len(set(names))
+    told = {text for key, text in load_texts("en").items() if key[:10] == "reference."}
+    assert {case.reference for case in cases} == told  # and so in every language
     document = json.loads(json.dumps(write_pack(cases), allow_nan=False))
     assert document["schema"] == "netdesign.verification/1"
     assert len(document["cases"]) == len(cases)

@@ -22,9 +22,12 @@ from netdesign.words.catalogue import LANGUAGES
 from tests.report.printing import (
     PAPER_PX,
     PHONE_PX,
+    PRINTED_PX,
     count_pages,
     list_hidden,
     list_too_wide,
+    measure_bottom,
+    measure_pages,
 )
 from tests.report.reading import PageReader
 from tests.verification.page_again import read_page, work_out, work_out_page
@@ -149,12 +152,30 @@ def twelve(studies):
 
 @pytest.mark.parametrize(
     ("detail", "language", "most"),
-    [("full", "en", 47), ("summary", "en", 13), ("summary", "de", 14)],
+    [
+        ("full", "en", 45),
+        ("full", "fr", 45),
+        ("summary", "en", 12),
+        ("summary", "de", 12),
+    ],
 )
 def test_twelve_rows_have_few_pages(twelve, tmp_path, detail, language, most):
     """45 and 12 where a font as narrow as Arial is installed; others are wider."""
     page = render_html(twelve, language, detail)
     assert count_pages(page, tmp_path) <= most
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_verdict_stands_on_the_first_page(twelve, tmp_path, language):
+    page = render_html(twelve, language, "summary")
+    assert measure_bottom(page, ".card", tmp_path) <= PRINTED_PX
+    assert ".card { break-inside: avoid; }" in page  # one that is longer than a page
+
+
+def test_no_page_but_the_last_is_three_quarters_empty(twelve, tmp_path):
+    shares = measure_pages(render_html(twelve, "fr"), tmp_path)
+    assert len(shares) > 20
+    assert min(shares[:-1]) > 0.25
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

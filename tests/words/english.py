@@ -2,6 +2,11 @@
 
 import re
 
+from netdesign.words.catalogue import load_texts
+
+WORD = re.compile(r"[^\W\d_]+")
+SIGNS = {"max", "min", "positive"}  # of formulas; "positive" is French as well
+
 FREQUENT = {
     "en": (
         "the is are with not must that which has been cannot should than there needs "
@@ -21,3 +26,14 @@ def find_words(text, languages):
         for word in FREQUENT[language].split()
         if word in words
     }
+
+
+def list_words(text):
+    """Words of more than two letters, without signs."""
+    return {one for one in WORD.findall(text.casefold()) if len(one) > 2} - SIGNS
+
+
+def list_vocabulary(language):
+    """Words of all texts of a language."""
+    texts = load_texts(language).values()
+    return set().union(*(list_words(re.sub(r"\{[^{}]*\}", " ", one)) for one in texts))

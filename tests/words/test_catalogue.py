@@ -27,6 +27,9 @@ FAMILIES: tuple[str, ...] = (
     *("label.", "load_case.", "load.", "load_name.", "show.load_"),
     *("slab_ground.", "variant."),
     "floor.profile_",
+    *("reference.", "case_kind.", "piece.", "verify_table."),
+    *("measured.", "model_source.", "validation."),
+    *("validation_mark.", "validation_input.", "validation_member."),
     *("formula.", "brings.", "holding.", "position."),
     *("method.", "method_used.", "setting.", "start.", "end."),
     *(

@@ -24,6 +24,7 @@ from netdesign.evidence.verification.exported import (
     write_scenes,
 )
 from netdesign.evidence.verification.pack import GROUPS, run_pack
+from netdesign.words.catalogue import Language
 
 _OWN = "measured.toml"
 
@@ -54,7 +55,9 @@ def list_pages(out: Path) -> list[Path]:
     return [out / name for name in (PAGE_FILE, DOCUMENT_FILE, *list_files())]
 
 
-def write_page(evidence: Evidence, out: Path, *, force: bool) -> None:
+def write_page(
+    evidence: Evidence, out: Path, *, force: bool, language: Language = "en"
+) -> None:
     """Write the page, its document and the exported scenes into a folder.
 
     Raises
@@ -62,7 +65,7 @@ def write_page(evidence: Evidence, out: Path, *, force: bool) -> None:
     OutputError
         If they exist and may not be replaced, or cannot be written.
     """
-    files = render_validation(evidence) | write_scenes(solve_exported())
+    files = render_validation(evidence, language) | write_scenes(solve_exported())
     contents = {out / name: content for name, content in files.items()}
     write_files(contents, overwrite=force)
 

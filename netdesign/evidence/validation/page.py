@@ -13,6 +13,7 @@ from netdesign.evidence.validation.pictures import (
     draw_bands,
     draw_compaction,
     draw_errors,
+    name_validated,
 )
 from netdesign.evidence.validation.structure import Structure
 from netdesign.evidence.verification.another_code import load_results
@@ -27,19 +28,24 @@ from netdesign.evidence.verification.compaction import (
     list_growth,
 )
 from netdesign.evidence.verification.pack import write_pack
+from netdesign.evidence.verification.verification_table import name_kind
 from netdesign.report.page.render import build_environment, load_style, mark_safe
+from netdesign.report.words import Words, show_own
 from netdesign.snow.creep_law import BOUTILLIER_2004, ZWINGER_2007
+from netdesign.words.catalogue import Language
+from netdesign.words.message import say
 
 PAGE_FILE, DOCUMENT_FILE = "validation.html", "validation.json"
-_FRACTION = {"no-slip": "rough", "free": "freely gliding"}
+_GROUNDS = {"no-slip": "validation.no_slip", "free": "validation.free"}
+_LAYERS = {"first": 0.8, "second": 1.0, "third": 1.2}  # of the layered scene [m]
 # What an expected value is: computed here, by a code of others, or from a publication.
-_HERE, _RECALLED, _READ = "computed here", "recalled", "read in a source"
+_HERE, _RECALLED, _READ = "here", "recalled", "read"
 _MARKS = {
     "closed form": _HERE,
     "manufactured": _HERE,
     "invariant": _HERE,
     "limit": _HERE,
-    "cross model": "computed by another code",
+    "cross model": "code",
 }
 _RECALLED_CASES = ("guideline-",)  # of kind "published", but nobody had the page
 # Of kind "cross model", but both models are solved here.
@@ -60,22 +66,26 @@ class Evidence:
 
 
 def mark_expected(case: VerificationCase) -> str:
-    """Origin of a case's expected value, in the words of the page."""
+    """Origin of a case's expected value: a text ``validation_mark`` of this key."""
     if case.kind == "published":
         return _RECALLED if case.id.startswith(_RECALLED_CASES) else _READ
     return _HERE if case.id.startswith(_OWN_CASES) else _MARKS[case.kind]
 
 
-def render_validation(evidence: Evidence) -> dict[str, bytes]:
+def render_validation(
+    evidence: Evidence, language: Language = "en"
+) -> dict[str, bytes]:
     """Page and document, by the names of their files.
 
     Parameters
     ----------
     evidence : Evidence
         As computed.
+    language : str
+        Of the page.
     """
     return {
-        PAGE_FILE: _render_page(evidence).encode(),
+        PAGE_FILE: _render_page(evidence, Words(language)).encode(),
         DOCUMENT_FILE: write_validation(evidence).encode(),
     }
 
@@ -85,35 +95,39 @@ def write_validation(evidence: Evidence) -> str:
     return json.dumps(write_evidence(evidence), indent=1, allow_nan=False)
 
 
-def _render_page(evidence: Evidence) -> str:
+def _render_page(evidence: Evidence, words: Words) -> str:
     compared = [c for one in evidence.validations for c in one.comparisons]
     is_measured = bool(evidence.validations)
     return (
-        build_environment()
+        build_environment(words.language)
         .get_template("validation.html")
         .render(
             css=load_style("report.css", "study.css"),
+            language=words.language,
             version=__version__,
-            errors=mark_safe(draw_errors(evidence.cases)),
-            compaction=mark_safe(draw_compaction(evidence.places)),
-            bands=mark_safe(draw_bands(evidence.validations)) if is_measured else "",
-            cases=[_show_case(case) for case in evidence.cases],
+            errors=mark_safe(draw_errors(evidence.cases, words)),
+            compaction=mark_safe(draw_compaction(evidence.places, words)),
+            bands=mark_safe(draw_bands(evidence.validations, words))
+            if is_measured
+            else "",
+            cases=[_show_case(case, words) for case in evidence.cases],
             passed=sum(case.passes for case in evidence.cases),
-            quoted=_quote(),
+            quoted=_quote(words),
             growth={key: f"{one:.0f}" for key, one in list_growth().items()},
-            models=MODELS,
-            softness=[_show_softness(place) for place in _pick(evidence.places)],
-            contrasts=[_show_contrast(one) for one in evidence.contrasts],
-            structures=[_show_structure(one) for one in evidence.validations],
+            models=_list_models(words),
+            layers=say("validation.layers", **_LAYERS),
+            softness=[_show_softness(place, words) for place in _pick(evidence.places)],
+            contrasts=[_show_contrast(one, words) for one in evidence.contrasts],
+            structures=[_show_structure(one, words) for one in evidence.validations],
             inside=sum(one.is_inside for one in compared),
             middle_of_five=sum(one.is_in_the_middle for one in compared),
             measured=len(compared),
-            codes=_list_codes(),
+            codes=_list_codes(words),
         )
     )
 
 
-def _quote() -> dict[str, str]:
+def _quote(words: Words) -> dict[str, str]:
     """Viscosity at one place by two of the laws, over the middle of the models."""
     density, stress = PLACE
     middle = find_middle(density)
@@ -122,25 +136,26 @@ def _quote() -> dict[str, str]:
         for key, law in (("own", BOUTILLIER_2004), ("stiffest", ZWINGER_2007))
     }
     return {
-        "density": f"{density:g}",
-        "stress": f"{stress / 1e3:g}",
-        "value": f"{found['own']:.2g}",
-        **{key: f"{value / middle:.1f}" for key, value in found.items()},
+        "density": words.write(f"{density:g}"),
+        "stress": words.write(f"{stress / 1e3:g}"),
+        "value": words.write(f"{found['own']:.2g}"),
+        **{key: words.write(f"{value / middle:.1f}") for key, value in found.items()},
     }
 
 
-def _show_case(case: VerificationCase) -> dict[str, str]:
+def _show_case(case: VerificationCase, words: Words) -> dict[str, str]:
+    order = "" if case.order is None else words.write(f"{case.order:.2f}")
     return {
         "id": case.id,
-        "kind": case.kind,
-        "reference": case.reference,
-        "mark": mark_expected(case),
-        "expected": f"{case.expected:.5g}",
-        "got": f"{case.got:.5g}",
-        "error": f"{case.error:.1e}",
-        "tolerance": f"{case.tolerance:.1e}",
-        "order": "" if case.order is None else f"{case.order:.2f}",
-        "result": "✓" if case.passes else "✗ fails",
+        "kind": name_kind(case.kind, words),
+        "reference": show_own(words, case.reference),
+        "mark": words(f"validation_mark.{mark_expected(case)}"),
+        "expected": words.write(f"{case.expected:.5g}"),
+        "got": words.write(f"{case.got:.5g}"),
+        "error": words.write(f"{case.error:.1e}"),
+        "tolerance": words.write(f"{case.tolerance:.1e}"),
+        "order": order,
+        "result": "✓" if case.passes else words("validation.fails"),
     }
 
 
@@ -148,13 +163,16 @@ def _pick(places: Sequence[Place]) -> list[Place]:
     return [place for place in places if place.density % 100.0 == 50.0]
 
 
-def _show_softness(place: Place) -> dict[str, Any]:
+def _show_softness(place: Place, words: Words) -> dict[str, Any]:
     return {
-        "density": f"{place.density:g}",
-        "stress": f"{place.stress / 1e3:g}",
-        "middle": f"{find_middle(place.density):.2g}",
+        "density": words.write(f"{place.density:g}"),
+        "stress": words.write(f"{place.stress / 1e3:g}"),
+        "middle": words.write(f"{find_middle(place.density):.2g}"),
         "laws": [
-            {"viscosity": f"{value:.2g}", "softness": _show_ratio(place.softness[name])}
+            {
+                "viscosity": words.write(f"{value:.2g}"),
+                "softness": words.write(_show_ratio(place.softness[name])),
+            }
             for name, value in place.laws.items()
         ],
     }
@@ -164,87 +182,122 @@ def _show_ratio(value: float) -> str:
     return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
-def _list_codes() -> dict[str, dict[str, Any]]:
-    """Other codes by their names, with recipe and results."""
-    codes: dict[str, dict[str, Any]] = {}
+def _list_models(words: Words) -> str:
+    """Models of settling, each with its source and mark."""
+    mark = words("validation_mark.read")
+    return words.join(
+        f"{one.name} ({show_own(words, one.source)}, {mark})" for one in MODELS
+    )
+
+
+def _list_codes(words: Words) -> list[str]:
+    """Other codes, each with its scenes and its recipe."""
+    codes: dict[tuple[str, str], list[str]] = {}
     for one in load_results():
-        code = codes.setdefault(one.code, {"recipe": one.recipe, "scenes": []})
-        code["scenes"].append(one.scene)
-    return codes
+        codes.setdefault((one.code, one.recipe), []).append(one.scene)
+    return [
+        words(
+            "validation.code",
+            name=show_own(words, name),
+            scenes=", ".join(scenes),
+            recipe=show_own(words, recipe),
+        )
+        for (name, recipe), scenes in codes.items()
+    ]
 
 
-def _show_contrast(one: Contrast) -> dict[str, str]:
+def _show_contrast(one: Contrast, words: Words) -> dict[str, str]:
     (foot, head), (other_foot, other_head) = one.own, one.other
     uniform_foot, uniform_head = one.uniform
     return {
-        "ground": _FRACTION[one.ground],
-        "own": f"{foot / 1e3:.1f} / {head / 1e3:.1f}",
-        "other": f"{other_foot / 1e3:.1f} / {other_head / 1e3:.1f}",
-        "uniform": f"{uniform_foot / 1e3:.1f} / {uniform_head / 1e3:.1f}",
+        "ground": words(_GROUNDS[one.ground]),
+        "own": words.write(f"{foot / 1e3:.1f} / {head / 1e3:.1f}"),
+        "other": words.write(f"{other_foot / 1e3:.1f} / {other_head / 1e3:.1f}"),
+        "uniform": words.write(f"{uniform_foot / 1e3:.1f} / {uniform_head / 1e3:.1f}"),
         "change": f"{100 * (other_foot / foot - 1):+.0f} / "
         f"{100 * (other_head / head - 1):+.0f}",
     }
 
 
-def _show_structure(one: Validation) -> dict[str, Any]:
+def _show_structure(one: Validation, words: Words) -> dict[str, Any]:
     structure = one.structure
+    counts: dict[str, Any] = {"count": one.solved}
+    if one.failed:
+        counts |= {"failed": one.failed, "reasons": tuple(map(str, one.reasons))}
     return {
-        "title": structure.title,
-        "source": structure.source,
-        "note": structure.note,
+        "title": show_own(words, structure.title),
+        "source": show_own(words, structure.source),
+        "note": _tell(structure.note, words),
         "is_known": structure.is_known,
-        "cases": one.solved,
-        "failed": one.failed,
-        "reasons": one.reasons,
+        "told": words(
+            "validation.cases_failed" if one.failed else "validation.cases", **counts
+        ),
         "rows": [
-            row for comparison in one.comparisons for row in _list_rows(comparison, one)
+            row
+            for comparison in one.comparisons
+            for row in _list_rows(comparison, one, words)
         ],
-        "inputs": _list_inputs(structure),
-        "open": structure.open,
+        "inputs": _list_inputs(structure, words),
+        "open": [show_own(words, text) for text in structure.open],
     }
 
 
-def _list_rows(comparison: Comparison, one: Validation) -> list[dict[str, str]]:
+def _list_rows(
+    comparison: Comparison, one: Validation, words: Words
+) -> list[dict[str, str]]:
     measured = comparison.measured
-    uncertain = f" ± {measured.uncertainty:g}" if measured.uncertainty else ""
+    uncertain = (
+        words.write(f" ± {measured.uncertainty:g}") if measured.uncertainty else ""
+    )
     rows = []
     for band in comparison.bands:
         if one.structure.is_known:
             misfit = 100.0 * (band.low / measured.value - 1.0)
-            said = f"misfit {misfit:+.1f} %"
+            said = words("validation.misfit", misfit=misfit)
         else:
-            share = f"{100 * band.share_below:.0f} % of the cases lie below"
-            said = f"{band.place(measured)} the band; {share}"
+            share = 100.0 * band.share_below
+            said = words(f"validation.{band.place(measured)}", share=share)
         rows.append(
             {
-                "name": measured.name,
-                "measured": f"{measured.value:g}{uncertain}",
-                "mark": "read in a source"
-                if measured.mark == "read"
-                else measured.mark,
-                "member": band.member.replace("_", " "),
-                "band": f"{band.low:.0f} to {band.high:.0f}",
-                "middle": f"{band.middle[0]:.0f} to {band.middle[1]:.0f}",
-                "error": f"{100 * band.errors:.1f}",
+                "name": show_own(words, measured.name),
+                "measured": words.write(f"{measured.value:g}") + uncertain,
+                "mark": words(f"validation_mark.{measured.mark}"),
+                "member": name_validated(band.member, words),
+                "band": _show_range(band.low, band.high, words),
+                "middle": _show_range(*band.middle, words),
+                "error": words.write(f"{100 * band.errors:.1f}"),
                 "said": said,
-                "note": measured.note,
+                "note": _tell(measured.note, words),
             }
         )
     return rows
 
 
-def _list_inputs(structure: Structure) -> list[dict[str, str]]:
+def _list_inputs(structure: Structure, words: Words) -> list[dict[str, str]]:
     return [
         {
-            "name": name,
-            "range": f"{span.low:g}"
+            "name": words(f"validation_input.{name}"),
+            "range": words.show_given(span.low)
             if span.is_known
-            else f"{span.low:g} to {span.high:g}",
-            "mark": span.mark,
-            "reason": span.reason,
+            else words(
+                "show.band",
+                low=words.show_given(span.low),
+                high=words.show_given(span.high),
+            ),
+            "mark": words(f"validation_mark.{span.mark}"),
+            "reason": _tell(span.reason, words),
         }
         for name, span in structure.inputs.items()
     ]
+
+
+def _show_range(low: float, high: float, words: Words) -> str:
+    return words("show.band", low=f"{low:.0f}", high=f"{high:.0f}")
+
+
+def _tell(text: str, words: Words) -> str:
+    """Text of a structure, which may have none."""
+    return show_own(words, text) if text else ""
 
 
 def write_evidence(evidence: Evidence) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from netdesign.evidence.validation.band import Validation
 from netdesign.evidence.verification.case import VerificationCase
 from netdesign.evidence.verification.compaction import MODELS, STRESSES, Place
+from netdesign.evidence.verification.verification_table import name_kind
 from netdesign.report.drawing.charts import SHADES
 from netdesign.report.drawing.figures import (
     ACCENT,
@@ -18,7 +19,9 @@ from netdesign.report.drawing.figures import (
     use_style,
     write_svg,
 )
+from netdesign.report.words import ENGLISH, Words, show_member, show_own
 from netdesign.snow.creep_law import CREEP_LAWS
+from netdesign.words.catalogue import load_texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,7 +30,7 @@ _LEAST = 1e-16  # an error of none is shown there
 _ROW_IN = 0.19  # height of a bar
 
 
-def draw_errors(cases: Sequence[VerificationCase]) -> str:
+def draw_errors(cases: Sequence[VerificationCase], words: Words = ENGLISH) -> str:
     """Error of each case over its tolerance: right of the line none passes."""
     from matplotlib.figure import Figure
 
@@ -46,15 +49,16 @@ def draw_errors(cases: Sequence[VerificationCase]) -> str:
         axes.axvline(1.0, color=ACCENT, linewidth=1.0)
         axes.set_xscale("log")
         axes.set_xlim(_LEAST / 3.0, 10.0)
-        axes.set_yticks(range(len(kinds)), reversed(kinds))
+        named = [name_kind(kind, words) for kind in reversed(kinds)]
+        axes.set_yticks(range(len(kinds)), named)
         axes.set_ylim(-0.6, len(kinds) - 0.4)
-        axes.set_xlabel("error over tolerance; a case passes left of the line")
+        axes.set_xlabel(words("validation.errors_axis"))
         _strip(axes)
         figure.tight_layout(pad=0.4)
-    return write_svg(figure, name, "Error of every case over its tolerance")
+    return write_svg(figure, name, words("validation.errors_title"))
 
 
-def draw_compaction(places: Sequence[Place]) -> str:
+def draw_compaction(places: Sequence[Place], words: Words = ENGLISH) -> str:
     """Apparent compaction viscosity over density, one panel a stress."""
     from matplotlib.figure import Figure
 
@@ -65,16 +69,18 @@ def draw_compaction(places: Sequence[Place]) -> str:
         for stress, axes in zip(STRESSES, grid.flat, strict=True):
             here = [place for place in places if place.stress == stress]
             _draw_stress(axes, here)
-            axes.set_title(f"{stress / 1e3:g} kPa", loc="left", fontsize=8)
+            axes.set_title(
+                words.write(f"{stress / 1e3:g}") + " kPa", loc="left", fontsize=8
+            )
             _strip(axes)
         for axes in grid[-1]:
-            axes.set_xlabel("density [kg/m³]")
+            axes.set_xlabel(words("validation.density_axis"))
         for axes in grid[:, 0]:
-            axes.set_ylabel("viscosity [Pa s]")
+            axes.set_ylabel(words("validation.viscosity_axis"))
         handles, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="lower center", ncols=4, frameon=False)
         figure.tight_layout(pad=0.5, rect=(0.0, 0.09, 1.0, 1.0))
-    return write_svg(figure, name, "Apparent compaction viscosity over density")
+    return write_svg(figure, name, words("validation.compaction_title"))
 
 
 def _draw_stress(axes: Axes, places: Sequence[Place]) -> None:
@@ -95,13 +101,13 @@ def _draw_stress(axes: Axes, places: Sequence[Place]) -> None:
     axes.set_yscale("log")
 
 
-def draw_bands(validations: Sequence[Validation]) -> str:
+def draw_bands(validations: Sequence[Validation], words: Words = ENGLISH) -> str:
     """Bands of the model and what was measured, one bar a member."""
     from matplotlib.figure import Figure
 
     name = "bands"
     bars = [
-        (one.structure.title, comparison, band)
+        (show_own(words, one.structure.title), comparison, band)
         for one in validations
         for comparison in one.comparisons
         for band in comparison.bands
@@ -130,16 +136,26 @@ def draw_bands(validations: Sequence[Validation]) -> str:
                       color=GREY, lw=7, solid_capstyle="butt")  # fmt: skip
             value = comparison.measured.value
             axes.plot([value], [place], "|", color=ACCENT, markersize=11, mew=2.2)
-            label = f"{comparison.measured.name}: {band.member.replace('_', ' ')}"
+            label = words(
+                "show.label",
+                label=show_own(words, comparison.measured.name),
+                text=name_validated(band.member, words),
+            )
             ticks.append((place, label))
             place -= 1.0
         axes.set_yticks([tick for tick, _ in ticks], [label for _, label in ticks])
         axes.set_xscale("log")
         axes.set_ylim(place + 0.3, 0.0)
-        axes.set_xlabel("kN (Elm: kN/m); pale: all cases, grey: four of five")
+        axes.set_xlabel(words("validation.bands_axis"))
         _strip(axes)
         figure.tight_layout(pad=0.4)
-    return write_svg(figure, name, "Bands of the model beside what was measured")
+    return write_svg(figure, name, words("validation.bands_title"))
+
+
+def name_validated(member: str, words: Words) -> str:
+    """Member of the model that a measured value may be."""
+    key = f"validation_member.{member}"
+    return words(key) if key in load_texts("en") else show_member(words, member)
 
 
 def _strip(axes: Axes) -> None:

@@ -35,7 +35,7 @@ def build_environment(language: Language = "en") -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals["t"] = Words(language)
+    environment.globals["t"] = environment.globals["words"] = Words(language)
     environment.filters["subscripts"] = write_subscripts
     environment.filters["unbroken"] = _keep_units
     return environment

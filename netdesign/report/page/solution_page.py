@@ -45,6 +45,7 @@ from netdesign.report.words import (
 )
 from netdesign.study.support_records import PanelRecord
 from netdesign.words.catalogue import Language
+from netdesign.words.names import name
 
 Solved = Solution | WallSolution | FailedSolution
 PAGE_FILE, SOLUTION_FILE, HISTORY_FILE = "index.html", "solution.json", "history.csv"
@@ -333,8 +334,8 @@ def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
         "solved.triangles": words.show_given(cost["elements"]),
         "solved.linear_solves": words.show_given(cost["linear_solves"]),
         "solved.creep_law": document["provenance"]["creep_law"],
-        "solved.settings": ", ".join(
-            f"{key.replace('_', ' ')} {value}"
+        "solved.settings": words.join(
+            f"{words.show(name('setting', key))} {_show_setting(key, value, words)}"
             for key, value in document["provenance"]["settings"].items()
         ),
         "solved.program": f"netdesign {document['provenance']['version']}",
@@ -349,3 +350,12 @@ def _tabulate_quality(document: dict[str, Any], words: Words) -> Table:
         ),
         rows=rows,
     )
+
+
+def _show_setting(key: str, value: Any, words: Words) -> str:
+    """Setting of a run: a number, a truth value, or the start by its name."""
+    if isinstance(value, bool):
+        return words("show.yes" if value else "show.no")
+    if isinstance(value, str):
+        return words.show(name(key, value))
+    return words.show_given(value)

@@ -68,7 +68,7 @@ def _describe_parts(words: Words, action: ActionRecord) -> list[tuple[str, str, 
         )
         solved = words.show_with_unit("solved_kN", action.larger_force)
         symbol = "E_p" if action.is_by_panel else "E_s"
-        symbols = f"{symbol} = |F_foot| + |F_uphill|"
+        symbols = f"{symbol} = |F_f| + T_u"
         steps.append((symbols, " + ".join(parts), solved))
     load = action.sideways
     if load is None:

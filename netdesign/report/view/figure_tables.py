@@ -53,8 +53,8 @@ _CHECKS = (
 )
 _TESTS = (
     ("count", "n"),
-    ("mean", "R_mean [kN]"),
-    ("on_mean", "ξ_mean"),
+    ("mean", "R_m [kN]"),
+    ("on_mean", "ξ_m"),
     ("least", "R_min [kN]"),
     ("on_least", "ξ_min"),
 )

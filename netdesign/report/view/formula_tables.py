@@ -7,10 +7,10 @@ from netdesign.report.words import Words
 
 # Names of the formulas, each with its symbols; what it gives is in the words.
 FORMULAS = (
-    ("pulls", "F_foot = b · (f_x; f_y), P = b · (h_x; h_y)"),
+    ("pulls", "F_f = b · (f_x; f_y), P = b · (h_x; h_y)"),
     ("head", "C = (P × g) / (p × g), T = (P × p) / (p × g); a × c = a_x c_y − a_y c_x"),
     ("base", "V = −C p_y"),
-    ("shared", "E_s = |F_foot| + T_u"),
+    ("shared", "E_s = |F_f| + T_u"),
     (
         "guys",
         "g = 1 / (2 cos β), A = c k P / sin β; c_u = max(1/2; κ), "

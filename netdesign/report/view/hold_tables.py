@@ -138,7 +138,7 @@ def _list_spans(check: CheckRecord, words: Words) -> list[str]:
 
 
 def _name_span(hold: HoldRecord, words: Words) -> str:
-    low, high = words.show_given(hold.low), words.show_given(hold.high)
+    low, high = (words.show_number(hold.quantity, x) for x in (hold.low, hold.high))
     text = words("show.band", low=low, high=high)
     if hold.note is not None:
         text = words("show.with_note", text=text, note=words.show(hold.note))

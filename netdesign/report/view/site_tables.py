@@ -109,9 +109,15 @@ def _show_input(echo: InputEcho | None, words: Words) -> Cell:
     if echo is None or echo.value == "":
         return text_cell(MISSING)
     value = understand(echo, words)
-    text = value if isinstance(value, str) else words.show_given(value)
+    text = value if isinstance(value, str) else _show_value(echo, value, words)
     mark = _BY_DEFAULT if echo.cell == DEFAULT else ""
     return text_cell(text + mark + (_DERIVED if echo.derivation else ""))
+
+
+def _show_value(echo: InputEcho, value: float, words: Words) -> str:
+    """Number that was typed, as it is; a length that follows from others, in cm."""
+    is_length = echo.unit == "m" and echo.derivation
+    return words.show_fixed(value, 2) if is_length else words.show_given(value)
 
 
 def _name_column(echoes: Sequence[InputEcho]) -> str:

@@ -16,7 +16,7 @@ from netdesign.report.view.table import (
     text_cell,
     text_column,
 )
-from netdesign.report.words import Words, show_member, show_position
+from netdesign.report.words import MISSING, Words, show_member, show_position
 from netdesign.study.records import RowStudy
 from netdesign.study.support_records import PullRecord, StaticsRecord
 from netdesign.words.names import name
@@ -39,7 +39,7 @@ _POINTS = (
     ("downhill_x_m", "x_D [m]"),
 )
 _FORCES = (
-    ("foot_anchor_kN", "|F_foot| [kN]"),
+    ("foot_anchor_kN", "|F_f| [kN]"),
     ("uphill_guy_kN", "T_u [kN]"),
     ("downhill_guy_kN", "T_d [kN]"),
     ("post_kN", "C [kN]"),
@@ -91,7 +91,7 @@ def build_statics(row: RowStudy, words: Words) -> Table:
     return _list_states(
         "caption.statics",
         [one for one in row.statics if one.load is None],
-        (*_PULLS, *_ERRORS, *_POINTS, *_FORCES, ("mid_foot_kN", "F_mid [kN]")),
+        (*_PULLS, *_ERRORS, *_POINTS, *_FORCES, ("mid_foot_kN", "F_m [kN]")),
         words,
     )
 
@@ -139,8 +139,10 @@ def _name_brought(key: str, words: Words) -> str:
 
 
 def _name_state(state: StaticsRecord, words: Words) -> str:
+    """Case by its numbers, to as many digits as the figures that follow from it."""
     if state.load is None:
-        return words.name_case_short(state.case)
+        values = state.case.values.values() if state.case else ()
+        return " / ".join(map(words.show_digits, values)) or MISSING
     return words.show(name("load_case", state.load.load_case))
 
 

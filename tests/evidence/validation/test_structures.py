@@ -1,6 +1,7 @@
 """Measured structures: what their file may hold, bands, misfits, the page."""
 
 import json
+import re
 from dataclasses import replace
 from importlib.resources import files
 
@@ -18,8 +19,12 @@ from netdesign.evidence.validation.page import (
     render_validation,
 )
 from netdesign.evidence.validation.structure import Span, read_structures
+from netdesign.evidence.verification.another_code import load_results
 from netdesign.evidence.verification.case import VerificationCase
-from netdesign.evidence.verification.compaction import Contrast, list_places
+from netdesign.evidence.verification.compaction import MODELS, Contrast, list_places
+from netdesign.report.words import Words, show_own
+from tests.commands.every_command import read_page
+from tests.words.english import list_vocabulary, list_words
 
 OWN = files("netdesign.evidence.validation").joinpath("measured.toml").read_bytes()
 NET, OTHER_NET, ICELAND, WALL = read_structures(OWN)
@@ -101,7 +106,7 @@ def test_known_structure_has_one_case_and_a_misfit():
 def render_rows(found):
     from netdesign.evidence.validation.page import _show_structure
 
-    return _show_structure(found)["rows"]
+    return _show_structure(found, Words("en"))["rows"]
 
 
 def test_band_holds_every_case_and_places_the_measured_value():
@@ -212,14 +217,7 @@ def build_evidence(*validations):
 
 def test_page_marks_every_figure_and_draws_its_pictures():
     marks = [mark_expected(case) for case in CASES]
-    assert marks == [
-        "computed by another code",
-        "recalled",
-        "read in a source",
-        "computed here",
-        "computed here",
-        "read in a source",
-    ]
+    assert marks == ["code", "recalled", "read", "here", "here", "read"]
     hostile = replace(known_net(), title="<script>alert(1)</script>")
     rendered = render_validation(build_evidence(validate_structure(hostile)))
     page, document = rendered[PAGE_FILE].decode(), json.loads(rendered[DOCUMENT_FILE])
@@ -245,7 +243,7 @@ def test_command_writes_the_page_and_leaves_with_its_verdict(tmp_path, monkeypat
     ends = iter([build_evidence(known), build_evidence(outside)])
     monkeypatch.setattr(module, "gather", lambda *_: next(ends))
     drawn = {PAGE_FILE: b"page", DOCUMENT_FILE: b"{}"}
-    monkeypatch.setattr(module, "render_validation", lambda _: drawn)
+    monkeypatch.setattr(module, "render_validation", lambda *_: drawn)
     for expected, extra in ((0, ()), (4, ("--force",))):
         arguments = ["netdesign", "validate", "--out", str(tmp_path), "--quiet", *extra]
         monkeypatch.setattr("sys.argv", arguments)
@@ -255,3 +253,28 @@ def test_command_writes_the_page_and_leaves_with_its_verdict(tmp_path, monkeypat
     assert (tmp_path / PAGE_FILE).is_file()
     assert (tmp_path / DOCUMENT_FILE).is_file()
     assert (tmp_path / "rough-layered.vtk").is_file()
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_page_tells_no_english(language):
+    """Words of the English texts that the language has not, names aside."""
+    page = render_validation(build_evidence(validate_structure(known_net())), language)
+    text = re.sub(r"netdesign \w+|\S*[._/-]\S*|\b[A-Z]{3,}\b", " ",
+                  read_page(page[PAGE_FILE].decode()))  # fmt: skip
+    english = list_vocabulary("en") - list_vocabulary(language)
+    own = list_words(" ".join([NET.title, "a structure", "a source", "own"]))
+    assert len(list_words(text)) > 300
+    assert list_words(text) & english - own == set()
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+def test_own_data_is_translated(language):
+    words, texts = Words(language), [one.source for one in MODELS]
+    texts += [text for one in load_results() for text in (one.code, one.recipe)]
+    for one in (NET, OTHER_NET, ICELAND, WALL):
+        texts += [one.title, one.source, one.note, *one.open]
+        texts += [text for m in one.measured for text in (m.name, m.note)]
+        texts += [span.reason for span in one.inputs.values()]
+    told = {text for text in texts if text}
+    assert len(told) > 60
+    assert {text for text in told if show_own(words, text) == text} == set()

@@ -34,6 +34,7 @@ from netdesign.study.support_records import (
     PanelRecord,
     RopeRecord,
 )
+from netdesign.words.message import say
 from tests.report.build_study import build_row
 
 AXES = {
@@ -277,7 +278,7 @@ def build_face(rng: random.Random) -> Face:
 
 
 def build_monitoring(rng: random.Random) -> MonitoringRecord:
-    """Measured and modelled series that end together or apart."""
+    """Measured series of days or of months."""
     last = rng.uniform(3.0, 200.0)
     times = [last * k / 9 for k in range(10)]
     return MonitoringRecord(
@@ -286,10 +287,7 @@ def build_monitoring(rng: random.Random) -> MonitoringRecord:
         times_d=times,
         tensions_kN=[10.0 + k for k in range(10)],
         air_temperatures_C=[-5.0 - k for k in range(10)],
-        model_times_d=times,
-        model_kN=[19.0 + rng.uniform(-0.5, 0.5)] * 10,
-        model_start="sagged",
-        model_reason=None,
+        model=say("monitoring.needs_winter"),
     )
 
 

@@ -73,7 +73,7 @@ def test_every_check_with_single_values_is_named_in_one_line():
         assert named.count(f"{name};") + named.endswith(name) >= 1, name
     first = [cell.text for cell in rows[0]]
     assert "Slack" in first[1]
-    assert first[2].startswith("Glide factor: 1.01 to 2.4")
+    assert first[2].startswith("Glide factor: 1.010 to 2.400")
     assert "without" in first[2]
 
 

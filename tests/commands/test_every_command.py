@@ -1,0 +1,69 @@
+"""No English in what any command tells or writes in French and German.
+
+Counted are words of the English texts that no text of the language has. What is no
+language is taken out first: names of commands, options, files, profiles and types.
+Left out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``,
+which takes seconds; ``validate``, whose page takes minutes and has a test of its own.
+"""
+
+import re
+
+import pytest
+
+from tests.commands.every_command import COMMANDS, read_texts, run_all
+from tests.words.english import list_vocabulary, list_words
+
+NAMES = re.compile(
+    r"netdesign \w+|--[a-z-]+|\S*\w[._/\\]\w\S*|\b[A-Z_]{3,}\b"  # commands, files, keys
+    r"|\b[\w]+(-[\w]+)*-\d{4,5}(-style)?\b|\bnf-p-95-304-style\b"  # profiles
+    r"|\b[AB]\d+-\w+|\brecommended-da2\b"  # types of the example; a choice
+    r"|\blaw-[a-z]+(-[a-z…]+)*|\bown\b|\b[0-9a-f]{16,}\b"  # cases, a folder, digests
+)
+
+
+@pytest.fixture(scope="module", params=["fr", "de"])
+def told(request, tmp_path_factory):
+    """Texts by their source, and the words of English that the language has not."""
+    folder = tmp_path_factory.mktemp(request.param)
+    with pytest.MonkeyPatch.context() as patch:
+        texts = run_all(folder, request.param, patch)
+    assert len(texts) >= len(COMMANDS) - 1
+    texts |= {
+        str(path.relative_to(folder)): read_texts(path)
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and path.parent.name != "own"
+    }
+    english = list_vocabulary("en") - list_vocabulary(request.param)
+    assert len(english) > 1000
+    return texts, english
+
+
+def test_no_command_tells_english(told):
+    texts, english = told
+    del texts["completion"]  # a script for a shell
+    found = {
+        source: sorted(list_words(NAMES.sub(" ", text)) & english)
+        for source, text in texts.items()
+    }
+    assert {source: words for source, words in found.items() if words} == {}
+
+
+def test_enough_was_read(told):
+    """A reader that finds nothing would find no English."""
+    texts, _ = told
+    long = ["check", "out/report.html", "out/report.docx", "out/report.xlsx",
+            "solved/index.html", "winter/winter.html", "site.xlsx",
+            "marked.xlsx", "standards show"]  # fmt: skip
+    assert {one for one in long if len(list_words(texts[one])) < 30} == set()
+    assert [one for one, text in texts.items() if "Traceback" in text] == []
+
+
+def test_numbers_have_a_comma(told):
+    """Points stay in versions, clauses, cells and what was typed."""
+    texts, _ = told
+    pages = ("solved/index.html", "history/index.html", "wide/lines.svg")
+    terminal = ("check", "solve", "history", "envelope", "snowpack", "doctor")
+    for source in (*pages, *terminal):
+        numbers = re.findall(r"(?<![\w.])-?\d+\.\d+(?![\w.-])", texts[source])
+        assert (source, numbers) == (source, [])
+        assert re.search(r"\d,\d", texts[source])
