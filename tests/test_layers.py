@@ -25,7 +25,7 @@ ROWS = (
     {ROOT},
     {"edge"},
     {"numerics"},
-    {"resistance", "search", "snowpack"},
+    {"resistance", "search", "snowpack", "core"},
     {"snow", "cable", "structure", "checks"},
     {"haefeli"},
     {"coupling", "guideline", "planview"},
@@ -60,6 +60,7 @@ THIRD_PARTY = {
     "numpy": (
         *(
             "numerics.*",
+            "core.*",
             "snow.*",
             "cable.*",
             "coupling.*",

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -119,6 +120,13 @@ def test_wheel_holds_nothing_else(names):
     assert not [name for name in names if "test" in Path(name).name]
 
 
+def test_wheel_holds_the_compiled_core_where_there_is_a_compiler(wheel, names):
+    has_compiler = any(map(shutil.which, ("cc", "gcc", "clang")))
+    is_built = has_compiler and os.environ.get("NETDESIGN_CORE") != "numpy"
+    assert ("netdesign/core/_core.so" in names) == is_built
+    assert wheel.name.endswith("py3-none-any.whl") == (not is_built)
+
+
 def test_source_archive_holds_what_a_wheel_is_built_from(tmp_path):
     build = ("-m", "hatchling", "build", "--target", "sdist", "--directory", tmp_path)
     call(sys.executable, *build, cwd=ROOT)
@@ -126,6 +134,8 @@ def test_source_archive_holds_what_a_wheel_is_built_from(tmp_path):
     with tarfile.open(archive) as source:
         paths = {name.partition("/")[2] for name in source.getnames()}
     assert {"LICENSE", "README.md", "pyproject.toml", "netdesign/py.typed"} <= paths
+    assert {"hatch_build.py", "netdesign/core/step.c", "netdesign/core/core.h"} <= paths
+    assert not [path for path in paths if path.endswith(".so")]
     assert {f"standards/{name}" for name in files_below(ROOT / "standards")} <= paths
 
 

@@ -5,12 +5,15 @@ Theory: cable/THEORY.md, eqs (C5a) and (C5b).
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.cable.funicular import tension_offsets
+from netdesign.core.arguments import locate_all, to_array, to_floats
+from netdesign.core.library import find_core, require_sound
 from netdesign.numerics.arrays import Floats, Ints
 
 _MOST_STEPS, _MOST_HALVINGS = 30, 20
@@ -79,6 +82,9 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
     -----------
     tests/cable/test_parted.py
     """
+    core = find_core()
+    if core is not None:
+        return _part_compiled(core, cable, forces, start)
     offsets = tension_offsets(forces, -0.75 * forces[:, 1::2])
     pull, now = start, _evaluate(cable, offsets, start)
     for _ in range(_MOST_STEPS):
@@ -94,6 +100,27 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
             step = step / 2.0
         pull, now = pull + step, then
     return None
+
+
+def _part_compiled(
+    core: ctypes.PyDLL, cable: PartedCable, forces: Floats, start: Floats
+) -> Floats | None:
+    """The same by the compiled core."""
+    count, parts = cable.shares.size, cable.rises.size
+    arrays = (
+        to_floats(forces, (2, 2 * count + 1)),
+        to_floats(cable.shares, (count,)),
+        to_array(cable.firsts, np.int64, (parts,)),
+        to_floats(cable.rises, (parts,)),
+    )
+    pull, lengths = np.array(start, dtype=np.float64), np.empty(parts)
+    numbers = (cable.head_x, cable.length, cable.stiffness)
+    code = core.nd_part(
+        *(count, parts, *(ctypes.c_void_p(one) for one in locate_all(*arrays))),
+        *map(ctypes.c_double, numbers),
+        *(ctypes.c_void_p(one) for one in locate_all(pull, lengths)),
+    )
+    return lengths if require_sound(code) == 0 else None
 
 
 def _evaluate(cable: PartedCable, offsets: Floats, pull: Floats) -> _Parts:

@@ -96,6 +96,7 @@ def _list_threads() -> list[Probe]:
 def _run_tests() -> list[Probe]:
     tests: tuple[tuple[Message | str, Callable[[], Message | str]], ...] = (
         ("BLAS", _name_blas),
+        (say("doctor.core"), _name_core),
         (say("doctor.profiles"), _load_profiles),
         (say("doctor.workbook"), _round_trip_example),
         (say("doctor.solver"), _solve_small_scene),
@@ -117,6 +118,13 @@ def _name_blas() -> str:
     config: Any = np.show_config(mode="dicts")
     blas = config.get("Build Dependencies", {}).get("blas", {})
     return f"{blas.get('name', 'unknown')} {blas.get('version', '')}".strip()
+
+
+def _name_core() -> str:
+    """Core that solves here."""
+    from netdesign.core.library import name_core
+
+    return name_core()
 
 
 def _load_profiles() -> str:

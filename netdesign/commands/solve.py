@@ -65,16 +65,14 @@ def solve(
     """
     import time
 
-    from netdesign.commands.solve_folder import (
-        require_free_folder,
-        write_solution_folder,
-    )
     from netdesign.files.scene import read_scene_file
     from netdesign.files.solution import write_solution_document
 
     given = read_scene_file(scene_file, method)
     scene, settings = given.scene, given.settings
-    if out is not None:
+    if out is not None:  # the page takes as long to import as all else
+        from netdesign.commands.solve_folder import require_free_folder
+
         require_free_folder(out, given, overwrite=force)
     start = time.perf_counter()
     solution, failed = _solve(scene, settings, language)
@@ -85,6 +83,8 @@ def solve(
         solution, settings, elapsed, bound, language, support
     )
     if out is not None:
+        from netdesign.commands.solve_folder import write_solution_folder
+
         written = write_solution_folder(
             out,
             solution,
@@ -122,10 +122,12 @@ def _solve(scene: Scene, settings: Settings, language: Language) -> tuple[Solved
 
 def _resolve_support(solution: Solved, given: GivenScene) -> SolvedSupport | None:
     """Support of a net that was solved; None without a solution or a support."""
+    if given.support is None:
+        return None
     from netdesign.coupling.solution import Solution
     from netdesign.files.solved_support import resolve_support
 
-    if given.support is None or not isinstance(solution, Solution):
+    if not isinstance(solution, Solution):
         return None
     return resolve_support(solution, given.settings, given.support)
 

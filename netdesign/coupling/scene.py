@@ -21,7 +21,7 @@ from netdesign.snow.creep_law import (
     compute_shear_factor,
     require_admissible,
 )
-from netdesign.snow.flow import Step
+from netdesign.snow.flow_step import Step
 from netdesign.snow.fluidity import (
     FLUIDITY_EXPONENT,
     PAPER_FLUIDITY,

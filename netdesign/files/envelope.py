@@ -7,6 +7,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from netdesign import __version__
+from netdesign.core.library import name_core
 from netdesign.envelope.extremes import Extreme, find_extremes
 from netdesign.envelope.rows import RowEnvelope, RowGrid
 from netdesign.envelope.run import CaseResult
@@ -70,6 +71,7 @@ def write_envelope_document(
         "cost": {"wall_s": wall_s},
         "provenance": {
             "version": __version__,
+            "core": name_core(),
             "creep_law": envelope.task.scene.creep_law.name,
             "settings": {"accuracy": envelope.task.settings.accuracy},
         },
@@ -124,7 +126,7 @@ def write_grid_document(
             "asked": len(results),
         },
         "cost": {"wall_s": wall_s},
-        "provenance": {"version": __version__},
+        "provenance": {"version": __version__, "core": name_core()},
     }
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from netdesign import __version__
+from netdesign.core.library import name_core
 from netdesign.coupling.history.transient import TransientSettings
 from netdesign.coupling.moments import COUNTED_STRAIN, History, HistoryPoint
 from netdesign.coupling.scene import Scene, SolverSettings
@@ -74,6 +75,7 @@ def write_solution_document(
         "cost": _write_cost(solution.cost, wall_s),
         "provenance": {
             "version": __version__,
+            "core": name_core(),
             "creep_law": solution.scene.creep_law.name,
             "clock": _write_clock(solution.scene),
             "element": solution.scene.flow_problem.element,

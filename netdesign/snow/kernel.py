@@ -15,8 +15,9 @@ import numpy as np
 
 from netdesign.numerics.arrays import Floats, gather
 from netdesign.snow.element import reference_element
+from netdesign.snow.mesh import edge_triples
 from netdesign.snow.ordering import Blocks
-from netdesign.snow.placed_mesh import PlacedMesh, edge_triples
+from netdesign.snow.placed_mesh import PlacedMesh
 
 if TYPE_CHECKING:
     import scipy.sparse as sparse

@@ -286,6 +286,22 @@ def place_nodes(template: MeshTemplate, net_curve: Floats) -> Floats:
     return placed
 
 
+def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:
+    """Start, middle and end node of each edge of an alternating chain.
+
+    Parameters
+    ----------
+    chain : ndarray of int, shape (2 n + 1,)
+        Vertices and midpoints in turn.
+
+    Returns
+    -------
+    ndarray of int, three, shape (n,)
+        Start, middle, end.
+    """
+    return chain[:-2:2], chain[1::2], chain[2::2]
+
+
 def _end_points(size: MeshSize, interfaces: tuple[float, ...]) -> Floats:
     """Rings around the net's foot and head.
 

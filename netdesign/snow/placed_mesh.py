@@ -12,7 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from netdesign.core.library import find_core
 from netdesign.numerics.arrays import Floats, Ints, gather
+from netdesign.snow.compiled_mesh import Placed, place_compiled
 from netdesign.snow.element import (
     Element,
     add_pressure_rows,
@@ -21,7 +23,7 @@ from netdesign.snow.element import (
     map_gradients,
     reference_element,
 )
-from netdesign.snow.mesh import MeshTemplate
+from netdesign.snow.mesh import MeshTemplate, edge_triples
 
 _EDGE_POINTS, _EDGE_WEIGHTS = np.polynomial.legendre.leggauss(4)
 # Quadratic shape functions (n_points, 3) of an edge's start, middle and end, and their
@@ -55,8 +57,10 @@ class PlacedMesh:
         Positions in the slope's axes [thickness].
     weights : ndarray, shape (n_triangles, n_points)
         Quadrature weights times the area element.
-    operator : ndarray, shape (n_triangles, n_points, R, C)
-        Generalised strains per unknown.
+    gradients : ndarray, shape (2, n_triangles, n_points, 6)
+        Of the shape functions, slope's axes [1 / thickness].
+    folded : ndarray, shape (n_triangles, n_points, R, C), or None
+        Operator, where some columns of it were changed.
     dofs : ndarray, shape (n_triangles, C)
         Unknowns of each triangle.
     load : ndarray, shape (n_nodes,)
@@ -71,7 +75,8 @@ class PlacedMesh:
     template: MeshTemplate
     nodes: Floats
     weights: Floats
-    operator: Floats
+    gradients: Floats
+    folded: Floats | None
     dofs: Ints
     load: Floats
     net_normal: Floats
@@ -95,8 +100,20 @@ class PlacedMesh:
     @property
     def n_dofs(self) -> int:
         """Number of unknowns, constrained ones included."""
-        is_mixed = self.operator.shape[2] == 4
-        return self.n_velocities + (self.template.n_vertices if is_mixed else 0)
+        return self.n_velocities + (self.template.n_vertices if self.is_mixed else 0)
+
+    @property
+    def is_mixed(self) -> bool:
+        """Its element has pressures."""
+        return bool(self.dofs.shape[1] > 12)
+
+    @cached_property
+    def operator(self) -> Floats:
+        """Generalised strains per unknown, shape (n_triangles, n_points, R, C)."""
+        if self.folded is not None:
+            return self.folded
+        operator = build_strain_operator(self.template, self.gradients, self.axes)
+        return add_pressure_rows(operator) if self.is_mixed else operator
 
     def to_node_axes(self, vectors: Floats) -> Floats:
         """Vectors as unknowns.
@@ -194,6 +211,21 @@ def build_placed_mesh(
     element : str
         ``velocity`` or ``mixed``.
     """
+    core = find_core()
+    if core is None:
+        placed = _place(template, nodes)
+    else:
+        placed = place_compiled(core, template, nodes, _EDGE_TANGENT)
+    return PlacedMesh(
+        template=template,
+        nodes=nodes,
+        folded=None,
+        dofs=list_dofs(template, element),
+        **placed._asdict(),
+    )
+
+
+def _place(template: MeshTemplate, nodes: Floats) -> Placed:
     gradients, area_element = map_gradients(template, nodes)
     shape, _, point_weights = reference_element()
     weights = area_element * point_weights
@@ -201,15 +233,9 @@ def build_placed_mesh(
     axes = np.zeros_like(nodes)
     axes[0] = 1.0
     axes[:, template.net[1:]] = net_normal[:, 1:]
-    operator = build_strain_operator(template, gradients, axes)
-    if element == "mixed":
-        operator = add_pressure_rows(operator)
-    return PlacedMesh(
-        template=template,
-        nodes=nodes,
+    return Placed(
         weights=weights,
-        operator=operator,
-        dofs=list_dofs(template, element),
+        gradients=gradients,
         load=gather(template.triangles.T, weights @ shape, nodes.shape[1]),
         net_normal=net_normal,
         axes=axes,
@@ -276,19 +302,3 @@ def _list_edges(template: MeshTemplate) -> _Edges:
     ground_dofs = 2 * ground
     ground_dofs.setflags(write=False)
     return _Edges(net=net, ground=ground, ground_dofs=ground_dofs)
-
-
-def edge_triples(chain: Ints) -> tuple[Ints, Ints, Ints]:
-    """Start, middle and end node of each edge of an alternating chain.
-
-    Parameters
-    ----------
-    chain : ndarray of int, shape (2 n + 1,)
-        Vertices and midpoints in turn.
-
-    Returns
-    -------
-    ndarray of int, three, shape (n,)
-        Start, middle, end.
-    """
-    return chain[:-2:2], chain[1::2], chain[2::2]

@@ -22,6 +22,7 @@ from types import TracebackType
 from typing import Any
 
 from netdesign import __version__
+from netdesign.core.library import name_core
 from netdesign.edge.causes import explain
 from netdesign.errors import NetDesignError
 from netdesign.outcome import Outcome
@@ -32,7 +33,7 @@ from netdesign.words.message import Message, say
 _LAYOUT = 3  # of the tables
 _BUSY_S = 30.0  # how long another run may hold the file
 _LOOKED_UP = 500  # keys in one query
-_SOLVER_PARTS = ("numerics", "snow", "cable", "coupling", "solving")
+_SOLVER_PARTS = ("numerics", "core", "snow", "cable", "coupling", "solving")
 _PACKAGE = Path(__file__).resolve().parent.parent
 _WHOLE_PROGRAM = (".",)  # no list from which a part of it could be missing
 # They say nothing about the case itself.
@@ -56,17 +57,17 @@ def find_store() -> Path:
 
 
 def identify_solver() -> str:
-    """Version of the solver: its text, and the libraries that decide last digits."""
-    return _identify(_SOLVER_PARTS, _PACKAGE)
+    """Version of the solver: its text, and libraries and core that decide digits."""
+    return _identify(_SOLVER_PARTS, _PACKAGE, name_core())
 
 
 def identify_program(package: Path = _PACKAGE) -> str:
     """Version of the whole program, as ``identify_solver``."""
-    return _identify(_WHOLE_PROGRAM, package)
+    return _identify(_WHOLE_PROGRAM, package, name_core())
 
 
 @lru_cache
-def _identify(parts: tuple[str, ...], package: Path) -> str:
+def _identify(parts: tuple[str, ...], package: Path, core: str) -> str:
     import numpy
     import scipy
 
@@ -76,7 +77,8 @@ def _identify(parts: tuple[str, ...], package: Path) -> str:
             if path.suffix in (".py", ".toml"):
                 digest.update(path.name.encode())
                 digest.update(path.read_bytes())
-    digest.update(f"numpy {numpy.__version__}, scipy {scipy.__version__}".encode())
+    libraries = f"numpy {numpy.__version__}, scipy {scipy.__version__}, core {core}"
+    digest.update(libraries.encode())
     return f"{__version__}+{digest.hexdigest()[:16]}"
 
 

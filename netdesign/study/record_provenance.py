@@ -9,6 +9,7 @@ from dataclasses import replace
 from netdesign import __version__
 from netdesign.checks import Standard, StandardValue, load_standard
 from netdesign.checks.schema import GLIDE_FACTORS
+from netdesign.core.library import name_core
 from netdesign.site.model import Site
 from netdesign.snow.creep_law import CreepLaw
 from netdesign.study.cases import CheckRun
@@ -102,6 +103,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
         libraries={
             "python": platform.python_version(),
             **{name: importlib.metadata.version(name) for name in _LIBRARIES},
+            "core": name_core(),
         },
     )
 

@@ -14,7 +14,8 @@ from netdesign.snow.contact import (
     start_contact,
     update_contact,
 )
-from netdesign.snow.flow import compute_residual, solve_flow
+from netdesign.snow.flow import solve_flow
+from netdesign.snow.flow_step import compute_residual
 
 
 @pytest.fixture

@@ -8,9 +8,10 @@ import pytest
 from netdesign.coupling.scene import MESH_LEVELS, Scene, SolverSettings
 from netdesign.coupling.steady.solve import solve_steady
 from netdesign.outcome import Outcome
-from netdesign.snow import flow, kernel
+from netdesign.snow import flow, flow_step, kernel
 from netdesign.snow.contact import free_unknowns, start_contact
-from netdesign.snow.flow import compute_residual, remove_rounding, solve_flow
+from netdesign.snow.flow import solve_flow
+from netdesign.snow.flow_step import compute_residual, remove_rounding
 from netdesign.snow.law import (
     STRESS_FLOOR,
     FlowLayer,
@@ -179,7 +180,7 @@ def test_creep_is_homogeneous(inclined, a_flow_problem):
 def test_equilibrium_where_nothing_holds(inclined, a_flow_problem, ground, slip_ratio):
     law = a_flow_problem(ground=ground, slip_ratio=slip_ratio)
     state = solve(law, inclined)
-    residual = flow.compute_residual(law, inclined, state)
+    residual = compute_residual(law, inclined, state)
     free = free_unknowns(law, inclined, start_contact(inclined))
     free[2 * inclined.template.net + 1] = False
     np.testing.assert_allclose(residual[free], 0.0, atol=1e-11)
@@ -345,9 +346,9 @@ def test_iteration_cap(inclined, a_flow_problem):
 
 def test_nonfinite_step(inclined, a_flow_problem, monkeypatch):
     start = solve(a_flow_problem(), inclined)
-    monkeypatch.setattr(
-        flow, "solve_blocks", lambda *_, **__: np.full(inclined.n_dofs, np.nan)
-    )
+    spoilt = replace(start, reaction=np.full(inclined.n_dofs, np.nan))
+    taken = flow_step.Taken(spoilt, None, None)
+    monkeypatch.setattr(flow, "take_step", lambda *_: taken)
     result = solve_flow(a_flow_problem(), inclined, start, tolerance=TIGHT)
     assert (result.outcome, result.linear_solves) == (Outcome.NONFINITE, 1)
 

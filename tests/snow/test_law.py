@@ -7,7 +7,8 @@ import pytest
 
 from netdesign.coupling.scene import MESH_LEVELS
 from netdesign.outcome import Outcome
-from netdesign.snow.flow import compute_residual, compute_weight, solve_flow
+from netdesign.snow.flow import compute_weight, solve_flow
+from netdesign.snow.flow_step import compute_residual
 from netdesign.snow.law import (
     FlowLayer,
     Material,

@@ -1,0 +1,88 @@
+"""Compiles the core where there is a C compiler; else the wheel is pure Python."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sysconfig
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+# No fused arithmetic, no freedom with sums: results are equal between processors.
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno")
+SHARED = ("-fPIC", "-shared", "-fvisibility=hidden")
+
+
+def find_compiler() -> str | None:
+    """``CC``, or the first compiler found; None where ``NETDESIGN_CORE=numpy``."""
+    if os.environ.get("NETDESIGN_CORE") == "numpy":
+        return None
+    names = (os.environ.get("CC", ""), "cc", "gcc", "clang")
+    return next((path for name in names if name and (path := shutil.which(name))), None)
+
+
+def load_sources(root: Path) -> Any:
+    """``netdesign/core/sources.py``, without the package around it."""
+    path = root / "netdesign" / "core" / "sources.py"
+    spec = importlib.util.spec_from_file_location("core_sources", path)
+    if spec is None or spec.loader is None:
+        raise ImportError(str(path))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def compile_core(
+    root: Path, compiler: str, library: Path, more: tuple[str, ...] = ()
+) -> str:
+    """Compile the core to a library; what went wrong, or nothing."""
+    sources = load_sources(root)
+    version = f'-DND_VERSION="{sources.digest_sources()}"'
+    made = library.with_suffix(".tmp")
+    files = [str(sources.ROOM / name) for name in sources.SOURCES]
+    command = [compiler, *FLAGS, *SHARED, *more, version, *files, "-o", str(made)]
+    try:
+        subprocess.run([*command, "-lm"], check=True, capture_output=True, text=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        return str(getattr(error, "stderr", "") or error)
+    made.replace(library)  # a program that runs keeps the old one
+    return ""
+
+
+class CoreBuildHook(BuildHookInterface):  # type: ignore[type-arg]
+    """Library in the wheel, or beside its sources for an editable install."""
+
+    _folder: str | None = None
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Compile; without a compiler, or where it fails, all works on NumPy."""
+        root = Path(self.root)
+        library: Path = load_sources(root).LIBRARY
+        is_editable = version == "editable"
+        if is_editable:
+            library.unlink(missing_ok=True)  # of another text, or another machine
+        compiler = find_compiler()
+        if compiler is None:
+            self.app.display_info("no C compiler: the program computes in NumPy")
+            return
+        if not is_editable:
+            self._folder = tempfile.mkdtemp()
+        target = Path(self._folder) / library.name if self._folder else library
+        fault = compile_core(root, compiler, target)
+        if fault:
+            self.app.display_warning(f"the core was not compiled: {fault}")
+        elif not is_editable:
+            build_data["force_include"][str(target)] = f"netdesign/core/{library.name}"
+            build_data["pure_python"] = False
+            platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+            build_data["tag"] = f"py3-none-{platform}"
+
+    def finalize(self, *_: object) -> None:
+        """Take away what was compiled for the wheel: it has its copy."""
+        if self._folder:
+            shutil.rmtree(self._folder, ignore_errors=True)

@@ -1,0 +1,115 @@
+"""Arguments of the core's functions: structures of C, and arrays as addresses.
+
+A structure keeps no array alive; whoever fills one does.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats
+
+_POINTER, _INT, _REAL = ctypes.c_void_p, ctypes.c_int32, ctypes.c_double
+
+
+class MeshArgument(ctypes.Structure):
+    """``Mesh`` of element.h: a placed mesh and the load on it."""
+
+    _fields_ = [
+        *((name, _INT) for name in ("n_nodes", "n_triangles", "n_net", "n_edges")),
+        *((name, _POINTER) for name in ("triangles", "net", "ground", "edges")),
+        *((name, _POINTER) for name in ("gradients", "weights", "axes")),
+        *((name, _POINTER) for name in ("edge_weights", "edge_shape", "load")),
+    ]
+
+
+class LawArgument(ctypes.Structure):
+    """``Law`` of element.h: creep and sliding."""
+
+    _fields_ = [
+        *((name, _REAL) for name in ("exponent", "slip_exponent", "slip", "floor")),
+        ("stride", _INT),
+        *((name, _POINTER) for name in ("bulk", "fluidity")),
+    ]
+
+
+class RulesArgument(ctypes.Structure):
+    """``Rules`` of element.h: friction, and what may let go."""
+
+    _fields_ = [
+        ("friction", _REAL),
+        *((name, _INT) for name in ("net_lets_go", "ground_lets_go", "holds_along")),
+        ("may_lift", _POINTER),
+    ]
+
+
+class StepArgument(ctypes.Structure):
+    """``Step`` of element.h: where a step starts, and where its results go."""
+
+    _fields_ = [
+        *((name, _POINTER) for name in ("stress", "shear", "before")),
+        *((name, _POINTER) for name in ("sign", "is_pressed", "is_open", "is_lifted")),
+        *((name, _POINTER) for name in ("unknowns", "reaction", "new_stress")),
+        *((name, _POINTER) for name in ("new_shear", "change")),
+        *(
+            (f"wanted_{name}", _POINTER)
+            for name in ("sign", "pressed", "open", "lifted")
+        ),
+        ("root", _POINTER),
+    ]
+
+
+class PlacementArgument(ctypes.Structure):
+    """``Placement`` of place.c: a template, where its nodes are, and the results."""
+
+    _fields_ = [
+        *((name, _INT) for name in ("n_nodes", "n_triangles", "n_net")),
+        *((name, _POINTER) for name in ("triangles", "net", "orientation")),
+        *((name, _POINTER) for name in ("reference", "shape", "point_weights")),
+        *((name, _POINTER) for name in ("edge_tangent", "nodes", "gradients")),
+        *((name, _POINTER) for name in ("weights", "load", "axes", "normal")),
+    ]
+
+
+def locate(array: np.ndarray[Any, Any] | None) -> int:
+    """Address of a contiguous array; 0 for none.
+
+    Raises
+    ------
+    ValueError
+        If the array is not contiguous.
+    """
+    if array is None:
+        return 0
+    if not array.flags.c_contiguous:
+        raise ValueError("the compiled core takes contiguous arrays")
+    return int(array.__array_interface__["data"][0])
+
+
+def locate_all(*arrays: np.ndarray[Any, Any] | None) -> list[int]:
+    """Addresses of contiguous arrays, as ``locate``."""
+    return [locate(one) for one in arrays]
+
+
+def to_array(
+    values: object, kind: type[np.generic], shape: tuple[int, ...]
+) -> np.ndarray[Any, Any]:
+    """Values as the core takes them: of this type and shape, contiguous.
+
+    Raises
+    ------
+    ValueError
+        If the shape is another.
+    """
+    array = np.ascontiguousarray(values, dtype=kind)
+    if array.shape != shape:
+        raise ValueError(f"shape {array.shape}, expected {shape}")
+    return array
+
+
+def to_floats(values: object, shape: tuple[int, ...]) -> Floats:
+    """Numbers as the core takes them, as ``to_array``."""
+    return to_array(values, np.float64, shape)

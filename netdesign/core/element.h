@@ -1,0 +1,75 @@
+/* Mesh, laws and linearised state that the kernels of the snow share. */
+#ifndef NETDESIGN_ELEMENT_H
+#define NETDESIGN_ELEMENT_H
+
+#include "core.h"
+
+enum { EDGE = 3, EDGE_POINTS = 4, PLANE = 3, MODULI = 6 };
+
+/* A placed mesh, as ``PlacedMesh`` has it. */
+typedef struct {
+    int32_t n_nodes, n_triangles, n_net, n_edges;
+    const int32_t *triangles;    /* (n_triangles, 6) */
+    const int32_t *net;          /* (n_net,) */
+    const int32_t *ground;       /* (2 n_edges + 1,) */
+    const int32_t *edges;        /* (n_edges, 4): triangle, its nodes on the ground */
+    const double *gradients;     /* (2, n_triangles, 3, 6), slope's axes */
+    const double *weights;       /* (n_triangles, 3) */
+    const double *axes;          /* (2, n_nodes) */
+    const double *edge_weights;  /* (n_edges, 4) */
+    const double *edge_shape;    /* (4, 3) */
+    const double *load;          /* (2 n_nodes,): of gravity, node axes */
+} Mesh;
+
+/* Laws of creep and of a sliding ground; ``stride`` is 0 where the snow is uniform. */
+typedef struct {
+    double exponent, slip_exponent, slip, floor;
+    int32_t stride;
+    const double *bulk, *fluidity; /* (n_triangles, 3), or one number */
+} Law;
+
+/* How snow is held: ``friction`` may be infinite. */
+typedef struct {
+    double friction;
+    int32_t net_lets_go, ground_lets_go, holds_along; /* along: ground without slip */
+    const uint8_t *may_lift; /* (2 n_edges,) */
+} Rules;
+
+/* Contact of the nodes above the foot and of the ground's but the foot. */
+typedef struct {
+    int64_t *sign;
+    uint8_t *is_pressed, *is_open, *is_lifted;
+} Contact;
+
+/* What a step starts from, and what it finds. */
+typedef struct {
+    const double *stress;     /* (n_triangles, 3, 3) */
+    const double *shear;      /* (n_edges, 4), or NULL where the ground does not slide */
+    const double *before;     /* (2 n_nodes,): reactions before the step, or NULL */
+    Contact contact;          /* under which the step is taken */
+    double *unknowns, *reaction, *new_stress, *new_shear;
+    double *change;           /* (2,): (N16), of forces and stress */
+    Contact wanted;           /* that follows */
+    double *root;             /* (2 n_net, 2 n_net), or NULL where nobody asks */
+} Step;
+
+/* Laws linearised at the points. */
+typedef struct {
+    double *moduli;      /* (n_triangles, 3, 6): upper triangles, row by row */
+    double *intercept;   /* (n_triangles, 3, 3) */
+    double *base_moduli, *base_intercept; /* (n_edges, 4) */
+} Tangents;
+
+double squared_invariant(const double *stress, double bulk);
+void linearise(const Mesh *mesh, const Law *law, const Step *step,
+               const uint8_t *bears, int keeps, const Tangents *to);
+void fill_blocks(const Mesh *mesh, const Tangents *of, int slides, double *blocks);
+void add_forces(const Mesh *mesh, const double *stress, const double *shear,
+                double *forces);
+void advance(const Mesh *mesh, const Tangents *of, const Step *step);
+int list_support(const Mesh *mesh, const Rules *rules, const Contact *contact,
+                 uint8_t *is_free, double *shares, uint8_t *bears);
+void update_contact(const Mesh *mesh, const Rules *rules, const Contact *from,
+                    const double *velocity, const double *reaction, const Contact *to);
+
+#endif

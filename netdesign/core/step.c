@@ -1,0 +1,145 @@
+/* One Newton step of the flow of snow, eq. (N10), and what it leaves, eq. (N16). */
+#include "element.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Digest of the text that this library was built from. */
+EXPORT const char *nd_version(void) { return ND_VERSION; }
+
+/* Memory of one step, taken at once. */
+typedef struct {
+    Tangents tangents;
+    double *blocks, *factor, *stack, *work, *load, *shares, *root;
+    uint8_t *is_free, *bears;
+    void *memory;
+} Room;
+
+static size_t largest(size_t one, size_t other) { return one > other ? one : other; }
+
+static int take_room(const Mesh *mesh, const int32_t *plan, Room *room) {
+    size_t points = (size_t)POINTS * (size_t)mesh->n_triangles;
+    size_t edges = (size_t)mesh->n_edges, edge_points = EDGE_POINTS * edges;
+    size_t blocks = (size_t)UNKNOWNS * UNKNOWNS * (size_t)mesh->n_triangles;
+    size_t factor = (size_t)plan[N_FACTOR], stack = (size_t)plan[N_STACK];
+    size_t load = 2 * (size_t)mesh->n_nodes, net = 2 * (size_t)mesh->n_net;
+    size_t work = largest((size_t)plan[WIDEST], net * (net + 2));
+    size_t all = points * (MODULI + PLANE) + 2 * edge_points + blocks + factor + stack
+                 + work + 2 * load + net * net;
+    double *next = malloc(all * sizeof *next + load + edges);
+    room->memory = next;
+    if (!next) return NO_MEMORY;
+    room->tangents.moduli = next;
+    room->tangents.intercept = next += MODULI * points;
+    room->tangents.base_moduli = next += PLANE * points;
+    room->tangents.base_intercept = next += edge_points;
+    room->blocks = next += edge_points;
+    room->factor = next += blocks;
+    room->stack = next += factor;
+    room->work = next += stack;
+    room->load = next += work;
+    room->shares = next += load;
+    room->root = next += load;
+    room->is_free = (uint8_t *)(next + net * net);
+    room->bears = room->is_free + load;
+    return FINE;
+}
+
+static int is_sound(const Mesh *mesh, const int32_t *plan) {
+    return plan[MAGIC] == PLAN_MAGIC && plan[N_NODES] == mesh->n_nodes
+           && plan[N_TRIANGLES] == mesh->n_triangles && plan[N_NET] == mesh->n_net;
+}
+
+/* Blocks, and the forces that are missing to balance, of the laws about a state. */
+static void set_up(const Mesh *mesh, const Law *law, const Step *step, int keeps,
+                   const Room *room) {
+    int slides = step->shear != NULL;
+    linearise(mesh, law, step, room->bears, keeps, &room->tangents);
+    fill_blocks(mesh, &room->tangents, slides, room->blocks);
+    memset(room->load, 0, 2 * (size_t)mesh->n_nodes * sizeof *room->load);
+    add_forces(mesh, room->tangents.intercept,
+               slides ? room->tangents.base_intercept : NULL, room->load);
+    for (int32_t i = 0; i < 2 * mesh->n_nodes; i++)
+        room->load[i] = mesh->load[i] - room->load[i];
+}
+
+static int solve_step(const Mesh *mesh, const Law *law, const Rules *rules,
+                      const Step *step, const int32_t *plan, int keeps,
+                      const Room *room) {
+    size_t count = 2 * (size_t)mesh->n_nodes;
+    Factor to = {.plan = plan, .is_free = room->is_free, .factor = room->factor,
+                 .load = room->load, .root = step->root ? step->root : room->root};
+    int rubs = list_support(mesh, rules, &step->contact, room->is_free, room->shares,
+                            room->bears);
+    set_up(mesh, law, step, keeps, room);
+    int fault = factor_fronts(&to, room->blocks, room->stack, room->work);
+    if (fault || step->root) return fault; /* the root alone was asked for */
+    fault = solve_root(&to, mesh->net, rubs ? room->shares : NULL, room->work);
+    if (fault) return fault;
+    solve_fronts(&to, room->work);
+    memcpy(step->unknowns, room->load, count * sizeof *room->load);
+    advance(mesh, &room->tangents, step);
+    for (size_t i = 0; i < count; i++) step->reaction[i] = -mesh->load[i];
+    add_forces(mesh, step->new_stress, step->new_shear, step->reaction);
+    return FINE;
+}
+
+/* Largest change of the sums of the net's forces from the foot on, over the largest
+ * sum. */
+static double compare_sums(const Mesh *mesh, const double *now, const double *before) {
+    double sum[2] = {0.0, 0.0}, last[2] = {0.0, 0.0}, size = 0.0, moved = 0.0;
+    for (int32_t i = 0; i < mesh->n_net; i++) {
+        int32_t node = mesh->net[i];
+        double c = mesh->axes[node], s = mesh->axes[mesh->n_nodes + node];
+        sum[0] += c * now[2 * node] - s * now[2 * node + 1];
+        sum[1] += s * now[2 * node] + c * now[2 * node + 1];
+        last[0] += c * before[2 * node] - s * before[2 * node + 1];
+        last[1] += s * before[2 * node] + c * before[2 * node + 1];
+        double step = hypot(sum[0] - last[0], sum[1] - last[1]);
+        double whole = hypot(sum[0], sum[1]);
+        if (step > moved || isnan(step)) moved = step; /* what is no number stays */
+        if (whole > size || isnan(whole)) size = whole;
+    }
+    return moved / size;
+}
+
+/* Changes in a step, relative: of the net's forces and of the stress, (N16). */
+static void compare(const Mesh *mesh, const Law *law, const Step *step) {
+    double size = 0.0, moved = 0.0;
+    for (int32_t i = 0; i < POINTS * mesh->n_triangles; i++) {
+        const double *now = step->new_stress + PLANE * i, *last = step->stress + PLANE * i;
+        double change[PLANE], bulk = law->bulk[i * law->stride];
+        for (int k = 0; k < PLANE; k++) change[k] = now[k] - last[k];
+        size += mesh->weights[i] * squared_invariant(now, bulk);
+        moved += mesh->weights[i] * squared_invariant(change, bulk);
+    }
+    step->change[0] = compare_sums(mesh, step->reaction, step->before);
+    step->change[1] = sqrt(moved) / sqrt(size);
+}
+
+/* Newton step of the flow, what it changes, and the contact that follows. With
+ * ``keeps`` a correction of the stresses as they are, (N17). With room for the root only
+ * that is found. */
+EXPORT int32_t nd_step(const Mesh *mesh, const Law *law, const Rules *rules,
+                       const Step *step, const int32_t *plan, int32_t keeps) {
+    Room room;
+    if (!is_sound(mesh, plan)) return BAD_INPUT;
+    if (take_room(mesh, plan, &room)) return NO_MEMORY;
+    int32_t fault = solve_step(mesh, law, rules, step, plan, keeps, &room);
+    free(room.memory);
+    if (fault || !step->before) return fault;
+    compare(mesh, law, step);
+    update_contact(mesh, rules, &step->contact, step->unknowns, step->reaction,
+                   &step->wanted);
+    return FINE;
+}
+
+/* Internal less external nodal forces (2 n_nodes,) of stresses, and of shear on the
+ * ground if it slides. */
+EXPORT int32_t nd_residual(const Mesh *mesh, const double *stress, const double *shear,
+                           double *forces) {
+    for (int32_t i = 0; i < 2 * mesh->n_nodes; i++) forces[i] = -mesh->load[i];
+    add_forces(mesh, stress, shear, forces);
+    return FINE;
+}

@@ -1,0 +1,410 @@
+"""One step of the flow: laws linearised about a state, and the state that follows.
+
+In NumPy, or by the compiled core where there is one (``compiled.py``). Theory:
+snow/THEORY.md, sections 2 and 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
+from typing import NamedTuple
+
+import numpy as np
+
+from netdesign.numerics.arrays import Floats, Mask
+from netdesign.snow.compiled import (
+    Advanced,
+    CompiledFlow,
+    can_compile,
+    prepare_flow,
+)
+from netdesign.snow.contact import (
+    Contact,
+    free_unknowns,
+    friction_shares,
+    net_components,
+)
+from netdesign.snow.kernel import (
+    assemble_base_force,
+    assemble_body_force,
+    assemble_end_load,
+    assemble_stress,
+    build_base_stiffness,
+    build_stiffness,
+    compute_base_velocity,
+    compute_strain,
+)
+from netdesign.snow.law import (
+    FlowProblem,
+    Material,
+    Tangent,
+    advance_stress,
+    linearise_creep,
+    linearise_sliding,
+    sample_material,
+    total_stress,
+)
+from netdesign.snow.linear import solve_blocks
+from netdesign.snow.ordering import Blocks, build_ordering
+from netdesign.snow.placed_mesh import PlacedMesh
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FlowState:
+    """One iterate, or the solution, of the flow problem.
+
+    Attributes
+    ----------
+    unknowns, reaction : ndarray, shape (n_dofs,)
+        Velocities (and pressures), and forces that net and ground exert on the
+        snow, node axes.
+    stress : ndarray, shape (n_triangles, n_points, 3 or 4)
+        (xx, yy, xy); in the mixed element of the deviator, then the pressure.
+    base_shear : ndarray, shape (n_edges, n_points) or None
+        Shear stress on a sliding ground.
+    contact : Contact
+        Stick, slip and loss of contact on net and ground.
+    """
+
+    unknowns: Floats
+    reaction: Floats
+    stress: Floats
+    base_shear: Floats | None
+    contact: Contact
+
+    def largest_velocity(self, mesh: PlacedMesh) -> float:
+        """Largest velocity of all nodes.
+
+        Parameters
+        ----------
+        mesh : PlacedMesh
+            Of the state.
+
+        Returns
+        -------
+        float
+            [velocity scale].
+        """
+        return float(np.hypot(*mesh.to_slope_axes(self.unknowns)).max())
+
+
+class _Linear(NamedTuple):
+    """Laws linearised about a state, and the blocks of their matrix."""
+
+    creep: Tangent
+    base: Tangent | None  # None where the ground does not slide by a law
+    blocks: list[Blocks]
+
+
+class Taken(NamedTuple):
+    """A step that was taken.
+
+    Attributes
+    ----------
+    state : FlowState
+        After it.
+    changes : tuple of float, or None
+        Relative, of the net's forces and of the stress [-]; None if not known yet.
+    wanted : Contact or None
+        That follows; None if not known yet.
+    """
+
+    state: FlowState
+    changes: tuple[float, float] | None
+    wanted: Contact | None
+
+
+# A Newton step to the next state.
+Step = Callable[[FlowProblem, Material, PlacedMesh, FlowState, Contact], FlowState]
+
+
+def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
+    """The compiled core on a mesh; None where NumPy has to do.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    """
+    if not can_compile(problem):
+        return None
+    material = sample_material(problem, mesh.template)
+    return prepare_flow(problem, material, mesh, _gravity_load(problem, material, mesh))
+
+
+def take_step(
+    core: CompiledFlow | None,
+    step: Step | None,
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    contact: Contact,
+) -> Taken:
+    """Newton's step from a state under a contact, (N10).
+
+    Parameters
+    ----------
+    core : CompiledFlow or None
+        Takes it, if there is one.
+    step : callable, optional
+        Takes it in another way than in NumPy.
+    problem, material, mesh
+        Creep, ground and friction on the mesh.
+    state : FlowState
+        Before the step.
+    contact : Contact
+        Under which it is taken.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    if core is None:
+        after = (step or _advance)(problem, material, mesh, state, contact)
+        return Taken(after, None, None)
+    found = core.advance(state.stress, state.base_shear, contact, state.reaction)
+    return Taken(_read_state(found, contact), found.changes, found.wanted)
+
+
+def _read_state(found: Advanced, contact: Contact) -> FlowState:
+    return FlowState(
+        unknowns=found.unknowns,
+        reaction=found.reaction,
+        stress=found.stress,
+        base_shear=found.base_shear,
+        contact=contact,
+    )
+
+
+def linearise_reaction(
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
+) -> Floats:
+    """Change of the snow's forces on the net where its normal velocity is prescribed.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh of the state.
+    state : FlowState
+        About which the flow is linearised; its contact does not change.
+
+    Returns
+    -------
+    ndarray, shape (2, n_net, n_net - 1)
+        Forces in the slope's axes, per velocity out of the snow at each node above
+        the foot; 0 for nodes that the snow has left.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    core = compile_flow(problem, mesh)
+    if core is None:
+        first, second = _respond(problem, mesh, state)
+    else:
+        first, second = core.respond(
+            state.stress,
+            state.base_shear,
+            state.contact,
+            free_unknowns(problem, mesh, state.contact),
+            friction_shares(problem, mesh, state.contact),
+        )
+    cosine, sine = mesh.axes[:, mesh.template.net, None]
+    return -np.array([cosine * first - sine * second, sine * first + cosine * second])
+
+
+def _respond(
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
+) -> tuple[Floats, Floats]:
+    """Forces along both axes of the net's nodes, (n_net, n_net - 1), in NumPy."""
+    material = sample_material(problem, mesh.template)
+    blocks = _linearise(problem, material, mesh, state, state.contact).blocks
+    matrix = reduce(add, (block.to_matrix(mesh.n_dofs) for block in blocks))
+    normal, _ = net_components(mesh)
+    held = np.flatnonzero(~state.contact.is_open)
+    unknowns = np.zeros((mesh.n_dofs, normal.size))
+    unknowns[normal[held], held] = 1.0
+    unknowns += _solve_step(problem, mesh, state.contact, blocks, matrix @ unknowns)
+    net = 2 * mesh.template.net
+    return matrix[net] @ unknowns, matrix[net + 1] @ unknowns
+
+
+def remove_rounding(
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
+) -> FlowState:
+    """State whose stresses balance better, eq. (N17).
+
+    Snow that moves far faster than it deforms, on a free ground or beside much softer
+    layers, leaves the rounding of its velocities in the balance. A last correction,
+    small, is added to the stresses themselves.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        A converged state.
+
+    Raises
+    ------
+    SingularError
+        If nothing holds the snow.
+    """
+    core = compile_flow(problem, mesh)
+    if core is not None:
+        found = core.advance(state.stress, state.base_shear, state.contact, keeps=True)
+        mended = _read_state(found, state.contact)
+        return replace(mended, unknowns=state.unknowns + found.unknowns)
+    material = sample_material(problem, mesh.template)
+    linear = _linearise(problem, material, mesh, state, state.contact)
+    residual = compute_residual(problem, mesh, state)
+    change = _solve_step(problem, mesh, state.contact, linear.blocks, residual)
+    still = linear.creep._replace(intercept=np.zeros_like(state.stress))
+    base_shear = state.base_shear
+    if linear.base is not None and base_shear is not None:
+        more = linear.base.modulus * compute_base_velocity(mesh, change)
+        base_shear = base_shear + more
+    return replace(
+        state,
+        unknowns=state.unknowns + change,
+        reaction=residual + sum(block.multiply(change) for block in linear.blocks),
+        stress=state.stress
+        + advance_stress(problem, still, compute_strain(mesh, change)),
+        base_shear=base_shear,
+    )
+
+
+def compute_residual(
+    problem: FlowProblem, mesh: PlacedMesh, state: FlowState
+) -> Floats:
+    """Internal less external nodal forces: the reactions of the supports.
+
+    Parameters
+    ----------
+    problem : FlowProblem
+        Creep, ground and friction.
+    mesh : PlacedMesh
+        Mesh against the net's curve.
+    state : FlowState
+        With its stresses.
+
+    Returns
+    -------
+    ndarray, shape (n_dofs,)
+        In node axes [rho g d^2].
+    """
+    core = compile_flow(problem, mesh)
+    if core is not None:
+        return core.balance(state.stress, state.base_shear)
+    material = sample_material(problem, mesh.template)
+    force = assemble_stress(mesh, total_stress(problem, state.stress))
+    force -= _gravity_load(problem, material, mesh)
+    if state.base_shear is not None:
+        force += assemble_base_force(mesh, state.base_shear)
+    return force
+
+
+def _advance(
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    contact: Contact,
+) -> FlowState:
+    """One Newton step on the stress, eq. (N10)."""
+    creep, base, blocks = _linearise(problem, material, mesh, state, contact)
+    force = assemble_stress(mesh, creep.intercept) - _gravity_load(
+        problem, material, mesh
+    )
+    if base is not None:
+        force += assemble_base_force(mesh, base.intercept)
+    unknowns = _solve_step(problem, mesh, contact, blocks, force)
+    base_shear = None
+    if base is not None:
+        base_shear = base.intercept + base.modulus * compute_base_velocity(
+            mesh, unknowns
+        )
+    return FlowState(
+        unknowns=unknowns,
+        reaction=force + sum(block.multiply(unknowns) for block in blocks),
+        stress=advance_stress(problem, creep, compute_strain(mesh, unknowns)),
+        base_shear=base_shear,
+        contact=contact,
+    )
+
+
+def _solve_step(
+    problem: FlowProblem,
+    mesh: PlacedMesh,
+    contact: Contact,
+    blocks: Sequence[Blocks],
+    force: Floats,
+) -> Floats:
+    """Unknowns that balance forces (n_dofs,) or (n_dofs, m) under a contact."""
+    return solve_blocks(
+        build_ordering(
+            mesh.template, has_pressures=problem.element == "mixed", couples_net=False
+        ),
+        blocks,
+        force,
+        free_unknowns(problem, mesh, contact),
+        friction_shares(problem, mesh, contact),
+        is_definite=problem.element == "velocity",
+    )
+
+
+def _linearise(
+    problem: FlowProblem,
+    material: Material,
+    mesh: PlacedMesh,
+    state: FlowState,
+    contact: Contact,
+) -> _Linear:
+    """Creep and sliding about a state, under a contact."""
+    creep = linearise_creep(problem, material, state.stress)
+    blocks = [build_stiffness(mesh, creep.modulus)]
+    base = None
+    if state.base_shear is not None:
+        base = _linearise_base(problem, state.base_shear, contact)
+        blocks.append(build_base_stiffness(mesh, base.modulus))
+    return _Linear(creep=creep, base=base, blocks=blocks)
+
+
+def _linearise_base(problem: FlowProblem, shear: Floats, contact: Contact) -> Tangent:
+    """Tangent of the base law; edges that have lifted wholly carry nothing."""
+    tangent = linearise_sliding(problem, shear)
+    if not contact.is_lifted.any():
+        return tangent
+    bears = _find_bearing(contact)[:, None]
+    return Tangent(modulus=tangent.modulus * bears, intercept=tangent.intercept * bears)
+
+
+def _find_bearing(contact: Contact) -> Mask:
+    """Edges of the ground that have not lifted wholly, (n_edges,)."""
+    lifted = np.append(False, contact.is_lifted)
+    return np.asarray(~(lifted[:-2:2] & lifted[1::2] & lifted[2::2]))
+
+
+def _gravity_load(problem: FlowProblem, material: Material, mesh: PlacedMesh) -> Floats:
+    if isinstance(material.density, float):
+        load = mesh.to_node_axes(
+            np.outer(problem.gravity, mesh.load * material.density)
+        )
+    else:
+        body_force = np.multiply.outer(np.array(problem.gravity), material.density)
+        load = assemble_body_force(mesh, body_force)
+    if problem.end_load:
+        load += assemble_end_load(mesh, problem.end_load)
+    return load

@@ -1,0 +1,18 @@
+"""Both cores, for whatever compares them."""
+
+import pytest
+
+from netdesign.core.library import SWITCH, SWITCHED_OFF, find_core
+
+
+@pytest.fixture
+def in_numpy(monkeypatch):
+    """Calls a function with the compiled core switched off."""
+
+    def call(function, *arguments):
+        with monkeypatch.context() as patch:
+            patch.setenv(SWITCH, SWITCHED_OFF)
+            assert find_core() is None
+            return function(*arguments)
+
+    return call

@@ -1,0 +1,76 @@
+"""Child of ``test_sanitizers.py``: scenes, steps and spoilt arrays in a checked core.
+
+python sanitized.py LIBRARY SCENES; the sanitizer ends it at the first finding.
+"""
+
+import sys
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from netdesign.core import library
+from netdesign.core.plan import build_plan
+from netdesign.coupling.scene import SolverSettings
+from netdesign.coupling.steady.solve import solve_steady
+from netdesign.errors import ModelError
+from netdesign.evidence.benchmark.random_scenes import draw_scene
+from netdesign.evidence.benchmark.scenes import build_tables
+from netdesign.snow.flow import solve_flow
+from netdesign.snow.flow_step import compile_flow, sample_material, take_step
+from netdesign.snow.linear import SingularError
+from netdesign.snow.mesh import build_template, place_nodes
+from netdesign.snow.placed_mesh import build_placed_mesh
+
+
+def spoil(values, rng):
+    """The same with some entries that are no numbers, or huge ones."""
+    spoilt = values.copy()
+    places = rng.random(values.shape) < rng.choice([0.01, 0.3])
+    spoilt[places] = rng.choice([np.nan, np.inf, -np.inf, 1e308, -1e-308, 0.0])
+    return spoilt
+
+
+def try_spoilt(scene, rng):
+    """Steps from spoilt stresses, on a spoilt mesh, under spoilt loads."""
+    problem = scene.steady_flow_problem
+    if problem.element != "velocity":
+        return
+    template = build_template(
+        scene.modelled_aspect, SolverSettings().levels[0], scene.layer_tops
+    )
+    height = template.net_fractions
+    nodes = place_nodes(template, np.array([0.3 * height, height]))
+    for spoilt_nodes in (nodes, spoil(nodes, rng)):
+        mesh = build_placed_mesh(template, spoilt_nodes)
+        with suppress(SingularError):  # what counts is the sanitizer
+            solve_flow(problem, mesh, tolerance=1e-3, max_iterations=3)
+            state = solve_flow(problem, mesh, tolerance=1e-3, max_iterations=0).state
+            state = replace(state, stress=spoil(state.stress, rng))
+            core = compile_flow(problem, mesh)
+            material = sample_material(problem, template)
+            take_step(core, None, problem, material, mesh, state, state.contact)
+    triangles = np.ascontiguousarray(template.triangles.T, dtype=np.int32)
+    triangles.flat[rng.integers(triangles.size)] = rng.integers(-(2**31), 2**31)
+    net = np.ascontiguousarray(template.net, dtype=np.int32)
+    with suppress(ValueError):
+        build_plan(library.find_core(), triangles, template.nodes.copy(), net)
+
+
+def main():
+    library.LIBRARY = Path(sys.argv[1])
+    assert library.find_core() is not None
+    solved = 0
+    with np.errstate(all="ignore"):
+        for number in range(int(sys.argv[2])):
+            with suppress(ModelError):
+                scene = build_tables(draw_scene(9, number))
+                solve_steady(scene, SolverSettings(accuracy=0.05))
+                try_spoilt(scene, np.random.default_rng([9, number]))
+                solved += 1
+    sys.stdout.write(f"{solved} scenes, 0 findings\n")
+
+
+if __name__ == "__main__":
+    main()

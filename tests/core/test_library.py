@@ -1,0 +1,121 @@
+"""The library of the compiled core: built, known by its text, switched off, refused."""
+
+import ctypes
+import importlib.util
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from netdesign.core import library, sources
+from netdesign.core.plan import build_plan
+
+ROOT = Path(library.__file__).resolve().parents[2]
+HOOK = ROOT / "hatch_build.py"
+
+needs_compiler = pytest.mark.skipif(
+    not HOOK.exists()
+    or importlib.util.find_spec("hatchling") is None
+    or not any(map(shutil.which, ("cc", "gcc", "clang"))),
+    reason="no checkout, no hatchling or no C compiler",
+)
+needs_core = pytest.mark.skipif(library.find_core() is None, reason="no compiled core")
+
+
+def load_hook():
+    spec = importlib.util.spec_from_file_location("hatch_build", HOOK)
+    hook = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(hook)
+    return hook
+
+
+def test_switched_off(monkeypatch):
+    monkeypatch.setenv(library.SWITCH, library.SWITCHED_OFF)
+    assert library.find_core() is None
+    assert library.name_core() == "numpy"
+
+
+@needs_core
+def test_its_name_has_the_digest_of_its_text():
+    digest = sources.digest_sources()
+    assert library.name_core() == f"compiled {digest}"
+    assert len(digest) == 12
+
+
+@pytest.mark.parametrize("content", [None, b"", b"not a library"])
+def test_a_file_that_is_no_library_is_not_taken(tmp_path, content):
+    path = tmp_path / "_core.so"
+    if content is not None:
+        path.write_bytes(content)
+    assert library._load(path) is None
+
+
+@needs_compiler
+def test_a_library_of_another_text_is_not_taken(tmp_path, monkeypatch):
+    monkeypatch.delenv(library.SWITCH, raising=False)
+    hook = load_hook()
+    path = tmp_path / "_core.so"
+    assert hook.compile_core(ROOT, hook.find_compiler(), path, ("-O0",)) == ""
+    assert isinstance(library._load(path), ctypes.PyDLL)
+    library._load.cache_clear()
+    monkeypatch.setattr(library, "digest_sources", lambda: "of another")
+    assert library._load(path) is None
+    library._load.cache_clear()
+
+
+@needs_compiler
+def test_every_c_file_is_compiled():
+    names = {path.name for path in sources.ROOM.glob("*.[ch]")}
+    assert names == {*sources.SOURCES, *sources.HEADERS}
+
+
+@needs_compiler
+def test_no_compiler_where_it_is_switched_off_or_missing(monkeypatch):
+    hook = load_hook()
+    monkeypatch.delenv(library.SWITCH, raising=False)
+    assert hook.find_compiler()
+    monkeypatch.setenv(library.SWITCH, library.SWITCHED_OFF)
+    assert hook.find_compiler() is None
+    monkeypatch.delenv(library.SWITCH)
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("CC", raising=False)
+    assert hook.find_compiler() is None
+
+
+@needs_compiler
+def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch):
+    monkeypatch.delenv(library.SWITCH, raising=False)
+    hook = load_hook()
+    path = tmp_path / "_core.so"
+    fault = hook.compile_core(ROOT, hook.find_compiler(), path, ("-DPOINTS=[",))
+    assert "error" in fault
+    assert not path.exists()
+
+
+TRIANGLES = np.array([[0, 1, 2, 3, 4, 5]], dtype=np.int32)
+NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])
+NET = np.array([0, 5, 2], dtype=np.int32)
+
+
+@needs_core
+def test_plan_of_one_triangle():
+    plan = build_plan(library.find_core(), TRIANGLES, NODES, NET)
+    n_nodes, n_triangles, n_net, n_fronts, widest = plan[1:6]
+    assert (n_nodes, n_triangles, n_net, n_fronts, widest) == (6, 1, 3, 1, 12)
+
+
+@needs_core
+@pytest.mark.parametrize(
+    ("triangles", "net"),
+    [
+        (TRIANGLES + 1, NET),  # a node that there is not
+        (TRIANGLES - 1, NET),
+        (TRIANGLES, NET + 4),
+        (np.array([[0, 1, 2, 3, 4, 4]], dtype=np.int32), NET[:1]),  # 5 in no triangle
+        (TRIANGLES, NET[:0]),
+    ],
+)
+def test_numbers_out_of_range_are_refused(triangles, net):
+    with pytest.raises(ValueError, match="compiled core refuses"):
+        build_plan(library.find_core(), triangles, NODES, net)
