@@ -23,7 +23,7 @@ from netdesign.commands.options import (
     quiet_option,
 )
 from netdesign.commands.report import DEFAULT_FOLDER
-from netdesign.commands.report_options import choose_style, list_wanted, report_options
+from netdesign.commands.report_options import report_options
 from netdesign.commands.running import EXIT_CODES, own_command, report_places, tell_time
 from netdesign.commands.site_input import (
     open_site,
@@ -155,14 +155,11 @@ def check(
     if dry_run:
         count = len(profiles)
         sys.exit(announce(site, run, count, as_json=as_json, language=language))
-    reports = {"html": html, "excel": excel, "csv": csv, "pdf": pdf, "docx": docx}
-    kinds = list_wanted({**reports, "template": template})
-    looks = {"language": language, "detail": detail, "template": template}
     outputs = plan_outputs(
         folder,
         [profile.id for profile in profiles],
-        kinds,
-        choose_style(looks),
+        {"html": html, "excel": excel, "csv": csv, "pdf": pdf, "docx": docx},
+        {"language": language, "detail": detail, "template": template},
         size=size,
         is_what_if=instead,
         overwrite=force,
@@ -188,7 +185,7 @@ def check(
     _show(studies, views, language, as_json=as_json, explain=explain)
     if not as_json:
         print_sized(sized, studies, language)
-    report_places([list(files)], language, quiet=quiet or as_json)
+        report_places([list(files)], language, quiet=quiet)
     if not (quiet or as_json):
         tell_next_steps(studies, str(site_file or "--example"), language, is_sized=size)
     sys.exit(failed or _exit_code(studies))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from netdesign.commands.report_options import choose_style, list_wanted
 from netdesign.commands.sizing import Sized, mark_names, mark_paths, render_sized
 
 if TYPE_CHECKING:
@@ -40,14 +41,16 @@ class Outputs:
 def plan_outputs(
     folder: Path | None,
     profiles: Sequence[str],
-    kinds: Sequence[str],
-    style: ReportStyle,
+    reports: Mapping[str, bool],
+    looks: Mapping[str, Any],
     *,
     size: bool,
     is_what_if: object,
     overwrite: bool,
 ) -> Outputs:
     """Places of the outputs of each profile, by their ids.
+
+    ``reports`` are the kinds asked for, ``looks`` language, detail and template.
 
     Raises
     ------
@@ -58,6 +61,7 @@ def plan_outputs(
     from netdesign.report.files import STUDY_FILE, name_files
     from netdesign.report.page.comparison_page import PAGE_FILE
 
+    kinds = list_wanted({**reports, "template": looks["template"]})
     names = name_files(
         folder, profiles, mark_names([STUDY_FILE, *kinds], is_what_if=is_what_if)
     )
@@ -67,7 +71,7 @@ def plan_outputs(
         of_studies=names,
         sized=mark_paths(names) if size else [],
         together=[folder / name for name in page] if folder and is_compared else [],
-        style=style,
+        style=choose_style(looks),
     )
     groups = (*outputs.of_studies, *outputs.sized, outputs.together)
     require_free([path for group in groups for path in group], overwrite=overwrite)

@@ -10,18 +10,21 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from netdesign.edge.given_files import make_printable
 from netdesign.outcome import Verdict
 from netdesign.quantities import QUANTITIES
 from netdesign.site.columns.fields import normalise
-from netdesign.site.model import InputEcho
-from netdesign.study.case_records import CasePoint
-from netdesign.study.records import CheckRecord
 from netdesign.words.catalogue import Language, load_texts, render
 from netdesign.words.message import Argument, Message, say
 from netdesign.words.names import name_check, name_member
 from netdesign.words.numerals import set_marks
+
+if TYPE_CHECKING:  # they bring numpy, which a list of profiles does without
+    from netdesign.site.model import InputEcho
+    from netdesign.study.case_records import CasePoint
+    from netdesign.study.records import CheckRecord
 
 MISSING = "-"
 _FIGURES = 5  # of a number that nobody typed: what follows is right to a thousandth
