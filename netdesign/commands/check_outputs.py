@@ -42,7 +42,7 @@ def plan_outputs(
     folder: Path | None,
     profiles: Sequence[str],
     reports: Mapping[str, bool],
-    looks: Mapping[str, Any],
+    looks: dict[str, Any],
     *,
     size: bool,
     is_what_if: object,
