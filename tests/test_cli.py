@@ -718,7 +718,7 @@ def test_standards_shows_every_value_with_its_status(tmp_path, study):
     own = [v for v in study["profile"]["values"] if not v["id"].startswith("floor.")]
     assert len(own) < len(study["profile"]["values"])
     for value in own:
-        line = f"{value['id']} = {value['value']:g} {value['unit']}"
+        line = f"{value['id']} = {round(value['value'], 5):g} {value['unit']}"
         assert f"{line}  [{value['status']}]" in result.stdout
 
 

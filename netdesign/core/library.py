@@ -30,8 +30,8 @@ def find_core() -> ctypes.PyDLL | None:
 
 
 def name_core() -> str:
-    """Name of the core that solves here: ``numpy``, or ``compiled`` and its digest."""
-    return "numpy" if find_core() is None else f"compiled {digest_sources()}"
+    """Name of the core that solves here: ``numpy``, or ``C`` and its digest."""
+    return "numpy" if find_core() is None else f"C {digest_sources()}"
 
 
 @lru_cache

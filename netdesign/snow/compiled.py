@@ -237,6 +237,11 @@ class CompiledFlow:
         -------
         ndarray, shape (n_dofs,)
             In node axes [rho g d^2].
+
+        Raises
+        ------
+        ValueError
+            If an array is not of its shape.
         """
         mesh, shear = self.mesh, None
         stress = to_floats(stress, (*mesh.weights.shape, 3))

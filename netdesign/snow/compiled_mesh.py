@@ -65,7 +65,7 @@ class Placed(NamedTuple):
 def place_compiled(
     library: ctypes.PyDLL, template: MeshTemplate, nodes: Floats, tangents: Floats
 ) -> Placed:
-    """What depends on the place of the nodes, by the core.
+    """Arrays of a mesh that depend on the places of its nodes, by the core.
 
     Parameters
     ----------
@@ -77,6 +77,11 @@ def place_compiled(
         Positions [thickness].
     tangents : ndarray, shape (3, 3)
         Tangents of an edge integrated with its shape functions, per node [-].
+
+    Raises
+    ------
+    ValueError
+        If an array is not of its shape.
     """
     numbers = number_template(template)
     shape, gradients, point_weights = _reference()

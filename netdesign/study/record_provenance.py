@@ -103,7 +103,7 @@ def record_provenance(site: Site, run: CheckRun) -> Provenance:
         libraries={
             "python": platform.python_version(),
             **{name: importlib.metadata.version(name) for name in _LIBRARIES},
-            "core": name_core(),
+            "netdesign.core": name_core(),
         },
     )
 

@@ -51,6 +51,12 @@ class _Gaps(string.Formatter):
     def __init__(self, language: Language) -> None:
         self.language = language
 
+    def convert_field(self, value: Any, conversion: str | None) -> Any:
+        """An argument before it is text: ``!r`` is a number to its last digit."""
+        text = super().convert_field(value, conversion)
+        is_number = conversion and isinstance(value, int | float)
+        return set_marks(text, self.language) if is_number else text
+
     def format_field(self, value: Any, format_spec: str) -> str:
         """An argument as text: words of ours in the language of the whole."""
         if format_spec == _CLAUSE:

@@ -39,7 +39,7 @@ def test_switched_off(monkeypatch):
 @needs_core
 def test_its_name_has_the_digest_of_its_text():
     digest = sources.digest_sources()
-    assert library.name_core() == f"compiled {digest}"
+    assert library.name_core() == f"C {digest}"
     assert len(digest) == 12
 
 

@@ -278,7 +278,7 @@ def test_solution_document_has_the_keys_of_the_interface(solved):
     assert {"wall_s", "linear_solves", "elements", "degrees_of_freedom"} <= set(
         document["cost"]
     )
-    assert {"version", "creep_law", "clock", "element", "settings"} == set(
+    assert {"version", "core", "creep_law", "clock", "element", "settings"} == set(
         document["provenance"]
     )
     assert document["cost"]["wall_s"] == 1.5

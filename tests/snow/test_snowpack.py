@@ -148,7 +148,8 @@ def test_layers_that_are_not_the_snowpack(changes, both):
         a_pack(layers=LAYERS, **changes)
     for language in LANGUAGES:
         told = render(refused.value.message, language)
-        assert tuple(re.findall(r"[\d.]+ (?:m|kg/m3)\b", told)) == both
+        figures = tuple(re.findall(r"[\d.,]+ (?:m|kg/m3)\b", told))
+        assert tuple(one.replace(",", ".") for one in figures) == both
 
 
 @pytest.mark.parametrize("share", [1 - 0.9e-6, 1.0, 1 + 0.9e-6])

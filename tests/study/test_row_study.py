@@ -51,6 +51,7 @@ ROW = build_row(
 def study(row=ROW, ranges=RANGES, *, probed=False):
     project = Project(accepted_law=RUN.creep_law.name)
     site = build_site(row, ranges=ranges, project=project)
+    site = replace(site, catalogue=row.resistances)
     probe = Probe(RUN.settings, RUN.creep_law) if probed else None
     results = solve_site(site, RUN)
     standard = load_standard("nf-p-95-304-style")

@@ -33,7 +33,7 @@ def wrap_words(text: str, size_pt: float, width: float) -> list[str]:
     """Lines of a text, each within ``width`` [pt] where its words allow.
 
     >>> wrap_words("along the row", 10.0, 40.0)
-    ['along', 'the', 'row']
+    ['along', 'the row']
     """
     lines: list[str] = []
     for word in text.split(" "):

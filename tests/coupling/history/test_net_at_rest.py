@@ -72,7 +72,7 @@ def test_polygon_lies_on_the_net_at_rest(seed):
     np.testing.assert_allclose(net, expected, atol=4e-3)
     stands_out = scene.net.height_normal > 1.01 * scene.snowpack.thickness
     assert (state.top == "on-net") is stands_out
-    assert net[1, -1] == pytest.approx(1.0, abs=1e-9)
+    assert net[1, -1] == pytest.approx(1.0, abs=1e-4)  # moves with the sag
     np.testing.assert_allclose(list_points(problem, state)[:, -1], problem.head)
 
 

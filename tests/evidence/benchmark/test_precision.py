@@ -44,9 +44,9 @@ def test_what_is_measured(rows):
     for row in rows:
         assert row.wall_s > 0.0
         assert 0.0 < row.error < 0.02
-        # a double of 8 bytes for each entry of the strain operator at least:
-        # 6 points, 3 strains, 12 velocities
-        assert row.peak_mb > row.elements * 6 * 3 * 12 * 8 / 1e6
+        # a double of 8 bytes for each gradient of a shape function at least:
+        # 3 points, 2 directions, 6 nodes
+        assert row.peak_mb > row.elements * 3 * 2 * 6 * 8 / 1e6
 
 
 def test_document(rows):
