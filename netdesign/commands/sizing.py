@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from netdesign.study.sizing import ReadInstead, SizedCell
     from netdesign.words.catalogue import Language
 
-MARK = "what-if-"  # before the name of every file of a what-if
 _SIZE = "--size"
 
 
@@ -95,7 +94,9 @@ def require_one(
 
 def mark_names(names: Sequence[str], *, is_what_if: object) -> list[str]:
     """Names of outputs; those of a what-if say so."""
-    return [f"{MARK}{name}" if is_what_if else name for name in names]
+    from netdesign.report.view.what_if import FILE_MARK
+
+    return [f"{FILE_MARK}{name}" if is_what_if else name for name in names]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -167,7 +168,11 @@ def write_command(command: str, instead: Mapping[str, str]) -> str:
 
 def mark_paths(names: Sequence[Sequence[Path]]) -> list[list[Path]]:
     """Places of what-if outputs beside those of each study."""
-    return [[path.with_name(f"{MARK}{path.name}") for path in group] for group in names]
+    from netdesign.report.view.what_if import FILE_MARK
+
+    return [
+        [path.with_name(f"{FILE_MARK}{path.name}") for path in group] for group in names
+    ]
 
 
 def render_sized(

@@ -128,6 +128,7 @@ def compare_studies(old: Study, new: Study) -> list[Change]:
         *(change for pair in pairs for change in _compare_verdicts(*pair)),
     ]
     return [
+        *_compare("settings", "", _list_replaced(old), _list_replaced(new)),
         *sorted(verdicts, key=_rank),
         *_compare_rows("governing", both, _list_governing),
         *_compare_rows("check", both, _list_checks),
@@ -373,13 +374,17 @@ def _list_profile(study: Study) -> Named:
     }
 
 
+def _list_replaced(study: Study) -> Named:
+    """Cells of a what-if: without them its verdicts would be read as the site's."""
+    return {say("diff.what_if", cell=one.cell): one.now for one in study.what_if}
+
+
 def _list_settings(study: Study) -> Named:
     provenance = study.provenance
     settings = provenance.settings.items()
     return {
         say("diff.version"): provenance.version,
         say("diff.site_file"): provenance.site_file,
-        **{say("diff.what_if", cell=one.cell): one.now for one in study.what_if},
         **{name("setting", key): value for key, value in settings},
         **{as_given(key): value for key, value in provenance.libraries.items()},
     }

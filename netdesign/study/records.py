@@ -331,11 +331,11 @@ class Study:
 
     schema: Literal["netdesign.study/2"]
     verdict: Verdict
+    what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
     project: Project
     profile: ProfileRecord
     rows: list[RowStudy]
     range_inputs: list[InputEcho]
     notes: list[Text]
     provenance: Provenance
-    what_if: list[ReplacedCell] = field(default_factory=list)  # of no site as built
     digest: str = ""  # SHA-256 of all the rest, as ``write_document`` puts it there

@@ -81,7 +81,7 @@ def _build_verdicts(studies: Sequence[Study], words: Words) -> Table:
     lines = [
         (
             text_cell(row.id),
-            *(_show_row(study.rows[place], words) for study in studies),
+            *(_show_row(study, place, words) for study in studies),
         )
         for place, row in enumerate(studies[0].rows)
     ]
@@ -97,9 +97,12 @@ def _build_verdicts(studies: Sequence[Study], words: Words) -> Table:
     )
 
 
-def _show_row(row: RowStudy, words: Words) -> Cell:
-    verdict = show_verdict(row.verdict, words)
-    return text_cell(f"{verdict.symbol} {verdict.word}")
+def _show_row(study: Study, place: int, words: Words) -> Cell:
+    verdict = show_verdict(study.rows[place].verdict, words)
+    word = verdict.word
+    if study.what_if:
+        word = words("what_if.verdict", verdict=word)
+    return text_cell(f"{verdict.symbol} {word}")
 
 
 def _build_row(

@@ -17,6 +17,13 @@ from netdesign.report.words import (
 from netdesign.study.records import Study
 from netdesign.study.sizing import SizedCell
 
+FILE_MARK = "what-if-"  # before the name of every file of a what-if
+
+
+def name_study(study: Study) -> str:
+    """Name of a study's file, as ``check`` writes it."""
+    return f"{FILE_MARK if study.what_if else ''}study.json"
+
 
 def mark_verdict(study: Study, words: Words) -> VerdictWords:
     """Verdict of a study in words; that of a what-if is never read without its mark."""

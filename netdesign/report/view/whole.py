@@ -390,7 +390,7 @@ def _tell_verification(study: Study, words: Words) -> tuple[tuple[str, str], ...
     return (
         (
             words("heading.verify_report"),
-            show_text(f"{VERIFY} --study study.json{named}"),
+            show_text(f"{VERIFY} --study {what_if.name_study(study)}{named}"),
         ),
         (words("heading.what_that_does"), words("heading.verify_explained")),
         (words("heading.study_hash"), compute_digest(study)),

@@ -9,6 +9,7 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.view.check_formulas import write_merged
 from netdesign.report.view.check_view import find_case, find_governing, find_highest
 from netdesign.report.view.table import Cell, Column
+from netdesign.report.view.what_if import mark_title
 from netdesign.report.view.whole import ReportView, RowView
 from netdesign.report.words import MISSING, Words, number_format
 from netdesign.report.workbook.charts import add_utilisation_chart
@@ -95,7 +96,8 @@ def _write_overall(book: Book, sheet: Any, study: Study, last: int) -> None:
     rows = f"C{_HEAD_ROW + 2}:C{last + 1}"
     form = book.text(bold=True, font_size=12)
     word = book.word(study.verdict)
-    sheet.write_string(2, 0, book.words("heading.verdict"), form)
+    label = mark_title(study, book.words("heading.verdict"), book.words)
+    sheet.write_string(2, 0, label, form)
     counts = {v: f'COUNTIF({rows},"{book.word(v)}")' for v in _COUNTED}
     formula = write_merged(
         counts,
