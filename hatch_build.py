@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import os
 import shutil
@@ -47,10 +48,16 @@ def compile_core(
     files = [str(sources.ROOM / name) for name in sources.SOURCES]
     command = [compiler, *FLAGS, *SHARED, *more, version, *files, "-o", str(made)]
     try:
-        subprocess.run([*command, "-lm"], check=True, capture_output=True, text=True)
+        subprocess.run(
+            [*command, "-lm"],
+            check=True,
+            capture_output=True,
+            text=True,
+            errors="replace",
+        )
+        made.replace(library)  # a program that runs keeps the old one
     except (OSError, subprocess.CalledProcessError) as error:
         return str(getattr(error, "stderr", "") or error)
-    made.replace(library)  # a program that runs keeps the old one
     return ""
 
 
@@ -65,7 +72,9 @@ class CoreBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         library: Path = load_sources(root).LIBRARY
         is_editable = version == "editable"
         if is_editable:
-            library.unlink(missing_ok=True)  # of another text, or another machine
+            # of another text, or another machine; one in use is told by its digest
+            with contextlib.suppress(OSError):
+                library.unlink(missing_ok=True)
         compiler = find_compiler()
         if compiler is None:
             self.app.display_info("no C compiler: the program computes in NumPy")

@@ -142,7 +142,7 @@ def _hang_compiled(
         to_floats(lengths, (count,)),
         to_floats(head, (2,)),
     )
-    pull, ends = np.array(start, dtype=np.float64), np.empty((2, 2))
+    pull, ends = to_floats(start, (2,)).copy(), np.empty((2, 2))
     curve, tension = np.empty((2, 2 * count + 1)), np.empty((2, count))
     given = [ctypes.c_void_p(locate(one)) for one in arrays]
     found = [ctypes.c_void_p(locate(one)) for one in (pull, curve, tension, ends)]

@@ -92,7 +92,10 @@ def part_cable(cable: PartedCable, forces: Floats, start: Floats) -> Floats | No
             return now.lengths
         if not np.isfinite(now.miss):
             return None
-        step = -np.linalg.solve(now.slope, now.gap)
+        try:
+            step = -np.linalg.solve(now.slope, now.gap)
+        except np.linalg.LinAlgError:
+            return None
         for _ in range(_MOST_HALVINGS):
             then = _evaluate(cable, offsets, pull + step)
             if then.miss < now.miss:
@@ -113,7 +116,7 @@ def _part_compiled(
         to_array(cable.firsts, np.int64, (parts,)),
         to_floats(cable.rises, (parts,)),
     )
-    pull, lengths = np.array(start, dtype=np.float64), np.empty(parts)
+    pull, lengths = to_floats(start, (2,)).copy(), np.empty(parts)
     numbers = (cable.head_x, cable.length, cable.stiffness)
     code = core.nd_part(
         *(count, parts, *(ctypes.c_void_p(one) for one in locate_all(*arrays))),

@@ -103,12 +103,11 @@ WIDE static void fill_block(const Mesh *mesh, const double *moduli, int32_t tria
         int32_t point = POINTS * triangle + q;
         const double *dx = mesh->gradients + (ptrdiff_t)TRIANGLE * point;
         const double *dy = dx + (ptrdiff_t)TRIANGLE * POINTS * mesh->n_triangles;
-        const double *restrict xx = strained[q], *restrict yy = xx + UNKNOWNS;
-        const double *restrict xy = yy + UNKNOWNS;
+        const double *xx = strained[q], *yy = xx + UNKNOWNS, *xy = yy + UNKNOWNS;
         weigh_strains(mesh, moduli, point, strained[q]);
         for (int k = 0; k < TRIANGLE; k++) {
-            double *restrict first = block + 2 * UNKNOWNS * k, x = dx[k], y = dy[k];
-            double *restrict second = first + UNKNOWNS;
+            double *first = block + 2 * UNKNOWNS * k, x = dx[k], y = dy[k];
+            double *second = first + UNKNOWNS;
             for (int c = 0; c < UNKNOWNS; c++) first[c] += x * xx[c] + y * xy[c];
             for (int c = 0; c < UNKNOWNS; c++) second[c] += y * yy[c] + x * xy[c];
         }

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -131,7 +131,7 @@ class CompiledFlow:
     mesh: PlacedMesh
     given: tuple[MeshArgument, LawArgument, RulesArgument]
     plan: Words
-    kept: tuple[Floats, ...]
+    kept: tuple[np.ndarray[Any, Any], ...]
 
     def with_law(self, problem: FlowProblem, material: Material) -> CompiledFlow:
         """The same mesh and load under other laws.
@@ -141,7 +141,7 @@ class CompiledFlow:
         problem, material : FlowProblem, Material
             Laws of creep and ground.
         """
-        law, kept = _describe_law(problem, material)
+        law, kept = _describe_law(problem, material, self.mesh.weights.shape)
         mesh, _, rules = self.given
         return replace(self, given=(mesh, law, rules), kept=(*self.kept, *kept))
 
@@ -309,11 +309,14 @@ def _to_arrays(contact: Contact, n_net: int, n_ground: int) -> tuple[Ints | Mask
 
 
 def _describe_law(
-    problem: FlowProblem, material: Material
+    problem: FlowProblem, material: Material, shape: tuple[int, ...]
 ) -> tuple[LawArgument, tuple[Floats, Floats]]:
-    """Laws as the core takes them, and their arrays, shape (n_triangles, n_points)."""
-    bulk = np.ascontiguousarray(material.bulk_ratio, dtype=np.float64)
-    fluidity = np.ascontiguousarray(material.fluidity_ratio, dtype=np.float64)
+    """Laws as the core takes them, and their arrays: one number, or of the shape."""
+    bulk = np.asarray(material.bulk_ratio, dtype=np.float64)
+    fluidity = np.asarray(material.fluidity_ratio, dtype=np.float64)
+    if bulk.size > 1 or fluidity.size > 1:
+        bulk, fluidity = np.broadcast_to(bulk, shape), np.broadcast_to(fluidity, shape)
+    bulk, fluidity = np.ascontiguousarray(bulk), np.ascontiguousarray(fluidity)
     slip = problem.slip_exponent
     law = LawArgument(
         problem.exponent,
@@ -327,13 +330,13 @@ def _describe_law(
     return law, (bulk, fluidity)
 
 
-def _describe_rules(problem: FlowProblem, template: MeshTemplate) -> RulesArgument:
+def _describe_rules(problem: FlowProblem, lifts: Mask) -> RulesArgument:
     return RulesArgument(
         problem.friction,
         problem.net_contact == "one-sided",
         problem.ground_contact == "one-sided",
         problem.ground == "no-slip",
-        locate(_may_lift(template)),
+        locate(lifts),
     )
 
 
@@ -360,7 +363,7 @@ def prepare_flow(
     if library is None:
         return None
     template, base = mesh.template, mesh.base
-    numbers = number_template(template)
+    numbers, lifts = number_template(template), _may_lift(template)
     arrays = (mesh.gradients, mesh.weights, mesh.axes, base.weights, base.shape, load)
     kept = tuple(np.ascontiguousarray(one, dtype=np.float64) for one in arrays)
     argument = MeshArgument(
@@ -368,13 +371,13 @@ def prepare_flow(
         *(template.net.size, len(numbers.edges)),
         *locate_all(*numbers, *kept),
     )
-    law, more = _describe_law(problem, material)
+    law, more = _describe_law(problem, material, mesh.weights.shape)
     return CompiledFlow(
         library=library,
         mesh=mesh,
-        given=(argument, law, _describe_rules(problem, template)),
+        given=(argument, law, _describe_rules(problem, lifts)),
         plan=plan_template(library, template),
-        kept=(*kept, *more),
+        kept=(*numbers, lifts, *kept, *more),  # C has their addresses
     )
 
 

@@ -18,6 +18,8 @@ from netdesign.numerics.arrays import Floats
 from netdesign.snow.element import reference_element
 from netdesign.snow.mesh import MeshTemplate, edge_triples
 
+_POINTS = 3  # of a triangle, as ``POINTS`` of core.h
+
 
 class Numbers(NamedTuple):
     """Numbers of a template's nodes as the core takes them.
@@ -81,11 +83,13 @@ def place_compiled(
     Raises
     ------
     ValueError
-        If an array is not of its shape.
+        If an array is not of its shape, or the element has other points.
     """
     numbers = number_template(template)
     shape, gradients, point_weights = _reference()
     n_triangles, n_points = len(numbers.triangles), point_weights.size
+    if shape.shape != (_POINTS, 6):
+        raise ValueError(f"the compiled core has {_POINTS} points a triangle")
     found = Placed(
         weights=np.empty((n_triangles, n_points)),
         gradients=np.empty((2, n_triangles, n_points, 6)),

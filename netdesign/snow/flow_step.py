@@ -131,7 +131,7 @@ def compile_flow(problem: FlowProblem, mesh: PlacedMesh) -> CompiledFlow | None:
     mesh : PlacedMesh
         Mesh against the net's curve.
     """
-    if not can_compile(problem):
+    if mesh.folded is not None or not can_compile(problem):
         return None
     material = sample_material(problem, mesh.template)
     return prepare_flow(problem, material, mesh, _gravity_load(problem, material, mesh))
