@@ -2,9 +2,11 @@
 
 import io
 import os
+import random
 import re
 import subprocess
 import zipfile
+from dataclasses import replace
 
 import pytest
 
@@ -24,6 +26,7 @@ from tests.report.document.reading import (  # noqa: E402
     open_word,
     squeeze,
 )
+from tests.report.drawing.drawn import build_monitoring  # noqa: E402
 from tests.report.reading import PageReader  # noqa: E402
 
 STUDY = build_study()
@@ -263,3 +266,13 @@ def test_libreoffice_opens_it(tmp_path):
     assert written == sorted(made)
     for path in tmp_path.glob("*.pdf"):
         assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 3
+
+
+def test_measured_forces_stand_in_the_document_by_their_words(language):
+    """The chart of the drawing library has shapes of which no PNG is made."""
+    first, *others = STUDY.rows
+    measured = replace(first, monitoring=[build_monitoring(random.Random(5))])
+    study = replace(STUDY, rows=[measured, *others])
+    lines = open_word(render_document(study, language, "full")).paragraphs
+    text = squeeze(" ".join(line.text for line in lines))
+    assert squeeze(Words(language)("drawing.monitoring")) in text
