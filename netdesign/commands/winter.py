@@ -225,7 +225,7 @@ def _find_heights(
     """Heights of the file, else those of the site, else those of the example."""
     from importlib.resources import as_file, files
 
-    from netdesign.site.winter_sheet import read_height_file
+    from netdesign.site.winter_sheet import complete_by_sheet, read_height_file
     from netdesign.snowpack.series import smooth
 
     found = site.winter
@@ -233,6 +233,9 @@ def _find_heights(
         found, remarks = read_height_file(heights, text_format)
         for remark in remarks:
             tell(remark.message, language, err=True)
+        found, note = complete_by_sheet(found, site.winter)
+        if note:
+            tell(note, language, err=True)
     elif found is None and example:
         with as_file(files("netdesign.examples") / EXAMPLE_HEIGHTS) as path:
             found, _ = read_height_file(path)

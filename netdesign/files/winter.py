@@ -86,6 +86,7 @@ def write_winter_document(run: WinterRun, language: Language = "en") -> dict[str
         "site": {"file": run.site.file_name, "name": run.site.project.name},
         "station": {
             "name": station.station,
+            "file": station.file or run.site.file_name,
             "altitude_m": station.altitude,
             "height_factor": run.rows[0].height_factor if run.rows else None,
             "height_factor_given": station.height_factor is not None,
@@ -175,7 +176,7 @@ def _write_winter(
         "name": maximum.winter,
         "outcome": maximum.ending.replace(" ", "_"),
         "is_proven": maximum.is_proven,
-        "basis": "layers" if governing else "uniform",
+        "basis": "layers" if governing and governing.layers else "uniform",
         "height_max_m": packs[highest].height,
         "height_max_date": series.day(highest).isoformat(),
         "height_max_density_kg_m3": packs[highest].density,
@@ -303,7 +304,7 @@ def _write_range(
         low=found[0],
         high=found[1],
         count=len(result.maxima),
-        station=run.winter.station or run.site.file_name,
+        station=_name_source(run),
         first=run.winter.series.first_day.isoformat(),
         last=run.winter.series.days[-1].isoformat(),
         models=(result.model, *result.others),
@@ -316,6 +317,12 @@ def _write_range(
     }
 
 
+def _name_source(run: WinterRun) -> str:
+    """Station and file of the heights; the site's file only where no name is known."""
+    named = [one for one in (run.winter.station, run.winter.file) if one]
+    return ", ".join(named) or run.site.file_name
+
+
 def _explain(winter: Mapping[str, Any]) -> Message:
     """Reason why that day governs, or why no maximum is proven."""
     if winter["outcome"] == "overtopped":
@@ -326,13 +333,20 @@ def _explain(winter: Mapping[str, Any]) -> Message:
         return say("winter.why_no_snow")
     share = winter["governing_height_m"] / winter["height_max_m"]
     return say(
-        "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high",
+        _choose_reason(winter["basis"], share),
         share=share,
         density=winter["governing_density_kg_m3"],
         before=winter["height_max_density_kg_m3"],
         day=winter["governing_date"],
         highest=winter["height_max_date"],
     )
+
+
+def _choose_reason(basis: str, share: float) -> str:
+    """Word of why a day governs; uniform snow pulls more, whether ripe or not."""
+    if basis == "uniform":
+        return "winter.why_uniform"
+    return "winter.why_ripe" if share < _NEARLY_HIGHEST else "winter.why_high"
 
 
 _NEARLY_HIGHEST = 0.98

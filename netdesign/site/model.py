@@ -358,6 +358,8 @@ class StationWinter:
         f_H [-]; None where none is given.
     source : str
         First cell.
+    file : str
+        Name of the file of a station alone; empty for sheet Winter of a site.
     notes : tuple of Message
         What was filled, what looks odd.
     """
@@ -367,6 +369,7 @@ class StationWinter:
     altitude: float | None = None
     height_factor: float | None = None
     source: str = ""
+    file: str = ""
     notes: tuple[Message, ...] = ()
 
 

@@ -100,7 +100,34 @@ def read_height_file(
             accepted = say("winter_sheet.heights")
             findings.append(Finding(file=path.name, rule=rule, accepted=accepted))
         raise SiteDataError(findings, fold_findings(findings))
-    return winter, tuple(findings)
+    return replace(winter, file=path.name), tuple(findings)
+
+
+def complete_by_sheet(
+    station: StationWinter, sheet: StationWinter | None
+) -> tuple[StationWinter, Message | None]:
+    """Station of a file with what it leaves open from sheet Winter, and a note on it.
+
+    Parameters
+    ----------
+    station : StationWinter
+        Of a height file.
+    sheet : StationWinter or None
+        Of the site whose rows it is to load.
+    """
+    if sheet is None:
+        return station, None
+    altitude, factor = station.altitude, station.height_factor
+    completed = replace(
+        station,
+        station=station.station or sheet.station,
+        altitude=sheet.altitude if altitude is None else altitude,
+        height_factor=sheet.height_factor if factor is None else factor,
+    )
+    if completed == station:
+        return station, None
+    note = say("winter_sheet.kept", file=station.file)
+    return replace(completed, notes=(*station.notes, note)), note
 
 
 def _list_days(days: Sequence[date]) -> Message:

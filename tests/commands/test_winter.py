@@ -60,6 +60,7 @@ def test_document_is_that_of_the_interface(call, site, heights):
     assert density["low_kg_m3"] <= density["high_kg_m3"]
     assert "equivalent density" in density["justification"]
     assert document["check_density_kg_m3"] == [270.0, 400.0]
+    assert "station.csv" in density["justification"]
     assert document["station"]["height_factor_given"] is False
 
 
@@ -87,6 +88,43 @@ def test_page_shows_the_document_in_each_language(
     assert list_too_wide(page, PAPER_PX, tmp_path) == []
     if language == "de":
         assert list_violations(page, tmp_path, PHONE_PX) == []
+
+
+def test_governing_day_solved_as_uniform_snow_says_so(call, site, tmp_path):
+    """Snow too thin for layers governs although less high: not ripened, uniform."""
+    thin = [0, 30, 70, 95, 104, 103, 99, 90, 60, 0]
+    path = write_heights(tmp_path / "low.csv", thin)
+    ended = call("winter", site, "--heights", path, "--json", *QUICK)
+    (winter,) = json.loads(ended.out)["rows"][0]["winters"]
+    day = {one["date"]: one for one in winter["curve"]}[winter["governing_date"]]
+    assert (day["layers"], winter["basis"]) == ([], "uniform")
+    assert "this day is solved as uniform snow" in winter["why"]
+    assert "ripened" not in winter["why"]
+
+
+def test_heights_of_a_file_keep_the_factor_of_the_sheet(call, tmp_path):
+    """Station, altitude and height factor belong to the rows, not to the series."""
+    site, folder = tmp_path / "site.xlsx", tmp_path / "out"
+    write_short_example(site, ["R2"])
+    book = openpyxl.load_workbook(site)
+    lines = ["2003-02-01", 0, None, "Alp Sura", 2137, 1.27], ["2003-02-02", 0.4]
+    for number, line in enumerate(lines, start=2):
+        for column, value in enumerate(line, start=1):
+            book["Winter"].cell(number, column, value)
+    book.save(site)
+    path = write_heights(tmp_path / "other.csv", [0, 60, 80, 70, 0])
+    ended = call("winter", site, "--heights", path, "--out", folder, *QUICK)
+    document = json.loads((folder / "winter.json").read_text(encoding="utf-8"))
+    station = document["station"]
+    assert (station["name"], station["altitude_m"]) == ("Alp Sura", 2137.0)
+    assert (station["height_factor"], station["file"]) == (1.27, "other.csv")
+    note = "those of sheet Winter hold"
+    assert note in ended.err
+    page = (folder / "winter.html").read_text(encoding="utf-8")
+    assert note in page
+    assert "Alp Sura, 2137 m (other.csv)" in page
+    (row,) = document["rows"]
+    assert "Alp Sura, other.csv" in row["equivalent_density"]["justification"]
 
 
 def test_snow_above_the_net_is_not_proven(call, site, tmp_path):

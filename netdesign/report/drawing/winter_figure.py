@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date, timedelta
 from typing import Any
 
@@ -30,6 +30,7 @@ _AIR_STYLES = ((INK, "", 0.7),)
 _MEMBERS_SHOWN = ("foot_anchor", "uphill_guy", "post")
 
 Day = Mapping[str, Any]
+Run = list[tuple[int, float]]  # days since the first, and values; no gap between
 
 
 def draw_winter(
@@ -49,18 +50,18 @@ def draw_winter(
     days: Sequence[Day] = winter["curve"]
     if not days:
         return ""
-    first, last = _find_span(days)
+    first, last = span = _find_span(days)
     chart, top = Chart(language=words.language), _HEAD
     pulls = [
-        (words("winter_column.foot"), _pick(days, first, "foot_kN_per_m")),
-        (words("winter_column.head"), _pick(days, first, "head_kN_per_m")),
+        (words("winter_column.foot"), _pick(days, span, _read("foot_kN_per_m"))),
+        (words("winter_column.head"), _pick(days, span, _read("head_kN_per_m"))),
     ]
     panel = _Panel(chart, first, last)
     title = words("winter_page.pulls_title")
     frame = panel.draw_lines(top, _FORCES, title, pulls)
     _mark_governing(chart, frame, winter, first, words)
     top += _FORCES + _GAP
-    members = _list_members(days, first, words)
+    members = _list_members(days, span, words)
     if members:
         title = words("winter_page.members_title")
         panel.draw_lines(top, _MEMBERS, title, members)
@@ -74,25 +75,23 @@ def draw_winter(
     if warm:
         title = words("winter_page.air_title")
         panel.draw_lines(
-            top, _AIR, title, [("", warm)], from_zero=False, styles=_AIR_STYLES
+            top, _AIR, title, [("", [warm])], from_zero=False, styles=_AIR_STYLES
         )
         top += _AIR + _GAP
     panel.label_months(top - _GAP)
     return chart.write(top, _describe(winter["name"], [*pulls, *members], words))
 
 
-def _describe(
-    winter: str, lines: Sequence[tuple[str, list[tuple[int, float]]]], words: Words
-) -> str:
+def _describe(winter: str, lines: Sequence[tuple[str, list[Run]]], words: Words) -> str:
     """Words for the drawing, with the largest value of each line."""
     values = [
         words(
             "show.force_of",
             member=name,
-            force=words.show_number("max_kN", max(value for _, value in points)),
+            force=words.show_number("max_kN", max(v for run in runs for _, v in run)),
         )
-        for name, points in lines
-        if points
+        for name, runs in lines
+        if runs
     ]
     what = words("winter_page.figure", winter=winter)
     return words("drawing.with_values", what=what, values=tuple(values))
@@ -111,23 +110,25 @@ class _Panel:
         top: float,
         height: float,
         title: str,
-        lines: Sequence[tuple[str, Sequence[tuple[int, float]]]],
+        lines: Sequence[tuple[str, list[Run]]],
         *,
         from_zero: bool = True,
         styles: Sequence[tuple[str, str, float]] = _STYLES,
     ) -> Frame:
         """Lines with their names at the right, and the frame that holds them."""
-        values = [value for _, points in lines for _, value in points] or [0.0]
+        values = [v for _, runs in lines for run in runs for _, v in run] or [0.0]
         low = 0.0 if from_zero else min(values)
         high = max(max(values), low + 1e-9)
         frame = self._place(top, height, low, high + 0.06 * (high - low))
         self._chart.text(_LEFT, top - 5.0, title, bold=True)
         self._chart.axes(frame, x_ticks=False)
         labels = []
-        for (name, points), (stroke, dash, width) in zip(lines, styles, strict=False):
-            places = [(frame.x(day), frame.y(value)) for day, value in points]
-            self._chart.line(places, stroke=stroke, width=width, dash=dash)
-            if places:
+        for (name, runs), (stroke, dash, width) in zip(lines, styles, strict=False):
+            for run in runs:
+                places = [(frame.x(day), frame.y(value)) for day, value in _widen(run)]
+                self._chart.line(places, stroke=stroke, width=width, dash=dash)
+            if runs:
+                points = [point for run in runs for point in run]
                 labels.append((max(points, key=lambda one: one[1]), name, stroke))
         self._name_lines(frame, labels)
         return frame
@@ -143,7 +144,7 @@ class _Panel:
         places = [(date.fromisoformat(day["date"]) - self._first).days for day in days]
         ends = [*places[1:], places[-1] + 1]
         for day, start, end in zip(days, places, ends, strict=True):
-            left, right = frame.x(start), frame.x(end)
+            left, right = frame.x(start), frame.x(min(end, self._count))
             base = 0.0
             for layer in day["layers"] or [_uniform(day)]:
                 upper = base + layer["thickness_m"]
@@ -233,28 +234,46 @@ def _find_span(days: Sequence[Day]) -> tuple[date, date]:
     return min(every) - timedelta(days=3), max(every) + timedelta(days=5)
 
 
-def _pick(days: Sequence[Day], first: date, key: str) -> list[tuple[int, float]]:
-    """Days since the first, and values, where there are any from the first day on."""
-    found = [
-        ((date.fromisoformat(day["date"]) - first).days, float(day[key]))
-        for day in days
-        if day[key] is not None
-    ]
-    return [one for one in found if one[0] >= 0]
+def _read(key: str) -> Callable[[Day], float | None]:
+    return lambda day: day[key]
+
+
+def _read_member(member: str) -> Callable[[Day], float | None]:
+    return lambda day: day["members_kN"].get(member)
+
+
+def _pick(
+    days: Sequence[Day], span: tuple[date, date], read: Callable[[Day], float | None]
+) -> list[Run]:
+    """Runs of the days in the frame that have a value; one without it parts two."""
+    runs: list[Run] = [[]]
+    for day in days:
+        at, value = date.fromisoformat(day["date"]), read(day)
+        if not span[0] <= at <= span[1]:
+            continue
+        if value is None:
+            runs.append([])
+        else:
+            runs[-1].append(((at - span[0]).days, float(value)))
+    return [run for run in runs if run]
+
+
+def _widen(run: Run) -> list[tuple[float, float]]:
+    """Points of a run; a lone day is drawn as wide as it is, or nobody would see it."""
+    if len(run) > 1:
+        return [(float(day), value) for day, value in run]
+    ((day, value),) = run
+    return [(day - 0.5, value), (day + 0.5, value)]
 
 
 def _list_members(
-    days: Sequence[Day], first: date, words: Words
-) -> list[tuple[str, list[tuple[int, float]]]]:
+    days: Sequence[Day], span: tuple[date, date], words: Words
+) -> list[tuple[str, list[Run]]]:
     found = []
     for member in _MEMBERS_SHOWN:
-        points = [
-            ((date.fromisoformat(day["date"]) - first).days, day["members_kN"][member])
-            for day in days
-            if member in day["members_kN"]
-        ]
-        if points:
-            found.append((show_member(words, member), points))
+        runs = _pick(days, span, _read_member(member))
+        if runs:
+            found.append((show_member(words, member), runs))
     return found
 
 

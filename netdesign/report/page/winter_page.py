@@ -68,6 +68,8 @@ def _describe_station(document: Mapping[str, Any], words: Words) -> list[str]:
         named = words("winter_page.at_altitude", station=named, altitude=altitude)
     is_given = station["height_factor_given"]
     factor = "winter_page.factor_given" if is_given else "winter_page.factor_assumed"
+    if station["file"] != document["site"]["file"]:
+        named = f"{named} ({station['file']})"
     found = [
         words(
             "winter_page.station",
@@ -284,15 +286,20 @@ def _describe_range(
 
 
 def _list_failed(winter: Mapping[str, Any], words: Words) -> list[str]:
+    """Days without a force or without layers, those of one reason together."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for day in winter["curve"]:
+        if day["outcome"] in ("failed", "overtopped") or day["reason"]:
+            key = day["outcome"], day["reason"]
+            found.setdefault(key, []).append(day["date"])
     return [
         words(
             "winter_page.failed_day",
-            day=day["date"],
-            outcome=words(f"day_outcome.{day['outcome']}"),
-            reason=show_text(day["reason"] or MISSING),
+            day=", ".join(dates),
+            outcome=words(f"day_outcome.{outcome}"),
+            reason=show_text(reason or MISSING),
         )
-        for day in winter["curve"]
-        if day["outcome"] in ("failed", "overtopped") or day["reason"]
+        for (outcome, reason), dates in found.items()
     ]
 
 
