@@ -1,0 +1,23 @@
+"""Page of a winter: days without a force."""
+
+from netdesign.report.page.winter_page import _list_failed
+from netdesign.report.words import Words
+
+
+def build_day(date, outcome, reason=""):
+    return {"date": date, "outcome": outcome, "reason": reason}
+
+
+def test_days_of_one_reason_stand_together():
+    curve = [
+        build_day("2021-01-04", "failed", "the net folds"),
+        build_day("2021-01-08", "solved"),
+        build_day("2021-01-12", "failed", "the net folds"),
+        build_day("2021-01-16", "solved", "the net folds"),
+        build_day("2021-01-20", "failed", "the snow lifts"),
+    ]
+    assert _list_failed({"curve": curve}, Words("en")) == [
+        "2021-01-04, 2021-01-12: without a force (the net folds)",
+        "2021-01-16: solved as uniform snow (the net folds)",
+        "2021-01-20: without a force (the snow lifts)",
+    ]
