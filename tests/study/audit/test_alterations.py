@@ -173,19 +173,19 @@ def test_a_study_without_its_files_is_audited_all_the_same(text):
     assert audit_study(read_document(text)) == []
 
 
-@pytest.mark.parametrize("language", ["fr", "de"])
-def test_every_contradiction_is_told_in_the_language(text, site, language):
+def test_every_contradiction_is_told_in_the_language(text, site):
     """Names and values of the document are its own."""
-    profile, told = load_standard(read_document(text).profile.id), set()
+    profile, found = load_standard(read_document(text).profile.id), []
     for alter in KINDS.values():
         document = json.loads(text)
         alter(document)
-        study = read_document(json.dumps(document))
-        told |= {render(one, language) for one in audit_study(study, profile, site)}
-    assert len(told) > 100
+        found += audit_study(read_document(json.dumps(document)), profile, site)
     own = re.compile(r"'[^']*'|\[.*?\]|\w+_\w+|\w+[.]\S+")
-    shown = [own.sub(" ", one) for one in told]
-    assert [one for one in shown if find_words(one, ["en"])] == []
+    for language in ("fr", "de"):
+        told = {render(one, language) for one in found}
+        assert len(told) > 100
+        shown = [own.sub(" ", one) for one in told]
+        assert [one for one in shown if find_words(one, ["en"])] == []
 
 
 def test_a_profile_of_another_hash_says_nothing(text):
