@@ -54,6 +54,9 @@ def test_fluidity_of_a_year(exponent):
     assert units.fluidity_from_mpa_year(20.0, exponent) == pytest.approx(
         20.0 / (1e6**exponent * year), rel=1e-14
     )
+    assert units.fluidity_per_mpa_year(1.7e-27, exponent) == pytest.approx(
+        1.7e-27 * 1e6**exponent * year, rel=1e-14
+    )
 
 
 def test_a_slope_in_per_cent_is_not_one_in_degrees():
