@@ -24,7 +24,12 @@ from netdesign.commands.options import (
 )
 from netdesign.commands.report import DEFAULT_FOLDER
 from netdesign.commands.report_options import report_options
-from netdesign.commands.running import EXIT_CODES, own_command, report_places, tell_time
+from netdesign.commands.running import (
+    find_exit_code,
+    own_command,
+    report_places,
+    tell_time,
+)
 from netdesign.commands.site_input import (
     open_site,
     require_effect,
@@ -188,7 +193,7 @@ def check(
         report_places([list(files)], language, quiet=quiet)
     if not (quiet or as_json):
         tell_next_steps(studies, str(site_file or "--example"), language, is_sized=size)
-    sys.exit(failed or _exit_code(studies))
+    sys.exit(failed or find_exit_code(studies))
 
 
 def _read_site(
@@ -274,9 +279,3 @@ def _show(
     else:
         documents = ",\n".join(write_document(study) for study in studies)
         print_json(f'{{"schema": "netdesign.studies/1", "studies": [\n{documents}\n]}}')
-
-
-def _exit_code(studies: Sequence[Study]) -> int:
-    from netdesign.outcome import merge_verdicts
-
-    return EXIT_CODES[merge_verdicts(study.verdict for study in studies)]

@@ -11,6 +11,7 @@ import click
 from netdesign.commands.language import tell
 from netdesign.commands.options import force_option, out_option
 from netdesign.commands.report_options import choose_style, list_wanted, report_options
+from netdesign.commands.running import find_exit_code
 from netdesign.commands.sizing import mark_names
 from netdesign.commands.stored_study import (
     contradict_command,
@@ -57,7 +58,6 @@ def report(
     """
     from netdesign.edge.output import require_free, write_files
     from netdesign.report.files import name_files, render_files
-    from netdesign.report.words import VERDICTS
     from netdesign.study.document import load_study
 
     study = load_study(study_file)
@@ -71,7 +71,7 @@ def report(
     write_files(files, overwrite=force)
     for path in names[0]:
         tell(say("cli.wrote", path=str(path)), language, err=True)
-    sys.exit(VERDICTS[study.verdict].exit_code)
+    sys.exit(find_exit_code([study]))
 
 
 def _require_sound(

@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING
 from netdesign.commands.language import tell
 from netdesign.commands.usage import UsageRefusal
 from netdesign.edge.given_files import make_printable
-from netdesign.outcome import Verdict
+from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.words.message import say
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from netdesign.study.records import Study
     from netdesign.words.catalogue import Language
 
 EXIT_CODES = {
@@ -22,6 +25,14 @@ EXIT_CODES = {
     Verdict.NOT_PROVEN: 4,
     Verdict.DECLARED: 6,  # no pass: a script that knows nothing of it stops
 }
+
+
+def find_exit_code(studies: Sequence[Study]) -> int:
+    """Exit code of the worst verdict; a what-if that passes proves nothing: 4."""
+    verdict = merge_verdicts(study.verdict for study in studies)
+    if verdict is not Verdict.FAIL and any(study.what_if for study in studies):
+        verdict = Verdict.NOT_PROVEN
+    return EXIT_CODES[verdict]
 
 
 def own_command() -> str:
