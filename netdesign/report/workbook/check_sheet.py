@@ -34,8 +34,9 @@ from netdesign.report.words import (
     number_format,
     show_text,
 )
+from netdesign.report.workbook.pages import A4, find_height
 from netdesign.report.workbook.profile_links import Factors, ProfileCell
-from netdesign.report.workbook.writer import Book, count_lines
+from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.records import CheckRecord, Study
 
 _PAGES = 2  # of paper side by side; on one its figures were too small to be read
@@ -192,13 +193,14 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
         book.write_wide(sheet, (line, 0), text, widths, italic=True)
     factors = Factors(book, study)
     columns = [field.name(book.words) for field in _FIELDS]
-    book.write_head(sheet, HEAD_ROW, columns, [field.width for field in _FIELDS])
-    for field in _FIELDS:
+    widths = fit_headings(columns, [field.width for field in _FIELDS])
+    book.write_head(sheet, HEAD_ROW, columns, widths)
+    for field, width in zip(_FIELDS, widths, strict=True):
         is_idle = field is _FURTHER and not has_further(study)
         is_hidden = field in (*_HIDDEN, *_FOLDED) or is_idle
         options = {"hidden": is_hidden, "level": int(field in _FOLDED)}
         area = f"{field.letter}:{field.letter}"
-        sheet.set_column(area, field.width, None, options)
+        sheet.set_column(area, width, None, options)
     line = HEAD_ROW + 1
     for number, (row, shown) in enumerate(zip(study.rows, view.rows, strict=True), 1):
         for check, words in zip(row.checks, shown.checks, strict=True):
@@ -207,6 +209,9 @@ def add_check_sheet(book: Book, study: Study, view: ReportView) -> None:
     if line == HEAD_ROW + 1:
         text = book.words("heading.no_check")
         sheet.write_string(line, 0, text, book.text())
+    printed = [field.width for field in _SHOWN if field not in _FOLDED]
+    named = _LEAD[2].index + 1
+    book.paper(sheet).height = find_height(printed, A4, _PAGES, named)
     last = max(line, HEAD_ROW + 2)
     _finish(book, sheet, last)
 
@@ -236,7 +241,7 @@ def _finish(book: Book, sheet: Any, last: int) -> None:
         decorate(sheet, (first - 1, field.index, last - 1, field.index))
     sheet.autofilter(HEAD_ROW, 0, last - 1, len(_SHOWN) - 1)
     sheet.freeze_panes(HEAD_ROW + 1, 3)
-    sheet.repeat_rows(HEAD_ROW)
+    book.paper(sheet).repeat(HEAD_ROW)
 
 
 def _validate(book: Book, sheet: Any, lines: tuple[int, int]) -> None:

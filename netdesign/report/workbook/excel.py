@@ -15,7 +15,7 @@ from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
-from netdesign.report.workbook.writer import Book
+from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study
 from netdesign.words.catalogue import Language
 
@@ -73,6 +73,7 @@ def render_workbook(
         "strings_to_formulas": False,
         "strings_to_urls": False,
         "strings_to_numbers": False,
+        "default_format_properties": DEFAULT_FONT,
     }
     with xlsxwriter.Workbook(buffer, options) as workbook:
         workbook.set_properties(
@@ -113,6 +114,7 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     ):
         book.add_table_sheet(name, book.words(title), parts)
     link_sheets(book, SHEETS[1:])
+    book.end_pages()
 
 
 def _add_inputs(book: Book, view: ReportView) -> None:

@@ -10,7 +10,6 @@ from netdesign.outcome import Verdict, merge_verdicts
 from netdesign.report.words import ENGLISH, Words
 from netdesign.report.workbook.check_sheet import CHANGED
 from netdesign.report.workbook.excel import SHEETS, render_workbook
-from netdesign.report.workbook.writer import A3, A4, choose_paper
 from netdesign.study.document import compute_digest
 from netdesign.words.catalogue import LANGUAGES
 from tests.report.build_study import FORMULA, SCRIPT, build_study
@@ -303,16 +302,6 @@ def find_table_columns(sheet):
     last = max(c.column for line in sheet.iter_rows() for c in line if c.font.b)
     letters = [get_column_letter(k) for k in range(1, last + 1)]
     return [sheet.column_dimensions[letter].width for letter in letters]
-
-
-def test_wide_sheets_take_more_paper_and_stay_legible():
-    """Widths of one of ours, in characters; LibreOffice's are the widest seen."""
-    for widths, pages in (([9.0] * 9, 1), ([9.0] * 16, 1), ([9.0] * 25, 2)):
-        paper, across = choose_paper(widths)
-        room = {A4: 798.0, A3: 1147.0}[paper] * across
-        wide = 7.35 * (sum(widths) + (across - 1) * sum(widths[:2]))
-        assert 9.0 * room / wide >= 6.0
-        assert across == pages
 
 
 def name_factors(study):
