@@ -36,6 +36,7 @@ SHEETS = (
     "support",
     "directions",
     "guideline",
+    "notes",
     "formulas",
     "quality",
     "assumptions",
@@ -100,8 +101,11 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
     add_check_sheet(book, study, view)
     _add_figures(book, view)
     _add_row_tables(book, study, view)
+    title = book.words("heading.reading")
+    book.add_table_sheet("notes", title, [_list_sentences(book, title, view.reading)])
     formulas = book.words("heading.formulas")
     book.add_table_sheet("formulas", formulas, [view.formulas, view.figure_tables])
+    notes = book.words("heading.notes")
     for name, title, parts in (
         ("quality", "heading.solver_quality", [view.quality, view.outcomes]),
         ("assumptions", "heading.assumptions", [view.assumptions]),
@@ -109,7 +113,7 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
         (
             "provenance",
             "heading.provenance",
-            [view.provenance, _list_notes(book, view)],
+            [view.provenance, _list_sentences(book, notes, view.notes)],
         ),
     ):
         book.add_table_sheet(name, book.words(title), parts)
@@ -223,11 +227,11 @@ def _stack(book: Book, caption: str, parts: Sequence[tuple[str, Table]]) -> Tabl
     return Table(caption=caption, columns=columns, rows=(), empty=empty)
 
 
-def _list_notes(book: Book, view: ReportView) -> Table:
+def _list_sentences(book: Book, caption: str, sentences: Sequence[str]) -> Table:
     return Table(
-        caption=book.words("heading.notes"),
+        caption=caption,
         columns=(Column(heading=book.words("heading.note")),),
-        rows=tuple((Cell(text=note),) for note in view.notes),
+        rows=tuple((Cell(text=sentence),) for sentence in sentences),
         empty=book.words("show.none"),
     )
 

@@ -31,7 +31,13 @@ _RATIO, _LIMIT, _GOVERNING, _CASE = 7, 9, 10, 11
 _HELD, _REASONS = 12, 13
 _STUDY_REASONS, _STUDY_VERDICT = 14, 15  # hidden: what the live cells stand for
 _CASE_DECIMALS = 1
-_ABOVE = 5  # links that stand one line higher, at the end of it
+# Line, first and last column of each link to a sheet, as wide as its name is long.
+_LINKS = (
+    *((0, *place) for place in ((7, 7), (8, 8), (9, 10), (11, 11), (12, 13))),
+    *((1, *place) for place in ((7, 8), (9, 10), (11, 11), (12, 12), (13, 13))),
+    *((3, *place) for place in ((1, 1), (2, 2), (3, 4), (5, 6), (7, 8), (9, 10))),
+    *((3, *place) for place in ((11, 11), (12, 12), (13, 13))),
+)
 
 
 def add_summary_sheet(book: Book, study: Study, view: ReportView) -> None:
@@ -79,11 +85,10 @@ def link_sheets(book: Book, names: Sequence[str]) -> None:
     None stands beside the table: that would make all of it small in print.
     """
     sheet = book.workbook.get_worksheet_by_name(book.name("summary"))
-    room = len(_WIDTHS) - 1
-    places = [(_HEAD_ROW - 1, column) for column in range(1, room + 1)]
-    places += [(1, column) for column in range(len(_WIDTHS) - _ABOVE, len(_WIDTHS))]
-    for place, name in zip(places, names, strict=False):
-        book.link(sheet, place, book.refer(name, "A1"), book.name(name))
+    for (row, first, last), name in zip(_LINKS, names, strict=True):
+        if last > first:
+            sheet.merge_range(row, first, row, last, "")
+        book.link(sheet, (row, first), book.refer(name, "A1"), book.name(name))
 
 
 def _list_columns(book: Book) -> tuple[Column, ...]:
