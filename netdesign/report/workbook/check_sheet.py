@@ -15,6 +15,7 @@ from netdesign.report.view.check_formulas import (
     ROUNDING,
     compute_rank,
     write_given_verdict,
+    write_held,
     write_product,
     write_quotient,
     write_rank,
@@ -35,7 +36,13 @@ from netdesign.report.words import (
     show_text,
 )
 from netdesign.report.workbook.pages import A4, find_height
-from netdesign.report.workbook.profile_links import Factors, ProfileCell
+from netdesign.report.workbook.profile_links import (
+    UNCHANGED,
+    Factors,
+    ProfileCell,
+    follows_factors,
+    write_same,
+)
 from netdesign.report.workbook.writer import Book, count_lines, fit_headings
 from netdesign.study.records import CheckRecord, Study
 
@@ -330,11 +337,25 @@ class _CheckLine:
             if _is_of_forces(check)
             else write_given_verdict(given, words)
         )
+        held = write_held(formula, self._list_conditions(check), words)
         form = self._book.text(bold=True, text_wrap=True)
-        self._sheet.write_formula(self._at(_VERDICT), formula, form, shown)
+        self._sheet.write_formula(self._at(_VERDICT), held, form, shown)
         rank = write_rank(self._at(_LEAD[0]), self._at(_VERDICT), ends[1], words)
         value = compute_rank(number, check.verdict, check.utilisation)
         self._sheet.write_formula(self._at(_RANK), rank, None, value)
+
+    def _list_conditions(self, check: CheckRecord) -> list[str]:
+        """Conditions under which the cells that are no formulas hold."""
+        conditions = [f"{UNCHANGED}=1"]
+        if follows_factors(check):
+            pairs = (
+                (_ACTION_FACTOR, check.action_factor),
+                (_RESISTANCE_FACTOR, check.resistance_factor),
+            )
+            conditions += [
+                write_same(self._at(field), value) for field, value in pairs if value
+            ]
+        return conditions
 
     def _write_study(self, check: CheckRecord, view: CheckView) -> None:
         """Write the study's own values, and whether the live cells still show them."""
@@ -352,6 +373,7 @@ class _CheckLine:
         formula = write_unchanged(
             [(at(a), at(b)) for a, b in zip(live, _STUDY_NUMBERS, strict=True)],
             [(at(_VERDICT), at(_STUDY_VERDICT))],
+            self._list_conditions(check),
         )
         self._sheet.write_formula(at(_UNCHANGED), formula, None, 1)
 

@@ -14,6 +14,7 @@ from netdesign.report.view.whole import ReportView, build_view
 from netdesign.report.words import Words
 from netdesign.report.workbook.charts import add_case_chart, add_force_chart
 from netdesign.report.workbook.check_sheet import add_check_sheet
+from netdesign.report.workbook.profile_links import watch_profile
 from netdesign.report.workbook.summary_sheet import add_summary_sheet, link_sheets
 from netdesign.report.workbook.writer import DEFAULT_FONT, Book
 from netdesign.study.records import Study
@@ -117,6 +118,7 @@ def _add_sheets(book: Book, study: Study, view: ReportView) -> None:
         ),
     ):
         book.add_table_sheet(name, book.words(title), parts)
+    watch_profile(book, study)
     link_sheets(book, SHEETS[1:])
     book.end_pages()
 
