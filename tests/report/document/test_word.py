@@ -268,11 +268,16 @@ def test_libreoffice_opens_it(tmp_path):
         assert len(re.findall(rb"/Type\s*/Page\b", path.read_bytes())) > 3
 
 
-def test_measured_forces_stand_in_the_document_by_their_words(language):
-    """The chart of the drawing library has shapes of which no PNG is made."""
+def test_measured_forces_stand_in_the_document_as_a_picture(language):
     first, *others = STUDY.rows
     measured = replace(first, monitoring=[build_monitoring(random.Random(5))])
-    study = replace(STUDY, rows=[measured, *others])
-    lines = open_word(render_document(study, language, "full")).paragraphs
-    text = squeeze(" ".join(line.text for line in lines))
-    assert squeeze(Words(language)("drawing.monitoring")) in text
+    plain, drawn = (
+        render_document(replace(STUDY, rows=[row, *others]), language, "full")
+        for row in (first, measured)
+    )
+    counts = [len(re.findall(b"<wp:docPr", list_parts(one)["word/document.xml"]))
+              for one in (plain, drawn)]  # fmt: skip
+    assert counts[1] == counts[0] + 1
+    assert len(set(list_parts(drawn)) - set(list_parts(plain))) == 2  # SVG and PNG
+    told = Words(language)("drawing.monitoring")
+    assert f'descr="{told}'.encode() in list_parts(drawn)["word/document.xml"]
