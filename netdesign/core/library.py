@@ -15,6 +15,11 @@ from netdesign.core.sources import LIBRARY, digest_sources
 SWITCH = "NETDESIGN_CORE"
 SWITCHED_OFF = "numpy"
 
+_FUNCTIONS = (
+    *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
+    *("nd_place", "nd_hang", "nd_part"),
+)
+
 # What functions give back, as in core.h.
 _NO_MEMORY, SINGULAR = -1, -3
 
@@ -43,7 +48,7 @@ def _load(path: Path) -> ctypes.PyDLL | None:
             return None
     except (OSError, AttributeError):  # not built, or for another machine
         return None
-    for name in ("nd_plan", "nd_step", "nd_residual", "nd_place", "nd_hang", "nd_part"):
+    for name in _FUNCTIONS:
         getattr(library, name).restype = ctypes.c_int32
     return library
 

@@ -12,8 +12,8 @@ from pathlib import Path
 ROOM = Path(__file__).resolve().parent
 LIBRARY = ROOM / "_core.so"  # the same name on every system
 SOURCES = (
-    *("plan.c", "front.c", "element.c", "contact.c", "step.c", "place.c"),
-    "cable.c",
+    *("plan.c", "front.c", "element.c", "contact.c", "step.c", "flow.c"),
+    *("place.c", "cable.c"),
 )
 HEADERS = ("core.h", "element.h")
 
