@@ -6,14 +6,15 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from functools import lru_cache
 from pathlib import Path
 
-from netdesign.core.sources import LIBRARY, digest_sources
-
-SWITCH = "NETDESIGN_CORE"
-SWITCHED_OFF = "numpy"
+from netdesign.core.sources import (
+    LIBRARY,
+    SWITCHED_OFF,
+    digest_sources,
+    read_switch,
+)
 
 _FUNCTIONS = (
     *("nd_plan", "nd_step", "nd_flow", "nd_residual"),
@@ -21,7 +22,7 @@ _FUNCTIONS = (
 )
 
 # What functions give back, as in core.h.
-_NO_MEMORY, SINGULAR = -1, -3
+_NO_MEMORY, SINGULAR, TOO_LARGE = -1, -3, -4
 
 
 def find_core() -> ctypes.PyDLL | None:
@@ -29,7 +30,7 @@ def find_core() -> ctypes.PyDLL | None:
 
     Functions of a ``PyDLL`` keep the interpreter's lock: they are short.
     """
-    if os.environ.get(SWITCH) == SWITCHED_OFF:
+    if read_switch() == SWITCHED_OFF:
         return None
     return _load(LIBRARY)
 

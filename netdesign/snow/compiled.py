@@ -341,7 +341,7 @@ def can_compile(problem: FlowProblem) -> bool:
 def prepare_flow(
     problem: FlowProblem, material: Material, mesh: PlacedMesh, load: Floats
 ) -> CompiledFlow | None:
-    """The core on a mesh; None where there is none.
+    """The core on a mesh; None where there is none, or the mesh is too large for it.
 
     Parameters
     ----------
@@ -353,7 +353,8 @@ def prepare_flow(
         Of gravity, node axes [rho g d^2].
     """
     library = find_core()
-    if library is None:
+    plan = None if library is None else plan_template(library, mesh.template)
+    if library is None or plan is None:
         return None
     template, base = mesh.template, mesh.base
     numbers, lifts = number_template(template), _may_lift(template)
@@ -369,7 +370,7 @@ def prepare_flow(
         library=library,
         mesh=mesh,
         given=(argument, law, _describe_rules(problem, lifts)),
-        plan=plan_template(library, template),
+        plan=plan,
         kept=(*numbers, lifts, *kept, *more),  # C has their addresses
     )
 

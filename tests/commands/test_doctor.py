@@ -37,3 +37,12 @@ def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
     ended = call("doctor")
     assert ended.code == 5
     assert "is missing" in ended.out
+
+
+def test_a_switch_of_the_core_that_is_none_is_told(call, monkeypatch):
+    monkeypatch.setenv("NETDESIGN_CORE", "fortran")
+    ended = call("doctor")
+    assert ended.code == 5
+    assert (
+        "NETDESIGN_CORE=fortran is not known: it may be numpy or not set" in ended.out
+    )
