@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from netdesign.core.library import find_core
-from netdesign.snow import flow
+from netdesign.snow import compiled, flow
 from netdesign.snow.contact import net_components
 from netdesign.snow.flow import solve_flow
 from netdesign.snow.flow_step import (
@@ -98,3 +98,16 @@ def test_changes_that_are_taken_back_are_those_of_numpy(
     for name in ("sign", "is_open", "is_lifted"):
         one, other = getattr(found.contact, name), getattr(expected.contact, name)
         np.testing.assert_array_equal(one, other)
+
+
+def solve(problem, mesh, state):
+    return solve_flow(problem, mesh, state, tolerance=0.1)
+
+
+def test_a_mesh_that_is_too_large_for_the_core_is_solved_in_numpy(
+    in_numpy, monkeypatch
+):
+    case = draw_case(0)
+    expected = in_numpy(solve, *case)
+    monkeypatch.setattr(compiled, "plan_template", lambda *_: None)
+    np.testing.assert_array_equal(solve(*case).state.stress, expected.state.stress)
