@@ -120,11 +120,13 @@ def _name_blas() -> str:
     return f"{blas.get('name', 'unknown')} {blas.get('version', '')}".strip()
 
 
-def _name_core() -> str:
-    """Core that solves here."""
-    from netdesign.core.library import name_core
+def _name_core() -> Message | str:
+    """Core that solves here, and why it is not the compiled one."""
+    from netdesign.core.library import find_core, is_switched_off, name_core
 
-    return name_core()
+    if find_core() is not None:
+        return name_core()
+    return say("doctor.switched_off" if is_switched_off() else "doctor.not_compiled")
 
 
 def _load_profiles() -> str:

@@ -24,9 +24,12 @@ def find_core() -> ctypes.PyDLL | None:
 
     Functions of a ``PyDLL`` keep the interpreter's lock: they are short.
     """
-    if os.environ.get(SWITCH) == SWITCHED_OFF:
-        return None
-    return _load(LIBRARY)
+    return None if is_switched_off() else _load(LIBRARY)
+
+
+def is_switched_off() -> bool:
+    """Whether ``NETDESIGN_CORE`` switches the core off."""
+    return os.environ.get(SWITCH) == SWITCHED_OFF
 
 
 def name_core() -> str:
