@@ -28,7 +28,7 @@ def find_core() -> ctypes.PyDLL | None:
 
 
 def is_switched_off() -> bool:
-    """Whether ``NETDESIGN_CORE`` switches the core off."""
+    """True where ``NETDESIGN_CORE`` switches the core off."""
     return os.environ.get(SWITCH) == SWITCHED_OFF
 
 

@@ -41,7 +41,7 @@ def test_a_library_that_is_missing_is_a_fault(call, monkeypatch):
 
 def test_without_the_compiled_core_the_doctor_says_why(call, monkeypatch, tmp_path):
     monkeypatch.setenv("NETDESIGN_CORE", "numpy")
-    assert "switched off by NETDESIGN_CORE" in call("doctor").stdout
+    assert "switched off by NETDESIGN_CORE" in call("doctor").out
     monkeypatch.delenv("NETDESIGN_CORE")
     monkeypatch.setattr("netdesign.core.library.LIBRARY", tmp_path / "none.so")
-    assert "for want of a compiled core" in call("doctor").stdout
+    assert "for want of a compiled core" in call("doctor").out
