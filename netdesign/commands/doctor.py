@@ -120,15 +120,18 @@ def _name_blas() -> str:
 
 
 def _look_at_core() -> Probe:
-    """Core that solves here, and a switch that is none."""
-    from netdesign.core.library import name_core
+    """Core that solves here; why it is not the compiled one; a switch that is none."""
+    from netdesign.core.library import find_core, is_switched_off, name_core
     from netdesign.core.sources import SWITCH, SWITCHED_OFF, read_switch
 
-    what, core, word = say("doctor.core"), name_core(), read_switch()
-    if word in ("", SWITCHED_OFF):
-        return Probe(what=what, shows=core)
-    told = say("doctor.switch", core=core, name=SWITCH, word=word, off=SWITCHED_OFF)
-    return Probe(what=what, shows=told, is_sound=False)
+    what, word = say("doctor.core"), read_switch()
+    if word not in ("", SWITCHED_OFF):
+        told = say("doctor.switch", name=SWITCH, word=word, off=SWITCHED_OFF)
+        return Probe(what=what, shows=told, is_sound=False)
+    if find_core() is not None:
+        return Probe(what=what, shows=name_core())
+    why = "doctor.switched_off" if is_switched_off() else "doctor.not_compiled"
+    return Probe(what=what, shows=say(why))
 
 
 def _load_profiles() -> str:

@@ -30,9 +30,12 @@ def find_core() -> ctypes.PyDLL | None:
 
     Functions of a ``PyDLL`` keep the interpreter's lock: they are short.
     """
-    if read_switch() == SWITCHED_OFF:
-        return None
-    return _load(LIBRARY)
+    return None if is_switched_off() else _load(LIBRARY)
+
+
+def is_switched_off() -> bool:
+    """True where ``NETDESIGN_CORE`` switches the core off, in any case."""
+    return read_switch() == SWITCHED_OFF
 
 
 def name_core() -> str:
