@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from netdesign.snowpack.pack import DayPack
 from netdesign.checks.result import Band
+from netdesign.snowpack.pack import DayPack
 from netdesign.winter.day import DaySolver, RowDay
 from netdesign.winter.maxima import (
     AnnualMaximum,
