@@ -5,7 +5,9 @@ part of a key: ``[check]`` with ``no_resistance = "..."`` is ``check.no_resistan
 gap is ``{name}``, or ``{name:.2f}`` for a number that is rounded; ``{{`` is a brace.
 A number has the decimal mark of the language; an argument that is text stays as it is.
 Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sentence
-that becomes part of another loses its full stop by ``{reason:clause}``.
+that becomes part of another loses its full stop by ``{reason:clause}``; a day in ISO
+form is written as the language has it by ``{day:date}``; a count brings its noun along,
+``{count:# row|# rows}``.
 Every language has every key with the same gaps; a test says so.
 """
 
@@ -23,9 +25,9 @@ from typing import Any
 from netdesign.words.message import Message
 from netdesign.words.numerals import LANGUAGES as LANGUAGES
 from netdesign.words.numerals import Language as Language
-from netdesign.words.numerals import set_marks
+from netdesign.words.numerals import set_marks, write_day
 
-_CLAUSE = "clause"
+_CLAUSE, _DATE, _ONE_OR_MANY = "clause", "date", "|"
 _GAP = re.compile(r"(\{[^{}]*\})")
 _BEFORE_SIGN = re.compile(r" (?=[:;?!%»])|(?<=«) ")  # French sets these apart
 
@@ -61,16 +63,27 @@ class _Gaps(string.Formatter):
         """An argument as text: words of ours in the language of the whole."""
         if format_spec == _CLAUSE:
             return self.format_field(value, "").rstrip(".")
+        if isinstance(value, str) and format_spec == _DATE:
+            return write_day(value, self.language)
+        if isinstance(value, int) and _ONE_OR_MANY in format_spec:
+            return self._count(value, *format_spec.split(_ONE_OR_MANY))
         if isinstance(value, Message):
             return render(value, self.language)
         if isinstance(value, tuple):
-            parts = (self.format_field(one, "") for one in value)
+            inner = _DATE if format_spec.startswith(_DATE) else ""
+            format_spec = format_spec.removeprefix(inner)
+            parts = (self.format_field(one, inner) for one in value)
             joint = format_spec or ", "
             return (_set_apart(joint) if self.language == "fr" else joint).join(parts)
         text = str(super().format_field(value, format_spec))
         return (
             set_marks(text, self.language) if isinstance(value, int | float) else text
         )
+
+    def _count(self, count: int, one: str, many: str) -> str:
+        """Noun with its number: French has the singular for none, too."""
+        is_one = count == 1 or (count == 0 and self.language == "fr")
+        return (one if is_one else many).replace("#", self.format_field(count, ""))
 
 
 @lru_cache(maxsize=len(LANGUAGES))
