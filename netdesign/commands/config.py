@@ -57,16 +57,13 @@ class ConfiguredCommand(click.Command):
         return super().parse_args(ctx, args)
 
 
-def accept_variables(group: click.Group) -> None:
-    """Let every option of a group's commands be given as a variable of its name."""
-    for name, command in group.commands.items():
-        for param in command.params:
-            if isinstance(param, click.Option) and param.envvar is None:
-                param.envvar = [
-                    _name_variable(name, opt)
-                    for opt in param.opts
-                    if opt.startswith("--")
-                ]
+def accept_variables(name: str, command: click.Command) -> None:
+    """Let every option of a command be given as a variable of its name."""
+    for param in command.params:
+        if isinstance(param, click.Option) and param.envvar is None:
+            param.envvar = [
+                _name_variable(name, opt) for opt in param.opts if opt.startswith("--")
+            ]
 
 
 def require_known_variables(name: str, command: click.Command) -> None:
