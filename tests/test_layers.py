@@ -309,7 +309,9 @@ def test_no_allowance_is_idle():
 def test_no_module_imports_by_name_at_run_time():
     for module, path in MODULES.items():
         text = path.read_text(encoding="utf-8")
-        if module == "commands.table":  # a command of its own room, when it is asked for
+        if (
+            module == "commands.table"
+        ):  # a command of its own room, when it is asked for
             text = text.replace("from importlib import import_module", "")
             text = text.replace('import_module(f"netdesign.commands.{name}")', "")
         assert "import_module" not in text, module
