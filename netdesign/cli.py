@@ -12,14 +12,17 @@ import sys
 from typing import TYPE_CHECKING, NoReturn
 
 import click
+from click.core import ParameterSource
 
 from netdesign.commands.completion import COMPLETE_VARIABLE, answer_shell
 from netdesign.commands.config import ENVIRONMENT_PREFIX, require_known_variables
 from netdesign.commands.faults import tell_faults
+from netdesign.commands.help import ToldContext
 from netdesign.commands.language import find_language, tell
+from netdesign.commands.options import language_option
 from netdesign.commands.running import EXIT_CODES, own_command
 from netdesign.commands.table import CommandTable
-from netdesign.commands.usage import ToldGroup, describe_refusal
+from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
 from netdesign.edge.causes import explain_system
 from netdesign.edge.given_files import make_printable
 from netdesign.edge.streams import guard_streams
@@ -59,8 +62,9 @@ none of them; a standard output that cannot be written to ends with 2."
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(package_name="netdesign")
+@language_option("Of this help; behind a command, of what it tells and writes.")
 @click.pass_context
-def cli(context: click.Context) -> None:
+def cli(context: click.Context, language: Language) -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -71,7 +75,14 @@ def cli(context: click.Context) -> None:
     netdesign diff old.json new.json   what changed between two studies
     """
     name = context.invoked_subcommand or ""
+    if context.get_parameter_source("language") is ParameterSource.COMMANDLINE:
+        # an option of all commands would be weaker than the variable of one of them
+        refused = say("usage.language_later", command=name, language=language)
+        raise UsageRefusal(refused, context)
     require_known_variables(name, cli.commands[name])
+
+
+cli.context_class = ToldContext  # its commands get theirs when they are imported
 
 
 def main() -> NoReturn:

@@ -8,6 +8,7 @@ from importlib import import_module
 import click
 
 from netdesign.commands.config import accept_variables
+from netdesign.commands.help import tell_help
 
 
 class CommandTable(MutableMapping[str, click.Command]):
@@ -19,11 +20,12 @@ class CommandTable(MutableMapping[str, click.Command]):
         self._commands: dict[str, click.Command] = {}
 
     def __getitem__(self, name: str) -> click.Command:
-        """Return a command; every option of it may be given as a variable."""
+        """Return a command, its options as variables, its help in every language."""
         if name not in self._commands:
             function = self._functions[name]
             found = getattr(import_module(f"netdesign.commands.{name}"), function)
             accept_variables(name, found)
+            tell_help(found)
             self._commands[name] = found
         return self._commands[name]
 

@@ -116,7 +116,7 @@ def _load_table(language: Language, table: str) -> Mapping[str, str]:
         for key, text in _list_texts(_parse(content)[table], table):
             if key in texts:
                 raise ValueError(f"two texts have the key {key} in {language}")
-            texts[key] = _keep_together(text) if language == "fr" else text
+            texts[key] = keep_together(text) if language == "fr" else text
     return MappingProxyType(texts)
 
 
@@ -125,7 +125,7 @@ def _parse(content: str) -> Mapping[str, Any]:
     return MappingProxyType(tomllib.loads(content))
 
 
-def _keep_together(text: str) -> str:
+def keep_together(text: str) -> str:
     """Text in which no line begins with a colon or a question mark."""
     return "".join(
         _BEFORE_SIGN.sub("\u00a0", part) if place % 2 == 0 else part
