@@ -2,7 +2,8 @@
 
 Counted are words of the English texts that no text of the language has. What is no
 language is taken out first: names of commands, options, files, profiles and types.
-Left out on purpose: ``bench`` and ``paper``, which speak English only; ``--size``,
+Left out on purpose: ``paper``, which speaks English only; ``bench``, whose tables
+have tests of their own; ``--size``,
 which takes seconds; ``validate``, whose page takes minutes and has a test of its own.
 """
 
