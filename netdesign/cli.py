@@ -12,6 +12,7 @@ import sys
 from typing import TYPE_CHECKING, NoReturn
 
 import click
+from click.core import ParameterSource
 
 from netdesign import __version__
 from netdesign.commands.bench import bench
@@ -27,16 +28,18 @@ from netdesign.commands.doctor import doctor
 from netdesign.commands.envelope import envelope
 from netdesign.commands.faults import tell_faults
 from netdesign.commands.glide import glide
+from netdesign.commands.help import tell_help
 from netdesign.commands.init import init
 from netdesign.commands.language import find_language, tell
 from netdesign.commands.map import map_headings
+from netdesign.commands.options import language_option
 from netdesign.commands.paper import paper
 from netdesign.commands.report import report
 from netdesign.commands.running import EXIT_CODES, own_command
 from netdesign.commands.snowpack import snowpack
 from netdesign.commands.solve import solve
 from netdesign.commands.standards import standards
-from netdesign.commands.usage import ToldGroup, describe_refusal
+from netdesign.commands.usage import ToldGroup, UsageRefusal, describe_refusal
 from netdesign.commands.validate import validate
 from netdesign.commands.verify import verify
 from netdesign.commands.winter import winter
@@ -71,8 +74,9 @@ none of them; a standard output that cannot be written to ends with 2."
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(__version__)
+@language_option("Of this help; behind a command, of what it tells and writes.")
 @click.pass_context
-def cli(context: click.Context) -> None:
+def cli(context: click.Context, language: Language) -> None:
     """Check the anchors of snow nets.
 
     \b
@@ -83,6 +87,10 @@ def cli(context: click.Context) -> None:
     netdesign diff old.json new.json   what changed between two studies
     """
     name = context.invoked_subcommand or ""
+    if context.get_parameter_source("language") is ParameterSource.COMMANDLINE:
+        # an option of all commands would be weaker than the variable of one of them
+        refused = say("usage.language_later", command=name, language=language)
+        raise UsageRefusal(refused, context)
     require_known_variables(name, cli.commands[name])
 
 
@@ -106,6 +114,7 @@ cli.add_command(winter)
 
 
 accept_variables(cli)
+tell_help(cli)
 
 
 def main() -> NoReturn:

@@ -88,7 +88,7 @@ THIRD_PARTY = {
     "platformdirs": ("solving.store",),
     "distributed": ("solving.workers",),
     "skfem": (
-        *("snow.mesh", "snow.element", "snow.forms"),
+        "snow.forms",
         "evidence.benchmark.reference_path",
         "evidence.verification.snow_in_space",
     ),

@@ -82,11 +82,11 @@ def load_texts(language: Language) -> Mapping[str, str]:
         for key, text in _list_texts(tomllib.loads(file.read_text(encoding="utf-8"))):
             if key in texts:
                 raise ValueError(f"two texts have the key {key} in {language}")
-            texts[key] = _keep_together(text) if language == "fr" else text
+            texts[key] = keep_together(text) if language == "fr" else text
     return MappingProxyType(texts)
 
 
-def _keep_together(text: str) -> str:
+def keep_together(text: str) -> str:
     """Text in which no line begins with a colon or a question mark."""
     return "".join(
         _BEFORE_SIGN.sub("\u00a0", part) if place % 2 == 0 else part

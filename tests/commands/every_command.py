@@ -47,6 +47,8 @@ COMMANDS = {
     "standards validate": "standards validate own",
     "verify": "verify",
     "doctor": "doctor",
+    "help": "--help",
+    "help of check": "check --help",
     "completion": "completion bash",
     "no command": "chek",
 }

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from netdesign.core.library import SWITCH, SWITCHED_OFF
+from netdesign.core.sources import SWITCH, SWITCHED_OFF
 from netdesign.evidence.benchmark.clock import Clock
 from netdesign.evidence.benchmark.versions.inputs import (
     NAMES,
