@@ -132,10 +132,12 @@ def name_module(path: Path) -> str:
     return ".".join(parts).removesuffix(".__init__")
 
 
+# A script that other versions run by its path; no module imports it.
+PROBE = PACKAGE / "evidence" / "benchmark" / "versions" / "probe.py"
 MODULES = {
     name_module(path): path
     for path in sorted(PACKAGE.rglob("*.py"))
-    if path != PACKAGE / "__init__.py"
+    if path not in (PACKAGE / "__init__.py", PROBE)
 }
 
 
